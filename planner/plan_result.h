@@ -1,0 +1,126 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/planning_problem.h"
+
+namespace regoplan {
+
+/// A vehicle on its way, with everything that decides about it. Demand, supply and margins as
+/// defined for a steady manoeuvre with the commanded curvature of this moment.
+struct TrajectoryPoint {
+  double time_s = 0;
+  double x_m = 0;  ///< ground point below the centre of gravity, map frame
+  double y_m = 0;
+  double z_m = 0;
+  double yaw_rad = 0;
+  double speed_mps = 0;  ///< forward, negative in reverse
+  double yaw_rate_rad_s = 0;
+  double steer_rad = 0;      ///< largest steering angle of a wheel, signed, left positive
+  double curvature_1pm = 0;  ///< commanded
+  double slip_max = 0;       ///< of the wheels, by magnitude, signed
+  double slip_angle_max_rad = 0;
+  double sinkage_max_m = 0;
+  int soil = -1;  ///< index in the map's soils, below the centre of gravity
+  double demand_n = 0;
+  double supply_min_n = 0;
+  double supply_max_n = 0;
+  double cornering_margin = 0;
+  double tip_over_margin = 0;
+  double traction_margin = 0;
+  double margin = 0;  ///< the smallest of the three
+};
+
+/// One piece of a control history: targets that rim speed and steering move to at the vehicle's
+/// limited rates.
+struct ControlSegment {
+  double duration_s = 0;
+  double speed_target_mps = 0;
+  double curvature_target_1pm = 0;
+};
+
+enum class MarginKind { kCornering, kTipOver, kTraction };
+std::string_view name(MarginKind kind);  ///< `cornering`, `tip_over`, `traction`
+
+/// The place along a candidate with the smallest stability margin.
+struct LimitingPlace {
+  MarginKind margin = MarginKind::kCornering;
+  double x_m = 0;
+  double y_m = 0;
+  double time_s = 0;
+};
+
+/// The replay of a candidate with the direct wheel model and a ten times finer step.
+struct Verification {
+  bool passed = false;
+  std::string reason;  ///< why it did not pass, with the place
+  double margin_min = 0;
+  double deviation_max_m = 0;  ///< between the searched and the replayed path, at equal times
+};
+
+struct Candidate {
+  int rank = 0;  ///< from 1
+  std::string planner;
+  std::uint64_t seed = 0;
+  std::vector<ControlSegment> controls;
+  std::vector<TrajectoryPoint> points;  ///< of the replay
+  double length_m = 0;
+  double duration_s = 0;
+  double energy_j = 0;
+  double margin_min = 0;
+  double margin_p05 = 0;            ///< 5 % quantile of margin_min over the soil draws
+  double margin_worst_tenth = 0;    ///< mean over the worst 10 % of the length
+  double probability_feasible = 0;  ///< share of the soil draws in which every limit holds
+  LimitingPlace limiting;
+  Verification verified;
+};
+
+/// A place where the search met the edge of feasibility.
+struct RejectedState {
+  Rejection reason = Rejection::kBounds;
+  double x_m = 0;
+  double y_m = 0;
+  double yaw_rad = 0;
+  double speed_mps = 0;
+  double curvature_1pm = 0;
+  double value = 0;  ///< what was found (margin, slip, rad, m), where the reason has one
+  double limit = 0;  ///< what was allowed
+};
+
+/// The best candidate under other circumstances: what carries its feasibility.
+struct WhatIf {
+  std::string question;  ///< "the same path at twice its speed", ...
+  bool feasible = false;
+  std::optional<Rejection> reason;  ///< the first that fails, with its place
+  double x_m = 0;
+  double y_m = 0;
+  double time_s = 0;
+  double margin_min = 0;
+  std::optional<double> end_shift_m;  ///< how far away the same controls end
+};
+
+enum class PlanStatus { kFeasible, kInfeasible, kUndecided };
+std::string_view name(PlanStatus status);  ///< `feasible`, `infeasible`, `undecided`
+
+struct PlanResult {
+  PlanStatus status = PlanStatus::kUndecided;
+  std::string reason;
+  std::optional<std::string> certificate;
+  std::vector<Candidate> candidates;                       ///< verified, in rank order
+  std::vector<Candidate> overturned;                       ///< found, but failed verification
+  std::vector<WhatIf> what_ifs;                            ///< of the best candidate
+  std::array<std::int64_t, kRejectionCount> rejected{};    ///< states, by first reason
+  std::vector<RejectedState> rejected_states;              ///< an even sample of them for display
+  std::int64_t propagations = 0;
+  double planning_time_s = 0;      ///< search alone
+  double verification_time_s = 0;  ///< replays and soil draws
+  std::uint64_t seed = 0;
+  bool interrupted = false;
+};
+
+}  // namespace regoplan

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "maps/terrain_map.h"
+#include "terramech/vehicle.h"
+#include "terramech/wheel_model.h"
+
+namespace regoplan {
+
+struct StartState {
+  double x_m = 0;
+  double y_m = 0;
+  double heading_rad = 0;  ///< from +x toward +y
+  double speed_mps = 0;
+};
+
+struct Goal {
+  double x_m = 0;
+  double y_m = 0;
+  double radius_m = 0;
+  std::optional<double> heading_rad;
+  double heading_tolerance_rad = 0;  ///< either side; counts with a heading only
+};
+
+/// Hard limits that every accepted state keeps.
+struct Limits {
+  double margin_min = 0.05;  ///< smallest stability margin (cornering, tip-over, traction)
+  double slip_max = 0.6;
+  double slip_angle_max_rad = 0;
+  double slope_max_rad = 0;
+  double sinkage_max_m = 0;
+};
+
+/// The limits that a vehicle brings where a scenario gives none.
+Limits default_limits(const Vehicle& vehicle);
+
+/// How to search. Exactly one of `time_s` and `iterations` bounds it: wall-clock seconds for the
+/// whole search, or iterations of each planner run.
+struct Search {
+  std::string planner = "auto";  ///< auto, SST, RRT, KPIECE1, EST or PDST
+  std::optional<double> time_s;
+  std::optional<std::int64_t> iterations;
+  std::uint64_t seed = 1;
+  int candidates = 5;
+  int soil_draws = 100;  ///< for the quantiles and the probability of each candidate
+  int threads = 2;       ///< changes the time taken, never the result under an iteration budget
+};
+
+/// The names that `Search::planner` may take.
+const std::vector<std::string>& planner_names();
+
+/// One query: from where to where, with what, over which soils, within which limits.
+struct PlanningProblem {
+  TerrainMap map;
+  Vehicle vehicle;
+  WheelVariant wheel_variant = WheelVariant::kIshigami2007;
+  double gravity_mps2 = 9.80665;
+  StartState start;
+  Goal goal;
+  double speed_max_mps = 0;
+  Limits limits;
+  Search search;
+};
+
+/// \throws ValueError or InputError for what cannot be asked: start or goal outside the map or on
+/// unknown ground, start inside a rock, a limit or a budget that is not positive, ...
+void validate(const PlanningProblem& problem);
+
+/// Why a state was rejected: the first of these, in this order, that it fails.
+enum class Rejection {
+  kBounds,
+  kUnknownTerrain,
+  kObstacle,
+  kSlope,
+  kSinkage,
+  kSlip,
+  kSlipAngle,
+  kTraction,
+  kTipOver,
+  kCornering,
+};
+inline constexpr int kRejectionCount = 10;
+
+/// As it stands in files: `bounds`, `unknown_terrain`, ...
+std::string_view name(Rejection rejection);
+
+}  // namespace regoplan

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "terramech/wheel.h"
+
+namespace regoplan {
+
+/// A wheel on the vehicle. Vehicle frame: origin in the ground plane below the centre of gravity,
+/// x forward, y left, z up along the normal of the ground plane.
+struct WheelMount {
+  std::string name;
+  double x_m = 0;
+  double y_m = 0;
+  bool steered = false;
+  bool driven = true;
+};
+
+enum class Suspension {
+  kEqualSprings,  ///< rigid body on springs of equal stiffness at the wheels: rigid or independent
+  kRockerBogie,   ///< six wheels: rocker to the front wheel, bogie with middle and rear wheels
+};
+
+/// Pivots of a rocker-bogie, along x from the vehicle's origin; the differential shares the
+/// body's pitch moment equally between the sides.
+struct RockerBogie {
+  double rocker_pivot_x_m = 0;
+  double bogie_pivot_x_m = 0;
+};
+
+enum class DriveLaw {
+  kKinematic,    ///< rim speeds are the slip-free kinematic ones times one common factor
+  kEqualTorque,  ///< every driven wheel has the same torque
+  kEqualSpeed,   ///< every driven wheel has the same rim speed
+};
+
+/// The box that must stay clear of rocks and terrain, in the vehicle frame.
+struct BodyBox {
+  double x_min_m = 0, x_max_m = 0;
+  double y_min_m = 0, y_max_m = 0;
+  double clearance_m = 0;  ///< height of its underside
+  double height_m = 0;     ///< from its underside to its top
+};
+
+/// A wheeled vehicle with equal rigid wheels. The steered wheels are set by Ackermann geometry
+/// about a turn centre on the line x = `turn_centre_x_m`.
+struct Vehicle {
+  std::string name;
+  std::string source;
+  double mass_kg = 0;
+  double yaw_inertia_kgm2 = 0;
+  double cg_height_m = 0;
+  Wheel wheel;
+  std::vector<WheelMount> wheels;
+  Suspension suspension = Suspension::kEqualSprings;
+  std::optional<RockerBogie> rocker_bogie;
+  DriveLaw drive_law = DriveLaw::kKinematic;
+  double turn_centre_x_m = 0;
+  BodyBox body;
+
+  double speed_max_mps = 0;
+  double acceleration_max_mps2 = 0;     ///< of the commanded rim speed, driving and braking
+  double curvature_max_1pm = 0;         ///< commanded path curvature, either side
+  double curvature_rate_max_1pms = 0;   ///< how fast the steering changes it
+  double steer_angle_max_rad = 0;       ///< mechanical range of each steered wheel, either side
+  double slip_angle_max_rad = 0;
+  double slip_max = 0.6;
+  double sinkage_max_m = 0;
+  double slope_max_rad = 0;
+  double step_max_m = 0;                ///< rocks up to this height are driven over
+};
+
+/// \throws ValueError or InputError naming the field that cannot be
+void validate(const Vehicle& vehicle);
+
+/// The vehicles that regoplan brings: `tohoku`, `lrv`, `curiosity`.
+/// \throws InputError for another name, listing these
+Vehicle preset_vehicle(const std::string& name);
+std::vector<std::string> preset_vehicle_names();
+
+}  // namespace regoplan
