@@ -61,15 +61,15 @@ struct Vehicle {
   BodyBox body;
 
   double speed_max_mps = 0;
-  double acceleration_max_mps2 = 0;     ///< of the commanded rim speed, driving and braking
-  double curvature_max_1pm = 0;         ///< commanded path curvature, either side
-  double curvature_rate_max_1pms = 0;   ///< how fast the steering changes it
-  double steer_angle_max_rad = 0;       ///< mechanical range of each steered wheel, either side
+  double acceleration_max_mps2 = 0;    ///< of the commanded rim speed, driving and braking
+  double curvature_max_1pm = 0;        ///< commanded path curvature, either side
+  double curvature_rate_max_1pms = 0;  ///< how fast the steering changes it
+  double steer_angle_max_rad = 0;      ///< mechanical range of each steered wheel, either side
   double slip_angle_max_rad = 0;
   double slip_max = 0.6;
   double sinkage_max_m = 0;
   double slope_max_rad = 0;
-  double step_max_m = 0;                ///< rocks up to this height are driven over
+  double step_max_m = 0;  ///< rocks up to this height are driven over
 };
 
 /// \throws ValueError or InputError naming the field that cannot be
