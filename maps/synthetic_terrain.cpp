@@ -65,11 +65,13 @@ class FractalNoise {
   FractalNoise(std::uint64_t seed, double wavelength_min_m, double wavelength_max_m) {
     constexpr double kLacunarity = 1.8;
     constexpr double kHurst = 0.6;
-    std::uint64_t octave = 0;
-    for (double wavelength_m = wavelength_max_m; wavelength_m >= wavelength_min_m;
-         wavelength_m /= kLacunarity) {
+    const auto octaves = static_cast<std::uint64_t>(
+        std::log(wavelength_max_m / wavelength_min_m) / std::log(kLacunarity) + 1);
+    for (std::uint64_t octave = 0; octave < octaves; ++octave) {
+      const double wavelength_m =
+          wavelength_max_m * std::pow(kLacunarity, -static_cast<double>(octave));
       octaves_.push_back(
-          {SmoothNoise(sub_seed(seed, octave++), wavelength_m), std::pow(wavelength_m, kHurst)});
+          {SmoothNoise(sub_seed(seed, octave), wavelength_m), std::pow(wavelength_m, kHurst)});
     }
   }
 
