@@ -65,6 +65,19 @@ TEST(SyntheticTerrain, TheGroundBetweenCratersIsAsRoughAsAsked) {
   }
 }
 
+TEST(SyntheticTerrain, SmallestAndCoarsestMapsAreAsRoughAsAsked) {
+  for (const double cell_m : {0.01, 0.4, 1.0, 3.0, 100.0}) {
+    SyntheticTerrainSettings settings;
+    settings.cell_m = cell_m;
+    settings.width_m = settings.height_m = 16 * cell_m;
+    settings.crater_density_scale = settings.rock_coverage = 0;
+    settings.crater_diameter_min_m = settings.crater_diameter_max_m = 4 * cell_m;
+    settings.rock_diameter_min_m = settings.rock_diameter_max_m = 0.05;
+    settings.soil_zone_size_m = 4 * cell_m;
+    EXPECT_NEAR(deviation_m(make_synthetic_terrain(settings).elevation), 0.05, 1e-4) << cell_m;
+  }
+}
+
 TEST(SyntheticTerrain, RocksDoNotTouchAndLieOnTheMap) {
   const SyntheticTerrain terrain = make_synthetic_terrain(with_seed(5));
   const GridFrame& frame = terrain.elevation.frame;

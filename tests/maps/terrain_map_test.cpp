@@ -138,13 +138,14 @@ TEST(TerrainMap, MaxHeightBoundsEveryHeightInTheRectangleAndIsReachedNearIt) {
 
 TEST(TerrainMap, ClassesMayLieOnAnotherGridAndWhatTheyDoNotCoverIsUnmapped) {
   // Three by two cells of 4 m x 2 m over part of the elevation and beyond its east edge.
-  const ClassRaster classes{{.columns = 3,
-                             .rows = 2,
-                             .west_m = kFrame.west_m + 10,
-                             .north_m = kFrame.north_m - 1,
-                             .cell_width_m = 4,
-                             .cell_height_m = 2},
-                            {7, -3, 7, ClassRaster::kNoData, 99, -3}};
+  ClassRaster classes;
+  classes.frame.columns = 3;
+  classes.frame.rows = 2;
+  classes.frame.west_m = kFrame.west_m + 10;
+  classes.frame.north_m = kFrame.north_m - 1;
+  classes.frame.cell_width_m = 4;
+  classes.frame.cell_height_m = 2;
+  classes.code = {7, -3, 7, ClassRaster::kNoData, 99, -3};
   const auto at = [&](const TerrainMap& map, double east_m, double south_m) {
     return map.soil_index(kFrame.west_m + east_m, kFrame.north_m - south_m);
   };
