@@ -4,7 +4,7 @@ include(GoogleTest)
 
 function(regoplan_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
-  if(NOT sources)
+  if(NOT sources OR NOT TARGET regoplan_${folder})
     return()
   endif()
   add_executable(${folder}_tests ${sources})

@@ -19,7 +19,7 @@ struct SyntheticTerrainSettings {
   double rock_coverage = 0.01;      ///< share of the area covered by rocks
   double rock_diameter_min_m = 0.4;
   double rock_diameter_max_m = 4;
-  int soil_zones = 3;               ///< class codes 1 to soil_zones
+  int soil_zones = 3;  ///< class codes 1 to soil_zones
   double soil_zone_size_m = 50;
 };
 

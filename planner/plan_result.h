@@ -111,11 +111,11 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kUndecided;
   std::string reason;
   std::optional<std::string> certificate;
-  std::vector<Candidate> candidates;                       ///< verified, in rank order
-  std::vector<Candidate> overturned;                       ///< found, but failed verification
-  std::vector<WhatIf> what_ifs;                            ///< of the best candidate
-  std::array<std::int64_t, kRejectionCount> rejected{};    ///< states, by first reason
-  std::vector<RejectedState> rejected_states;              ///< an even sample of them for display
+  std::vector<Candidate> candidates;                     ///< verified, in rank order
+  std::vector<Candidate> overturned;                     ///< found, but failed verification
+  std::vector<WhatIf> what_ifs;                          ///< of the best candidate
+  std::array<std::int64_t, kRejectionCount> rejected{};  ///< states, by first reason
+  std::vector<RejectedState> rejected_states;            ///< an even sample of them for display
   std::int64_t propagations = 0;
   double planning_time_s = 0;      ///< search alone
   double verification_time_s = 0;  ///< replays and soil draws

@@ -27,12 +27,12 @@ struct Soil {
 
 /// One soil number: its name in files, how it is held, and where it is valid.
 struct SoilParameter {
-  std::string_view name;     ///< key in every file, unit included
-  double Soil::*member;      ///< where it is held, SI and radians
-  double file_unit;          ///< SI value of one unit of the file (pi/180 for degrees, else 1)
-  double min, max;           ///< valid range in the file's unit
-  bool min_excluded;         ///< the lower end itself is not valid
-  bool optional;             ///< 0 where a file does not give it
+  std::string_view name;  ///< key in every file, unit included
+  double Soil::*member;   ///< where it is held, SI and radians
+  double file_unit;       ///< SI value of one unit of the file (pi/180 for degrees, else 1)
+  double min, max;        ///< valid range in the file's unit
+  bool min_excluded;      ///< the lower end itself is not valid
+  bool optional;          ///< 0 where a file does not give it
 };
 
 /// All soil numbers, in the order in which they are drawn, written and listed.

@@ -4,6 +4,7 @@
 
 #include "terramech/soil.h"
 #include "terramech/wheel.h"
+#include "terramech/wheel_contact.h"
 
 namespace regoplan {
 
@@ -14,12 +15,12 @@ enum class WheelVariant { kIshigami2007, kYoshida2004 };
 /// How far a wheel's forces may be trusted, or why there are none.
 enum class WheelStatus {
   kOk,
-  kUntrusted,             ///< slip outside [-0.9, 0.95] or |slip angle| above 60 deg
-  kStandstill,            ///< neither rim nor axle moves: no shear
-  kCounterRotating,       ///< rim and axle move against each other: the locked limit
-  kSinksToAxle,           ///< no sinkage below the radius carries the load: no forces
-  kCohesionCarriesLoad,   ///< yoshida2004: the stress scale would be negative: no forces
-  kOutsideCorrection,     ///< outside the region a generic correction was learned in
+  kUntrusted,            ///< slip outside [-0.9, 0.95] or |slip angle| above 60 deg
+  kStandstill,           ///< neither rim nor axle moves: no shear
+  kCounterRotating,      ///< rim and axle move against each other: the locked limit
+  kSinksToAxle,          ///< no sinkage below the radius carries the load: no forces
+  kCohesionCarriesLoad,  ///< yoshida2004: the stress scale would be negative: no forces
+  kOutsideCorrection,    ///< outside the region a generic correction was learned in
 };
 
 /// The status as it stands in files: `ok`, `untrusted`, ...
@@ -62,10 +63,6 @@ struct WheelForces {
   WheelStatus status = WheelStatus::kOk;
 };
 
-/// How closely the direct model is integrated and solved: `kFast` to 1.5e-4 of the load, `kExact`
-/// to 3e-6 (WheelAccuracy tests).
-enum class WheelAccuracy { kFast, kExact };
-
 /// What a wheel model is made of.
 struct WheelModelSpec {
   WheelVariant variant = WheelVariant::kIshigami2007;
@@ -90,6 +87,7 @@ class WheelModel {
  private:
   WheelModelSpec spec_;
   WheelAccuracy accuracy_;
+  wheel_contact::Ground ground_;
 };
 
 }  // namespace regoplan

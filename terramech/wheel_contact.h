@@ -1,0 +1,70 @@
+#pragma once
+
+#include "terramech/soil.h"
+#include "terramech/wheel.h"
+
+namespace regoplan {
+
+/// How closely the direct model is integrated and solved: `kFast` to 1.5e-4 of the load, `kExact`
+/// to 3e-6 (WheelAccuracy tests).
+enum class WheelAccuracy { kFast, kExact };
+
+}  // namespace regoplan
+
+/// The stress integrals of the wheel model under a wheel whose entry angle is given.
+namespace regoplan::wheel_contact {
+
+/// Constants of a wheel on a soil, bound once.
+struct Ground {
+  Wheel wheel;
+  Soil soil;
+  double tan_phi = 0;
+  double stress_scale_pa = 0;  ///< r^n (kc/b + kphi), eq. (5)
+  double bulldoze_d1 = 0;      ///< D1 = cot Xc + tan(Xc + phi), eq. (16)
+  double bulldoze_weight = 0;  ///< D2 rho g / 2, eq. (16), N/m^3
+
+  Ground(const Wheel& wheel, const Soil& soil, double gravity_mps2);
+};
+
+/// Velocity ratios of a wheel that rolls forward or is dragged forward locked. Shear displacement
+/// along x is r [rim (theta_f - theta) - axle (sin theta_f - sin theta)], along y
+/// r lateral (theta_f - theta): rim = 1, axle = q_v and lateral = u of a rolling wheel; a locked
+/// wheel has rim = 0 and the others 0 or so large that the shear is fully mobilised.
+struct Ratios {
+  double rim = 1;
+  double axle = 1;
+  double lateral = 0;
+  double slip = 0;
+  double beta_abs_rad = 0;
+};
+
+/// Where the wheel touches the soil. Angles from the downward vertical, forward positive.
+struct Angles {
+  double theta_f_rad = 0;
+  double theta_r_rad = 0;
+  double theta_m_rad = 0;
+};
+
+/// theta_r and theta_m that go with an entry angle at a slip ratio, eq. (6).
+Angles angles_at(const Ground& ground, double theta_f_rad, double slip);
+
+/// Integrals over the contact. With the stress scaled by Q they are c-part + Q sigma-part.
+struct Integrals {
+  double fx_cohesion_n = 0, fx_stress_n = 0;
+  double fz_cohesion_n = 0, fz_stress_n = 0;
+  double torque_cohesion_nm = 0, torque_stress_nm = 0;
+
+  double fx_n(double q) const { return fx_cohesion_n + q * fx_stress_n; }
+  double fz_n(double q) const { return fz_cohesion_n + q * fz_stress_n; }
+  double torque_nm(double q) const { return torque_cohesion_nm + q * torque_stress_nm; }
+};
+
+/// Fx, Fz and T by Gauss-Legendre quadrature on either side of theta_m, eqs. (2)-(8).
+Integrals integrate(const Ground& ground, const Angles& angles, const Ratios& ratios,
+                    WheelAccuracy accuracy);
+
+/// |Fy| = Fu + Fs, eqs. (9)-(17), with the mobilisation factor M of the bulldozing force.
+double side_force_n(const Ground& ground, const Angles& angles, const Ratios& ratios,
+                    double stress_scale_q, WheelAccuracy accuracy);
+
+}  // namespace regoplan::wheel_contact
