@@ -40,5 +40,6 @@ function onWidth(node, draw) {
     if (now && now !== width) draw(width = now);
   };
   update();
-  new ResizeObserver(update).observe(node);
+  // Drawing changes heights: not within the observer, which would see itself.
+  new ResizeObserver(() => requestAnimationFrame(update)).observe(node);
 }

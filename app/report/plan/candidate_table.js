@@ -10,7 +10,7 @@ const CANDIDATE_COLUMNS = [
   {text: "P(feasible)", number: true, value: p => p.probability_feasible, cell: p => percent(p.probability_feasible)},
   {text: "Verified margin", number: true, value: p => p.verified.margin_min, cell: p => marginCell(p.verified.margin_min)},
   {text: "Largest deviation", number: true, value: p => p.verified.max_deviation_m, cell: p => fixed(p.verified.max_deviation_m, 2, "m")},
-  {text: "Limiting", value: p => p.limiting.margin, cell: limitingCell},
+  {text: "Limiting", wide: true, value: p => p.limiting.margin, cell: limitingCell},
 ];
 
 function marginCell(margin) {
@@ -64,8 +64,8 @@ function candidateTable(host) {
   order();
   update();
   view.events.on("selected.table", update).on("visible.table", update);
-  const caption = element("caption", {}, "Ranked by the margin that 95 % of the soil draws keep. Every path was replayed with the direct wheel model and a ten times finer step; the deviation is between search and replay.");
-  const wide = element("table", {class: "candidates"}, caption,
+  host.append(element("p", {class: "note"}, "Ranked by the margin that 95 % of the soil draws keep. Every path was replayed with the direct wheel model and a ten times finer step; the deviation is between search and replay."));
+  const wide = element("table", {class: "candidates"},
     element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "Follow"), element("th", {scope: "col"}, "Show"), ...heads)), body);
   host.append(element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Table of candidates"}, wide));
 }
@@ -82,7 +82,7 @@ function candidateRow(path) {
   radio.addEventListener("change", follow);
   box.addEventListener("change", () => setVisible(path, box.checked));
   const row = element("tr", {class: path.verified_path ? null : "overturned"}, element("td", {}, radio), element("td", {}, box),
-    ...CANDIDATE_COLUMNS.map((column, k) => element(k ? "td" : "th", {scope: k ? null : "row", class: column.number ? "number" : null}, column.cell(path))));
+    ...CANDIDATE_COLUMNS.map((column, k) => element(k ? "td" : "th", {scope: k ? null : "row", class: column.number ? "number" : column.wide ? "wide" : null}, column.cell(path))));
   row.addEventListener("click", event => { if (event.target.tagName !== "INPUT") follow(); });
   return {row, radio, box};
 }

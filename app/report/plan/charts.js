@@ -1,20 +1,20 @@
 // Charts along the selected path under one common cursor that moves the marker on the map.
 const CHARTS = [
-  {title: "Margins", decimals: 3, zero: true, limits: [[LIMITS.margin_min, "limit"]], series: [
+  {title: "Margins", decimals: 3, zero: true, limits: [LIMITS.margin_min], series: [
     {name: "cornering", key: "cornering_margin", colour: "--series-1"},
     {name: "tip-over", key: "tip_over_margin", colour: "--series-2", dash: "7 3"},
     {name: "traction", key: "traction_margin", colour: "--series-3", dash: "2 2.5"}]},
   {title: "Lateral demand within supply", unit: "N", decimals: 0, zero: true, band: ["supply_min_n", "supply_max_n"], series: [
     {name: "demand", key: "demand_n", colour: "--series-4"}]},
-  {title: "Speed", unit: "m/s", decimals: 2, zero: true, limits: [[LIMITS.speed_max_mps, "limit"]], series: [
+  {title: "Speed", unit: "m/s", decimals: 2, zero: true, limits: [LIMITS.speed_max_mps], series: [
     {name: "speed", key: "speed_mps", colour: "--series-1"}]},
   {title: "Steering", unit: "\u00b0", decimals: 1, zero: true, series: [
     {name: "largest angle, left positive", key: "steer_deg", colour: "--series-1"}]},
-  {title: "Slip ratio", decimals: 3, zero: true, limits: [[LIMITS.slip_max, "limit"], [-LIMITS.slip_max, "limit"]], series: [
+  {title: "Slip ratio", decimals: 3, zero: true, limits: [LIMITS.slip_max, -LIMITS.slip_max], series: [
     {name: "largest of the wheels", key: "slip_max", colour: "--series-1"}]},
-  {title: "Slip angle", unit: "\u00b0", decimals: 1, zero: true, limits: [[LIMITS.slip_angle_max_deg, "limit"], [-LIMITS.slip_angle_max_deg, "limit"]], series: [
+  {title: "Slip angle", unit: "\u00b0", decimals: 1, zero: true, limits: [LIMITS.slip_angle_max_deg, -LIMITS.slip_angle_max_deg], series: [
     {name: "largest of the wheels", key: "slip_angle_max_deg", colour: "--series-1"}]},
-  {title: "Sinkage", unit: "mm", decimals: 1, scale: 1000, zero: true, limits: [[1000 * LIMITS.sinkage_max_m, "limit"]], series: [
+  {title: "Sinkage", unit: "mm", decimals: 1, scale: 1000, zero: true, limits: [1000 * LIMITS.sinkage_max_m], series: [
     {name: "largest of the wheels", key: "sinkage_max_m", colour: "--series-1"}]},
   {title: "Elevation and soil", unit: "m", decimals: 2, soils: true, series: [
     {name: "ground", key: "z_m", colour: "--series-4"}]},
@@ -50,7 +50,7 @@ function chartDomain(chart, columns) {
   let [low, high] = d3.extent(values);
   if (low === undefined) [low, high] = [0, 1];
   const span = high - low || Math.abs(high) || 1;
-  for (const [limit] of chart.limits || []) {
+  for (const limit of chart.limits || []) {
     if (!isKnown(limit)) continue;
     if (limit > high && limit < high + 1.5 * span) high = limit;
     if (limit < low && limit > low - 0.3 * span) low = limit;
@@ -59,7 +59,7 @@ function chartDomain(chart, columns) {
 }
 
 function chartPanel(chart) {
-  const margin = {left: 48, right: 12, top: 8, bottom: 20}, height = 164, scaled = chart.scale || 1;
+  const margin = {left: 48, right: 22, top: 8, bottom: 20}, height = 164, scaled = chart.scale || 1;
   const values = key => view.selected.points[key].map(v => (isKnown(v) ? v * scaled : null));
   const caption = element("figcaption", {}, element("h3", {}, chart.title, chart.unit ? element("span", {class: "unit"}, ` ${chart.unit}`) : ""));
   const node = element("figure", {class: "chart"}, caption);
@@ -87,16 +87,14 @@ function chartPanel(chart) {
     svg.append("g").attr("class", "axis").attr("transform", `translate(${margin.left},0)`).call(d3.axisLeft(y).ticks(4).tickSize(0).tickPadding(6))
       .select(".domain").remove();
     if (chart.soils) drawSoils(svg, x, height - margin.bottom, along, path.points.soil);
-    if (chart.band) svg.append("path").attr("fill", cssVar("--band")).attr("stroke", cssVar("--series-1")).attr("stroke-opacity", 0.5)
-      .attr("d", d3.area().defined((_, i) => isKnown(band[0][i]) && isKnown(band[1][i])).x((_, i) => x(along[i])).y0((_, i) => y(band[0][i])).y1((_, i) => y(band[1][i]))(along));
-    for (const [limit, name] of chart.limits || []) {
-      const at = y(limit);
-      if (!isKnown(at) || at < margin.top - 1 || at > height - margin.bottom + 1) continue;
-      svg.append("line").attr("class", "limit").attr("x1", margin.left).attr("x2", width - margin.right).attr("y1", at).attr("y2", at);
-      svg.append("text").attr("class", "limit-label").attr("x", width - margin.right).attr("y", at + (at < margin.top + 14 ? 12 : -4)).attr("text-anchor", "end").text(`${name} ${fixed(limit, chart.decimals > 1 ? 2 : chart.decimals)}`);
+    const line = d3.line().defined(isKnown).x((_, i) => x(along[i])).y(v => y(v));
+    if (chart.band) {
+      svg.append("path").attr("fill", cssVar("--band"))
+        .attr("d", d3.area().defined((_, i) => isKnown(band[0][i]) && isKnown(band[1][i])).x((_, i) => x(along[i])).y0((_, i) => y(band[0][i])).y1((_, i) => y(band[1][i]))(along));
+      for (const edge of band) svg.append("path").attr("class", "line").attr("stroke", cssVar("--series-1")).attr("stroke-opacity", 0.6).attr("d", line(edge));
     }
-    chart.series.forEach((series, k) => svg.append("path").attr("class", "line").attr("stroke", cssVar(series.colour)).attr("stroke-dasharray", series.dash || null)
-      .attr("d", d3.line().defined(isKnown).x((_, i) => x(along[i])).y(v => y(v))(columns[k])));
+    chart.series.forEach((series, k) => svg.append("path").attr("class", "line").attr("stroke", cssVar(series.colour)).attr("stroke-dasharray", series.dash || null).attr("d", line(columns[k])));
+    drawLimits(svg, chart, y, margin.left, width - margin.right);
     marker = svg.append("g").attr("display", "none");
     marker.append("line").attr("class", "crosshair").attr("y1", margin.top).attr("y2", height - margin.bottom);
     marker.selectAll("circle").data(chart.series).join("circle").attr("r", 3.5).attr("fill", s => cssVar(s.colour)).attr("stroke", cssVar("--panel"));
@@ -123,6 +121,20 @@ function chartPanel(chart) {
 }
 
 const cssVar = name => `var(${name})`;
+
+/// Limits as dashed lines; one that lies beyond the axis is said in words.
+function drawLimits(svg, chart, y, left, right) {
+  const [bottom, top] = y.range(), decimals = chart.decimals > 1 ? 2 : chart.decimals;
+  for (const limit of chart.limits || []) {
+    const at = y(limit);
+    if (!isKnown(at)) continue;
+    const beyond = at < top - 1 || at > bottom + 1;
+    if (beyond && limit < 0) continue;  // its positive twin says it
+    if (!beyond) svg.append("line").attr("class", "limit").attr("x1", left).attr("x2", right).attr("y1", at).attr("y2", at);
+    svg.append("text").attr("class", "limit-label").attr("x", right).attr("y", beyond ? top + 4 : at + (at < top + 14 ? 12 : -4)).attr("text-anchor", "end")
+      .text(`limit ${fixed(limit, decimals)}${beyond ? " (above)" : ""}`);
+  }
+}
 
 /// An entry of a chart's legend; returns the node that takes the value at the marker.
 function chartKey(caption, name, colour, dash, width = 2) {

@@ -89,6 +89,8 @@ function mapView(host) {
     context.beginPath();
     context.rect(margin.left, margin.top, size.width - margin.left - margin.right, size.height - margin.top - margin.bottom);
     context.clip();
+    context.fillStyle = cssColour("--hover");  // beyond the map
+    context.fillRect(0, 0, size.width, size.height);
     const [west, north] = screen(MAP.west_m, MAP.north_m), [east, south] = screen(MAP.east_m, MAP.south_m);
     context.beginPath();
     context.rect(west, north, east - west, south - north);
@@ -210,9 +212,9 @@ function mapView(host) {
       const outline = runs.map(run => line(run.points)).join("");
       const group = d3.select(this);
       group.selectAll("*").remove();
-      group.append("path").attr("class", "casing").attr("d", outline).attr("vector-effect", "non-scaling-stroke").attr("stroke-width", chosen ? 8 : 4.6).attr("stroke-opacity", chosen ? 0.95 : 0.7);
+      group.append("path").attr("class", "casing").attr("d", outline).attr("vector-effect", "non-scaling-stroke").attr("stroke-width", chosen ? 7.6 : 5).attr("stroke-opacity", chosen ? 0.95 : 0.7);
       group.selectAll("path.piece").data(runs).join("path").attr("class", "piece").attr("d", run => line(run.points)).attr("stroke", run => run.colour)
-        .attr("vector-effect", "non-scaling-stroke").attr("stroke-width", chosen ? 5 : 2.8).attr("stroke-dasharray", path.verified_path ? null : "6 5");
+        .attr("vector-effect", "non-scaling-stroke").attr("stroke-width", chosen ? 5 : 3.4).attr("stroke-dasharray", path.verified_path ? null : "6 5");
     });
     placeOverlay();
   }
@@ -259,7 +261,7 @@ function mapView(host) {
     axes[1].attr("transform", `translate(${margin.left},0)`).call(d3.axisLeft(y).ticks(6).tickSize(4).tickFormat(plain(y)));
     const span_m = d3.tickStep(0, 130 / pixelsPerMetre(), 1.5), length = span_m * pixelsPerMetre();
     scaleBar.selectAll("*").remove();
-    scaleBar.attr("transform", `translate(${margin.left + 12},${size.height - margin.bottom - 12})`);
+    scaleBar.attr("transform", `translate(${size.width - margin.right - length - 14},${size.height - margin.bottom - 12})`);
     scaleBar.append("rect").attr("x", -6).attr("y", -22).attr("width", length + 12).attr("height", 29).attr("rx", 3).attr("fill", cssVar("--panel")).attr("opacity", 0.82);
     scaleBar.append("path").attr("d", `M0,-5V0H${length}V-5`);
     scaleBar.append("text").attr("x", length / 2).attr("y", -8).attr("text-anchor", "middle").text(span_m >= 1 ? `${span_m} m` : `${Math.round(span_m * 100)} cm`);

@@ -14,6 +14,7 @@ const view = {
   events: d3.dispatch("selected", "visible", "cursor", "axis", "marks", "layers", "goto"),
 };
 view.selected = view.paths.find(path => path.length) || null;
+if (view.selected) view.selected.visible = true;
 
 /// A path with its columns, the distance along it and what limits at each point.
 function readPath(candidate, verified, number) {

@@ -4,7 +4,7 @@ function readout(list, slider) {
     const {cursor} = view;
     if (!cursor) return;
     const {path, index} = cursor;
-    list.replaceChildren(...stateAt(path, index).map(([name, text, alarm]) =>
+    list.replaceChildren(...[["Path", path.label, false], ...stateAt(path, index)].map(([name, text, alarm]) =>
       element("div", {}, element("dt", {}, name), element("dd", {class: alarm ? "alarm" : null}, text))));
     if (path !== view.selected) return;
     slider.max = path.length - 1;

@@ -79,10 +79,10 @@ function whatIfTable(host) {
       : element("span", {class: "alarm"}, w.reason ? `rejected for ${words(w.reason)}` : "rejected");
     const go = element("button", {type: "button", title: "Show on the map"}, `${fixed(w.x_m, 1)}, ${fixed(w.y_m, 1, "m")}`);
     go.addEventListener("click", () => view.events.call("goto", null, w));
-    const where = w.feasible ? UNKNOWN : element("span", {}, go, ` ${fixed(w.time_s, 1, "s")}`);
+    const where = w.feasible ? UNKNOWN : element("span", {class: "together"}, go, ` ${fixed(w.time_s, 1, "s")}`);
     return [`${whatIfLetter(k)}\u2002${w.question}`, answer, where, fixed(w.margin_min, 3), fixed(w.end_shift_m, 1, "m")];
   });
-  host.append(element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Table of what-ifs"},
-    table("The best candidate under other circumstances. Letters mark on the map where it is rejected.",
-      [{text: "The best path, but \u2026"}, {text: "Answer"}, {text: "Where and when"}, {text: "Smallest margin", number: true}, {text: "Ends elsewhere by", number: true}], rows)));
+  host.append(element("p", {class: "note"}, "The best candidate under other circumstances. Letters mark on the map where it is rejected; the end shift is how far from its own end the same controls lead."),
+    element("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": "Table of what-ifs"},
+      table(null, [{text: "What if"}, {text: "Answer"}, {text: "Where and when"}, {text: "Margin", number: true}, {text: "End shift", number: true}], rows)));
 }
