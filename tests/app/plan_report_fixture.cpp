@@ -66,7 +66,10 @@ MapSoil soil(std::string name, double cohesion_pa, double friction_angle_deg, do
 Candidate made_up_path(const PlanningProblem& problem, int rank, double bow_m, double lowest) {
   const StartState& start = problem.start;
   const Goal& goal = problem.goal;
-  Candidate candidate{.rank = rank, .planner = rank % 2 == 1 ? "SST" : "KPIECE1", .seed = 7};
+  Candidate candidate;
+  candidate.rank = rank;
+  candidate.planner = rank % 2 == 1 ? "SST" : "KPIECE1";
+  candidate.seed = 7;
   const double dx_m = goal.x_m - start.x_m, dy_m = goal.y_m - start.y_m;
   const double reach_m = std::hypot(dx_m, dy_m);
   const double weight_n = problem.vehicle.mass_kg * problem.gravity_mps2;
@@ -166,7 +169,8 @@ TerrainMap report_test_map(int cells) {
                                          : std::numeric_limits<float>::quiet_NaN());
     }
   }
-  ClassRaster classes{.frame = elevation.frame, .code = {}};
+  ClassRaster classes;
+  classes.frame = elevation.frame;
   classes.frame.columns = classes.frame.rows = 100;
   classes.frame.cell_width_m = classes.frame.cell_height_m = kSide_m / 100;
   for (int row = 0; row < 100; ++row) {
@@ -213,7 +217,8 @@ PlanningProblem report_test_problem(TerrainMap map) {
 }
 
 PlanResult report_test_result(const PlanningProblem& problem) {
-  PlanResult result{.status = PlanStatus::kFeasible, .reason = "", .certificate = std::nullopt};
+  PlanResult result;
+  result.status = PlanStatus::kFeasible;
   result.candidates = {made_up_path(problem, 1, -34, 0.20), made_up_path(problem, 2, 31, 0.15),
                        made_up_path(problem, 3, 62, 0.1)};
   Candidate overturned = made_up_path(problem, 4, 4, -0.06);

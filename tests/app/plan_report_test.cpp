@@ -174,31 +174,34 @@ TEST(PlanReportSize, StaysUnderFiveMegabytesForAMap4096CellsWide) {
 }
 
 TEST(PlanHeadline, FeasibleNamesTheMarginAndWhatBindsWhereAndWhen) {
-  PlanResult result{.status = PlanStatus::kFeasible};
-  result.candidates = {
-      {.rank = 1,
-       .limiting = {.margin = MarginKind::kTipOver, .x_m = 12.34, .y_m = 56, .time_s = 7.25},
-       .verified = {.passed = true, .margin_min = 0.213}},
-      {.rank = 2}};
+  PlanResult result;
+  result.status = PlanStatus::kFeasible;
+  result.candidates.resize(2);
+  result.candidates[0].limiting = {
+      .margin = MarginKind::kTipOver, .x_m = 12.34, .y_m = 56, .time_s = 7.25};
+  result.candidates[0].verified.margin_min = 0.213;
   EXPECT_EQ(plan_headline(result),
             "Feasible: 2 verified paths; the best keeps a stability margin of 0.21 (tip over binds "
             "at x = 12.3 m, y = 56.0 m, t = 7.2 s).");
 }
 
 TEST(PlanHeadline, OnePathIsNotSeveral) {
-  PlanResult result{.status = PlanStatus::kFeasible};
+  PlanResult result;
+  result.status = PlanStatus::kFeasible;
   result.candidates.resize(1);
   EXPECT_NE(plan_headline(result).find("1 verified path;"), std::string::npos);
 }
 
 TEST(PlanHeadline, InfeasibleGivesTheReason) {
-  PlanResult result{.status = PlanStatus::kInfeasible};
+  PlanResult result;
+  result.status = PlanStatus::kInfeasible;
   result.reason = "the goal lies in forbidden ground";
   EXPECT_EQ(plan_headline(result), "Infeasible: the goal lies in forbidden ground.");
 }
 
 TEST(PlanHeadline, UndecidedNeverSoundsLikeNo) {
-  PlanResult result{.status = PlanStatus::kUndecided};
+  PlanResult result;
+  result.status = PlanStatus::kUndecided;
   EXPECT_EQ(plan_headline(result), "Undecided: no path was verified within the budget.");
   result.reason = "no path was found in 20 s.";
   EXPECT_EQ(plan_headline(result), "Undecided: no path was found in 20 s.");

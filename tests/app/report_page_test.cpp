@@ -26,7 +26,9 @@ TEST(ReportPage, FillsEveryPlaceOfItsFrame) {
 }
 
 TEST(ReportPage, ReadsNoPlaceholderInWhatItFillsIn) {
-  EXPECT_NE(render({.headline = "a {{data}} b"}).find("a {{data}} b"), std::string::npos);
+  ReportPage page;
+  page.headline = "a {{data}} b";
+  EXPECT_NE(render(page).find("a {{data}} b"), std::string::npos);
 }
 
 TEST(ReportPage, EmbedsFilesByteForByte) {
