@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/scenario_settings.h"
+
+namespace regoplan {
+
+/// The options that take the place of a scenario's `planner`. `overrides` must outlive the parsing.
+void add_search_options(CLI::App& parser, ScenarioOverrides& overrides);
+
+/// `--json` and `--quiet`.
+void add_output_flags(CLI::App& parser, bool& json, bool& quiet);
+
+}  // namespace regoplan
