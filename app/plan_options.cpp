@@ -29,6 +29,16 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
       ->check(in_range(whole));
 }
 
+void add_stub_options(CLI::App& parser, ScenarioStub& stub) {
+  parser.add_option("--vehicle", stub.vehicle, "of scenario.yaml: a preset or a file")
+      ->type_name("NAME")
+      ->capture_default_str();
+  parser.add_option("--gravity-mps2", stub.gravity_mps2, "of scenario.yaml")
+      ->type_name("NUMBER")
+      ->check(in_range(kAbove0))
+      ->capture_default_str();
+}
+
 void add_output_flags(CLI::App& parser, bool& json, bool& quiet) {
   parser.add_flag("--json", json, "result as JSON on standard output");
   parser.add_flag("--quiet", quiet, "no notices, no progress, no summary");

@@ -89,21 +89,6 @@ Search read_search(const SettingsNode& node) {
   });
 }
 
-Search overridden(Search search, const ScenarioOverrides& overrides) {
-  constexpr double kDefaultTime_s = 20;
-  if (overrides.planner) search.planner = *overrides.planner;
-  if (overrides.seed) search.seed = *overrides.seed;
-  if (overrides.candidates) search.candidates = *overrides.candidates;
-  if (overrides.time_s || overrides.iterations) {
-    search.time_s = overrides.time_s;
-    search.iterations = overrides.iterations;
-  }
-  if (!search.time_s && !search.iterations) search.time_s = kDefaultTime_s;
-  search.threads = overrides.threads.value_or(
-      static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-  return search;
-}
-
 /// The map's soils with the one that the model names replaced by the model's.
 TerrainMap with_model_soil(const TerrainMap& map, const ModelSettings& model,
                            const std::string& model_file) {
@@ -138,6 +123,21 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
 }
 
 }  // namespace
+
+Search overridden(Search search, const ScenarioOverrides& overrides) {
+  constexpr double kDefaultTime_s = 20;
+  if (overrides.planner) search.planner = *overrides.planner;
+  if (overrides.seed) search.seed = *overrides.seed;
+  if (overrides.candidates) search.candidates = *overrides.candidates;
+  if (overrides.time_s || overrides.iterations) {
+    search.time_s = overrides.time_s;
+    search.iterations = overrides.iterations;
+  }
+  if (!search.time_s && !search.iterations) search.time_s = kDefaultTime_s;
+  search.threads = overrides.threads.value_or(
+      static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  return search;
+}
 
 ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& folder,
                      WheelVariant variant) {
