@@ -4,6 +4,7 @@
 #include "app/demo_scenario.h"
 #include "app/plan_options.h"
 #include "app/plan_run.h"
+#include "app/staged_files.h"
 
 namespace regoplan {
 

@@ -11,8 +11,8 @@ namespace regoplan {
 PlanningProblem demo_problem(const ScenarioOverrides& overrides) {
   SyntheticTerrain terrain = make_synthetic_terrain(
       {.seed = 1, .width_m = 200, .height_m = 200, .cell_m = 0.5, .soil_zones = 3});
-  SoilCatalogue soils = read_soil_catalogue(
-      read_settings(share_file("scenarios/demo/soils.yaml")), WheelVariant::kIshigami2007);
+  SoilCatalogue soils = read_soil_catalogue(read_settings(share_file("scenarios/demo/soils.yaml")),
+                                            WheelVariant::kIshigami2007);
   Vehicle vehicle = preset_vehicle("lrv");
   const Limits limits = default_limits(vehicle);
   PlanningProblem problem{

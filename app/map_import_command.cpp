@@ -6,6 +6,7 @@
 #include "app/map_summary.h"
 #include "app/plan_options.h"
 #include "app/soil_settings.h"
+#include "app/staged_files.h"
 #include "maps/raster_files.h"
 
 namespace regoplan {

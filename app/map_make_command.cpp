@@ -9,6 +9,7 @@
 #include "app/plan_options.h"
 #include "app/share_files.h"
 #include "app/soil_settings.h"
+#include "app/staged_files.h"
 #include "maps/synthetic_terrain.h"
 #include "terramech/input_error.h"
 #include "terramech/vehicle.h"

@@ -9,7 +9,9 @@
 namespace regoplan {
 namespace {
 
-double degrees(double rad) { return rad * (180 / std::numbers::pi); }
+double degrees(double rad) {
+  return rad * (180 / std::numbers::pi);
+}
 
 /// `PROJCRS["UTM zone 33N", ...` is called "UTM zone 33N".
 std::string crs_title(const std::string& wkt) {

@@ -9,6 +9,7 @@
 
 #include "app/model_settings.h"
 #include "app/settings_mapping.h"
+#include "app/settings_path.h"
 #include "app/soil_settings.h"
 #include "app/vehicle_settings.h"
 #include "maps/raster_files.h"
@@ -116,7 +117,6 @@ double read_speed_max(const SettingsNode& node, const Vehicle& vehicle) {
   });
 }
 
-/// The vehicle, and the place of what is wrong with it, should something be.
 Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::path& folder) {
   return node.kind() == SettingsNode::Kind::kMapping ? read_vehicle(node)
                                                      : named_vehicle(node, folder);
@@ -143,7 +143,7 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
                      WheelVariant variant) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
     const auto file = [&folder](const SettingsNode& name) {
-      return (folder / name.text()).string();
+      return named_file(name, folder).string();
     };
     std::vector<std::string> notices;
 

@@ -22,8 +22,8 @@ struct ScenarioOverrides {
   std::optional<int> threads;  ///< else as many as the machine has
 };
 
-/// `search` with what the command line says in its place; 20 s where neither gives a budget, as many
-/// threads as the machine has cores.
+/// `search` with what the command line says in its place; 20 s where neither gives a budget, as
+/// many threads as the machine has cores.
 Search overridden(Search search, const ScenarioOverrides& overrides);
 
 struct Scenario {

@@ -2,6 +2,8 @@
 
 namespace regoplan {
 
-std::string share_file(const std::string& name) { return REGOPLAN_SHARE_DIR "/" + name; }
+std::string share_file(const std::string& name) {
+  return REGOPLAN_SHARE_DIR "/" + name;
+}
 
 }  // namespace regoplan

@@ -11,6 +11,7 @@
 #include "app/model_settings.h"
 #include "app/number_text.h"
 #include "app/settings_mapping.h"
+#include "app/settings_path.h"
 #include "app/soil_settings.h"
 
 namespace regoplan {
@@ -133,7 +134,7 @@ Vehicle named_vehicle(const SettingsNode& name, const std::filesystem::path& fol
   if (std::ranges::find(presets, name.text()) != presets.end()) {
     return preset_vehicle(name.text());
   }
-  const std::filesystem::path file = folder / name.text();
+  const std::filesystem::path file = named_file(name, folder);
   if (!std::filesystem::exists(file)) {
     throw name.not_allowed(fmt::format("{}, or a vehicle file; there is no {}",
                                        fmt::join(presets, " | "), file.string()));
