@@ -24,6 +24,12 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc,
     program.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return program.exit(help);
+  } catch (const CLI::ValidationError& bad) {
+    return fail(bad.what());
+  } catch (const CLI::RequiredError& bad) {
+    const bool unknown = argc > 1 && argv[1][0] != '-' && program.get_subcommands().empty();
+    return fail(unknown ? fmt::format("unknown command {} (regoplan --help)", argv[1])
+                        : fmt::format("{} (regoplan --help)", bad.what()));
   } catch (const CLI::ParseError& bad) {
     return fail(fmt::format("{} (regoplan --help)", bad.what()));
   }
@@ -42,7 +48,6 @@ int run_command_line(int argc, const char* const* argv) {
     program.set_version_flag("--version", std::string("regoplan ") + REGOPLAN_VERSION);
     program.require_subcommand(1);
     program.footer(
-        "regoplan test builds and runs the tests.\n"
         "Exit status: 0 yes, 2 no (the result says why), 1 bad input, 130 interrupted.");
 
     std::vector<Command> commands{add_demo_command(program), add_plan_command(program),
@@ -52,6 +57,7 @@ int run_command_line(int argc, const char* const* argv) {
     commands.push_back(add_map_make_command(*map));
     commands.push_back(add_map_import_command(*map));
     commands.push_back(add_map_info_command(*map));
+    program.footer("`./regoplan test` builds and runs the tests.\n" + program.get_footer());
     return run(program, commands, argc, argv);
   } catch (const std::exception& bad) {
     return fail(bad.what());

@@ -8,7 +8,7 @@
 namespace regoplan {
 
 std::optional<double> parse_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   // from_chars would take "inf" and "nan" as well.
   if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return {};
   double value = 0;
@@ -18,12 +18,12 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-std::string number_in_unit(double si_value, double unit) {
-  const double quotient = si_value / unit;
+std::string number_in_unit(double value, double unit) {
+  const double quotient = value / unit;
   for (int digits = 1; digits <= 17; ++digits) {
     const std::string text = fmt::format("{:.{}g}", quotient, digits);
     const std::optional<double> parsed = parse_number(text);
-    if (parsed && *parsed * unit == si_value) return fmt::format("{}", *parsed);
+    if (parsed && *parsed * unit == value) return fmt::format("{}", *parsed);
   }
   return fmt::format("{}", quotient);
 }

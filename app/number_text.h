@@ -10,8 +10,8 @@ namespace regoplan {
 /// or does not fit: no spaces, no hexadecimal, no `nan`, no `inf`.
 std::optional<double> parse_number(std::string_view text);
 
-/// The shortest decimal d for which d * unit is exactly `si_value`; where there is none, the
-/// shortest for si_value / unit. Turns radians into the degrees that somebody wrote.
-std::string number_in_unit(double si_value, double unit);
+/// The shortest decimal d for which d * unit is exactly `value`; where there is none, the
+/// shortest for value / unit. Turns radians into the degrees that somebody wrote.
+std::string number_in_unit(double value, double unit);
 
 }  // namespace regoplan

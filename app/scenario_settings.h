@@ -13,13 +13,13 @@ namespace regoplan {
 
 /// What a command line says in place of the scenario.
 struct ScenarioOverrides {
-  std::optional<std::string> model_file;
-  std::optional<std::string> planner;
-  std::optional<std::uint64_t> seed;
-  std::optional<double> time_s;            ///< takes the place of an iteration budget
-  std::optional<std::int64_t> iterations;  ///< takes the place of a time
-  std::optional<int> candidates;
-  std::optional<int> threads;  ///< else as many as the machine has
+  std::optional<std::string> model_file{};
+  std::optional<std::string> planner{};
+  std::optional<std::uint64_t> seed{};
+  std::optional<double> time_s{};            ///< takes the place of an iteration budget
+  std::optional<std::int64_t> iterations{};  ///< takes the place of a time
+  std::optional<int> candidates{};
+  std::optional<int> threads{};  ///< else as many as the machine has
 };
 
 /// `search` with what the command line says in its place; 20 s where neither gives a budget, as

@@ -1,6 +1,7 @@
 #include "app/settings_mapping.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>
@@ -85,15 +86,13 @@ double SettingsMapping::number_or(std::string_view key, const ValueRange& allowe
 void SettingsMapping::reject_unread_keys() const {
   for (const SettingsEntry& entry : node_.mapping()) {
     if (asked_.contains(entry.key)) continue;
-    std::string hint;
-    if (!asked_.empty()) {
-      const auto nearest = std::min_element(
-          asked_.begin(), asked_.end(), [&entry](const std::string& a, const std::string& b) {
-            return edits_between(entry.key, a) < edits_between(entry.key, b);
-          });
-      hint = fmt::format(" (did you mean {}?)", *nearest);
-    }
-    throw SettingsError(fmt::format("{}:{}: {}: unknown key{}", node_.file(), entry.line,
+    const auto nearest = std::ranges::min_element(
+        asked_, {}, [&entry](const std::string& key) { return edits_between(entry.key, key); });
+    const bool near = nearest != asked_.end() &&
+                      2 * edits_between(entry.key, *nearest) <= entry.key.size();
+    const std::string hint = near ? fmt::format("did you mean {}?", *nearest)
+                                  : fmt::format("known: {}", fmt::join(asked_, ", "));
+    throw SettingsError(fmt::format("{}:{}: {}: unknown key ({})", node_.file(), entry.line,
                                     entry.value.path(), hint));
   }
 }
