@@ -29,28 +29,25 @@ SupplyAnswer SolvedSupply::answer(const SupplyQuestion& question) const {
 
 SupplyAnswer TabledSupply::answer(const SupplyQuestion& question, std::size_t wheels) const {
   SupplyAnswer least;
-  int soil_before = -1;
   for (std::size_t i = 0; i < wheels; ++i) {
-    const int soil = question.patch->soil[i];
-    if (soil == soil_before) continue;
-    soil_before = soil;
-    const SupplyTable& table = tables_[static_cast<std::size_t>(soil)];
+    const bool first = i == 0;
+    if (!first && question.patch->soil[i] == question.patch->soil[i - 1]) continue;
+    const SupplyTable& table = tables_[static_cast<std::size_t>(question.patch->soil[i])];
     const auto supply =
         table.supply(question.curvature_1pm, question.force.forward_n, question.normal_n);
+    if (!supply) return {};
     const auto traction =
         table.traction_n(question.curvature_1pm, question.force.left_n, question.normal_n);
-    if (!supply) return {};
-    const double bound = table.error_bound() * question.normal_n;
-    const bool first = i == 0;
-    least.supply = SupplyInterval{
-        .right_n =
-            std::max(supply->right_n + bound, first ? supply->right_n : least.supply->right_n),
-        .left_n = std::min(supply->left_n - bound, first ? supply->left_n : least.supply->left_n)};
-    if (!traction || (!first && !least.traction_n)) {
-      least.traction_n.reset();
+    if (first) {
+      least = {.supply = supply, .traction_n = traction};
+      continue;
+    }
+    least.supply = SupplyInterval{.right_n = std::max(least.supply->right_n, supply->right_n),
+                                  .left_n = std::min(least.supply->left_n, supply->left_n)};
+    if (least.traction_n && traction) {
+      least.traction_n = std::min(*least.traction_n, *traction);
     } else {
-      least.traction_n =
-          std::min(*traction - bound, first ? *traction : least.traction_n.value_or(*traction));
+      least.traction_n.reset();
     }
   }
   return least;

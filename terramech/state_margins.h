@@ -56,7 +56,7 @@ class SolvedSupply {
   TrimLimits limits_;
 };
 
-/// Looks up the table of each soil under a wheel and takes the least, less the tables' error bound.
+/// Looks up the table of each soil under a wheel and takes the least.
 class TabledSupply {
  public:
   /// \param tables one for each soil; must outlive it

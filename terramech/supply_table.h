@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "terramech/supply.h"
@@ -24,16 +25,18 @@ class SupplyTable {
   SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const TrimLimits& limits,
               double weight_n, double tilt_max_rad, int threads);
 
-  /// As `cornering_supply`; off by at most `error_bound() * normal_n` at the sampled checks.
+  /// As `cornering_supply`, less the error bound at either end.
   std::optional<SupplyInterval> supply(double curvature_1pm, double forward_n,
                                        double normal_n) const;
 
-  /// As `largest_traction_n`, whatever the forward force at which the branch starts.
+  /// As `largest_traction_n`, less the error bound, whatever the forward force at which the branch
+  /// starts.
   std::optional<double> traction_n(double curvature_1pm, double left_n, double normal_n) const;
 
-  /// Largest difference to the solved manoeuvre in `kChecks` random states, over the normal load.
-  double error_bound() const { return error_bound_; }
-  static constexpr int kChecks = 200;
+  /// Largest difference between interpolated and solved manoeuvres, over the normal load, in
+  /// `kChecksPerInterval` random states of the interval of curvatures.
+  double error_bound(double curvature_1pm) const;
+  static constexpr int kChecksPerInterval = 10;
 
  private:
   struct Cell {  ///< of one grid axis: the node below and the share of the next
@@ -44,15 +47,20 @@ class SupplyTable {
   static std::optional<double> interpolate(const std::vector<double>& values, std::size_t middle,
                                            std::size_t inner, const Cell& a, const Cell& b,
                                            const Cell& c);
-  double measured_error(const Vehicle& vehicle, const WheelLaw& law,
-                        const TrimLimits& limits) const;
+  std::optional<SupplyInterval> interpolated_supply(double curvature_1pm, double forward_n,
+                                                    double normal_n) const;
+  std::optional<double> interpolated_traction_n(double curvature_1pm, double left_n,
+                                                double normal_n) const;
+  double measured_error(const Vehicle& vehicle, const LoadSharing& sharing,
+                        std::span<const WheelLaw> laws, const TrimLimits& limits,
+                        std::size_t interval) const;
 
   double weight_n_;
   std::vector<double> curvatures_1pm_;
   std::vector<double> forces_;   ///< along (supply) or across (traction), over the normal load
   std::vector<double> normals_;  ///< over the weight
   std::vector<double> right_, left_, traction_;  ///< over the normal load; NaN: none
-  double error_bound_ = 0;
+  std::vector<double> error_bounds_;             ///< by interval of curvatures
 };
 
 }  // namespace regoplan
