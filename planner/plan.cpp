@@ -23,11 +23,14 @@ double seconds_since(Clock::time_point start) {
 /// it, under an iteration bound there are a set number of them.
 class RunSchedule {
  public:
-  RunSchedule(const Search& search, Clock::time_point start) : search_(search), start_(start) {}
+  RunSchedule(const PlanningProblem& problem, Clock::time_point start)
+      : search_(problem.search), margin_min_(problem.limits.margin_min), start_(start) {}
 
   std::optional<SearchRun> next(int found) {
     const int wanted = kRunsPerCandidate * search_.candidates;
-    SearchRun run{.planner = planner_of(number_), .seed = seed_of(number_)};
+    SearchRun run{.planner = planner_of(number_),
+                  .seed = seed_of(number_),
+                  .margin_min = margin_min_ + reserve_of(number_)};
     if (search_.iterations) {
       if (number_ >= wanted) return std::nullopt;
       run.iterations = search_.iterations;
@@ -61,7 +64,15 @@ class RunSchedule {
     return search_.seed * 1000003 + static_cast<std::uint64_t>(number);
   }
 
+  /// Margin to spare. Some runs ask for a lot, so that there are calm paths to choose from; some
+  /// for hardly any, so that a way through a narrow place is found.
+  static double reserve_of(int number) {
+    static const std::vector<double> kReserves{0.10, 0.01, 0.15, 0.05};
+    return kReserves[static_cast<std::size_t>(number) % kReserves.size()];
+  }
+
   const Search& search_;
+  double margin_min_;
   Clock::time_point start_;
   int number_ = 0;
 };
@@ -109,7 +120,7 @@ PlanResult plan(const PlanningProblem& problem,
   on_progress({.stage = "preparing"});
   const Clock::time_point search_start = Clock::now();
   const World world(problem, WorldUse::kSearch, problem.search.threads);
-  RunSchedule schedule(problem.search, search_start);
+  RunSchedule schedule(problem, search_start);
   std::vector<FoundPath> found;
   const auto report = [&] {
     const auto count = static_cast<int>(found.size());

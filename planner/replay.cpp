@@ -54,7 +54,9 @@ class Driver {
 
  private:
   void check(bool with_margins) {
-    if (const auto rejection = world_.rejected(state_, strain_, with_margins)) reject(*rejection);
+    const std::optional<double> margin_min =
+        with_margins ? std::optional(world_.problem().limits.margin_min) : std::nullopt;
+    if (const auto rejection = world_.rejected(state_, strain_, margin_min)) reject(*rejection);
   }
   void reject(const RejectedState& rejection) {
     record_.rejection = rejection;

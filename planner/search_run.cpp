@@ -95,12 +95,12 @@ class DynamicsPropagator : public oc::StatePropagator {
 
 class WorldValidity : public ob::StateValidityChecker {
  public:
-  WorldValidity(ob::SpaceInformation* si, const World& world, std::uint64_t seed)
-      : ob::StateValidityChecker(si), world_(world), log_(seed) {}
+  WorldValidity(ob::SpaceInformation* si, const World& world, const SearchRun& run)
+      : ob::StateValidityChecker(si), world_(world), margin_min_(run.margin_min), log_(run.seed) {}
 
   bool isValid(const ob::State* state) const override {
     const auto* typed = state->as<VehicleSpace::StateType>();
-    auto rejection = world_.rejected(typed->vehicle, typed->strain);
+    auto rejection = world_.rejected(typed->vehicle, typed->strain, margin_min_);
     if (!rejection && !typed->possible) {
       rejection = RejectedState{.reason = Rejection::kSlip,
                                 .x_m = typed->vehicle.x_m,
@@ -115,6 +115,7 @@ class WorldValidity : public ob::StateValidityChecker {
 
  private:
   const World& world_;
+  double margin_min_;
   mutable RejectionLog log_;
 };
 
@@ -216,7 +217,7 @@ SearchOutcome search(const World& world, const SearchRun& run) {
   });
   auto si = std::make_shared<oc::SpaceInformation>(states, controls);
   auto propagator = std::make_shared<DynamicsPropagator>(si.get(), world);
-  auto validity = std::make_shared<WorldValidity>(si.get(), world, run.seed);
+  auto validity = std::make_shared<WorldValidity>(si.get(), world, run);
   si->setStatePropagator(propagator);
   si->setStateValidityChecker(validity);
   si->setDirectedControlSamplerAllocator([&world](const oc::SpaceInformation* info) {

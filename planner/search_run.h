@@ -15,6 +15,7 @@ namespace regoplan {
 struct SearchRun {
   std::string planner;  ///< SST, RRT, KPIECE1, EST or PDST
   std::uint64_t seed = 1;
+  double margin_min = 0;  ///< every state keeps at least this stability margin
   std::optional<double> time_s;
   std::optional<std::int64_t> iterations;
 };

@@ -27,9 +27,10 @@ double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps) {
 }
 
 double drawn_speed_mps(const PlanningProblem& problem, ompl::RNG& random) {
-  constexpr double kSlowest = 0.3;  // share of the top speed
-  const bool full = random.uniform01() < 0.5;
-  return problem.speed_max_mps * (full ? 1 : random.uniformReal(kSlowest, 1));
+  // Shares of the top speed; downhill the vehicle is faster than its rims, so they stay below it.
+  constexpr double kSlowest = 0.3, kCruise = 0.93;
+  const bool cruises = random.uniform01() < 0.5;
+  return problem.speed_max_mps * (cruises ? kCruise : random.uniformReal(kSlowest, 1));
 }
 
 VehicleControl drawn(const PlanningProblem& problem, ompl::RNG& random) {

@@ -91,7 +91,7 @@ StateMargins World::margins(const VehicleState& state, const GroundPatch& patch)
 }
 
 std::optional<RejectedState> World::rejected(const VehicleState& state, const WheelStrain& strain,
-                                             bool with_margins) const {
+                                             std::optional<double> margin_min) const {
   RejectedState rejection{.x_m = state.x_m,
                           .y_m = state.y_m,
                           .yaw_rad = state.yaw_rad,
@@ -104,7 +104,13 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
     return rejection;
   };
   const Limits& limits = problem_.limits;
+  constexpr double kRounding = 1e-3;  // in which a speed counts as held
   if (!problem_.map.inside(state.x_m, state.y_m)) return because(Rejection::kBounds, 0, 0);
+  // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
+  const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+  if (speed > problem_.speed_max_mps * (1 + kRounding)) {
+    return because(Rejection::kBounds, speed, problem_.speed_max_mps);
+  }
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
   if (!patch.known) return because(Rejection::kUnknownTerrain, 0, 0);
   if (obstacles_.hit(state.x_m, state.y_m, state.yaw_rad, patch)) {
@@ -124,18 +130,16 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   if (std::abs(strain.slip_angle_rad) > share * limits.slip_angle_max_rad) {
     return because(Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad);
   }
-  if (!with_margins) return std::nullopt;
-  return rejected_by_margins(state, patch, rejection);
+  if (!margin_min) return std::nullopt;
+  return rejected_by_margins(state, patch, *margin_min, rejection);
 }
 
 std::optional<RejectedState> World::rejected_by_margins(const VehicleState& state,
-                                                        const GroundPatch& patch,
+                                                        const GroundPatch& patch, double margin_min,
                                                         RejectedState rejection) const {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   const StateMargins margins = this->margins(state, patch);
-  const double least =
-      problem_.limits.margin_min + (use_ == WorldUse::kSearch ? kSearchMarginReserve : 0);
-  rejection.limit = problem_.limits.margin_min;
+  rejection.limit = margin_min;
   const auto because = [&](Rejection reason, double value) {
     rejection.reason = reason;
     rejection.value = value;
@@ -147,11 +151,11 @@ std::optional<RejectedState> World::rejected_by_margins(const VehicleState& stat
         kNone);
   }
   // A lateral demand beyond the supply has no trim and hence no traction: that is cornering.
-  if (margins.traction && *margins.traction < least) {
+  if (margins.traction && *margins.traction < margin_min) {
     return because(Rejection::kTraction, *margins.traction);
   }
-  if (margins.tip_over < least) return because(Rejection::kTipOver, margins.tip_over);
-  if (*margins.cornering < least) return because(Rejection::kCornering, *margins.cornering);
+  if (margins.tip_over < margin_min) return because(Rejection::kTipOver, margins.tip_over);
+  if (*margins.cornering < margin_min) return because(Rejection::kCornering, *margins.cornering);
   if (!margins.traction) return because(Rejection::kTraction, kNone);
   return std::nullopt;
 }

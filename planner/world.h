@@ -36,9 +36,13 @@ class World {
 
   /// The first reason, in the order of `Rejection`, why a state may not be; nothing where it may.
   /// \param strain of the wheels in the step that led there
-  /// \param with_margins false leaves traction, tip-over and cornering out
+  std::optional<RejectedState> rejected(const VehicleState& state,
+                                        const WheelStrain& strain) const {
+    return rejected(state, strain, problem_.limits.margin_min);
+  }
+  /// The same with another smallest margin; none leaves traction, tip-over and cornering out.
   std::optional<RejectedState> rejected(const VehicleState& state, const WheelStrain& strain,
-                                        bool with_margins = true) const;
+                                        std::optional<double> margin_min) const;
 
   /// Everything that decides about a state. \pre it stands on known ground
   TrajectoryPoint describe(const VehicleState& state, const WheelStrain& strain,
@@ -56,12 +60,10 @@ class World {
   static constexpr double kSearchClearance_m = 0.1;
   static constexpr double kSearchGoalShare = 0.9;
   static constexpr double kSearchLimitShare = 0.97;
-  /// A search keeps this much above the smallest margin allowed.
-  static constexpr double kSearchMarginReserve = 0.01;
 
  private:
   std::optional<RejectedState> rejected_by_margins(const VehicleState& state,
-                                                   const GroundPatch& patch,
+                                                   const GroundPatch& patch, double margin_min,
                                                    RejectedState rejection) const;
 
   const PlanningProblem& problem_;
