@@ -54,8 +54,8 @@ std::string soil_sentence(const PlanningProblem& problem, const Candidate& best)
 std::string what_if_sentence(const WhatIf& what_if) {
   std::string sentence = fmt::format("What if: {}? ", what_if.question);
   if (what_if.feasible)
-    return sentence + fmt::format("Still feasible, with a margin of {}.",
-                                  number(what_if.margin_min, 2));
+    return sentence +
+           fmt::format("Still feasible, with a margin of {}.", number(what_if.margin_min, 2));
   return sentence + fmt::format("Rejected{} at {}.",
                                 what_if.reason ? " for " + words(name(*what_if.reason)) : "",
                                 place(what_if.x_m, what_if.y_m, what_if.time_s));
@@ -63,8 +63,8 @@ std::string what_if_sentence(const WhatIf& what_if) {
 
 /// What the search mostly ran into; empty where it rejected nothing.
 std::string rejection_sentence(const PlanResult& result) {
-  const auto total = std::accumulate(result.rejected.begin(), result.rejected.end(),
-                                     std::int64_t{0});
+  const auto total =
+      std::accumulate(result.rejected.begin(), result.rejected.end(), std::int64_t{0});
   if (total == 0) return "";
   const auto most = std::max_element(result.rejected.begin(), result.rejected.end());
   const auto reason = static_cast<Rejection>(most - result.rejected.begin());
@@ -73,21 +73,19 @@ std::string rejection_sentence(const PlanResult& result) {
                      words(name(reason)), 100 * share);
 }
 
-std::vector<std::string> lead_sentences(const PlanningProblem& problem,
-                                        const PlanResult& result) {
+std::vector<std::string> lead_sentences(const PlanningProblem& problem, const PlanResult& result) {
   std::vector<std::string> sentences;
   if (result.interrupted)
     sentences.emplace_back("The search was interrupted: this is what it had found by then.");
   if (result.status == PlanStatus::kFeasible && !result.reason.empty())
     sentences.push_back(with_stop(result.reason));
-  if (result.certificate)
-    sentences.push_back("Shown by: " + with_stop(*result.certificate));
+  if (result.certificate) sentences.push_back("Shown by: " + with_stop(*result.certificate));
   if (!result.candidates.empty())
     sentences.push_back(soil_sentence(problem, result.candidates.front()));
   for (const WhatIf& what_if : result.what_ifs) sentences.push_back(what_if_sentence(what_if));
   if (!result.overturned.empty())
     sentences.push_back(fmt::format(
-        "{} more that the search had found failed the independent replay and {} not counted.",
+        "{} that the search had found failed the independent replay and {} not counted.",
         counted(result.overturned.size(), "path"), result.overturned.size() == 1 ? "is" : "are"));
   if (std::string sentence = rejection_sentence(result); !sentence.empty())
     sentences.push_back(std::move(sentence));
@@ -110,11 +108,10 @@ std::string plan_headline(const PlanResult& result) {
   }
   if (result.candidates.empty()) return "Feasible.";
   const Candidate& best = result.candidates.front();
-  return fmt::format(
-      "Feasible: {}; the best keeps a stability margin of {} ({} binds at {}).",
-      counted(result.candidates.size(), "verified path"), number(best.verified.margin_min, 2),
-      words(name(best.limiting.margin)),
-      place(best.limiting.x_m, best.limiting.y_m, best.limiting.time_s));
+  return fmt::format("Feasible: {}; the best keeps a stability margin of {} ({} binds at {}).",
+                     counted(result.candidates.size(), "verified path"),
+                     number(best.verified.margin_min, 2), words(name(best.limiting.margin)),
+                     place(best.limiting.x_m, best.limiting.y_m, best.limiting.time_s));
 }
 
 std::string plan_report(const PlanningProblem& problem, const PlanResult& result) {

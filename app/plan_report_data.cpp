@@ -16,7 +16,9 @@ constexpr std::size_t kPointsOfPathMax = 1000;
 constexpr std::size_t kPointsOfAllMax = 8000;
 constexpr std::size_t kRejectedStatesMax = 4000;
 
-double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
+double degrees(double angle_rad) {
+  return angle_rad * 180 / std::numbers::pi;
+}
 
 /// Short to write; what is not finite stays what it is.
 double rounded(double value, int decimals) {
@@ -38,8 +40,8 @@ std::vector<TrajectoryPoint> thinned(const std::vector<TrajectoryPoint>& points,
     const auto at = [&](std::size_t i) {
       return points.begin() + 1 + static_cast<std::ptrdiff_t>(i * inner / stretches);
     };
-    kept.push_back(*std::min_element(
-        at(k), at(k + 1), [](const TrajectoryPoint& a, const TrajectoryPoint& b) {
+    kept.push_back(
+        *std::min_element(at(k), at(k + 1), [](const TrajectoryPoint& a, const TrajectoryPoint& b) {
           return severity_order(a) < severity_order(b);
         }));
   }
@@ -106,10 +108,9 @@ json candidate_json(const Candidate& candidate, std::size_t points_max) {
 }
 
 json candidates_json(const std::vector<Candidate>& candidates) {
-  const std::size_t points_max =
-      std::min(kPointsOfPathMax,
-               std::max<std::size_t>(50, kPointsOfAllMax / std::max<std::size_t>(
-                                                               1, candidates.size())));
+  const std::size_t points_max = std::min(
+      kPointsOfPathMax,
+      std::max<std::size_t>(50, kPointsOfAllMax / std::max<std::size_t>(1, candidates.size())));
   json rows = json::array();
   for (const Candidate& candidate : candidates)
     rows.push_back(candidate_json(candidate, points_max));
@@ -117,10 +118,14 @@ json candidates_json(const std::vector<Candidate>& candidates) {
 }
 
 json what_if_json(const WhatIf& what_if) {
-  json row = {{"question", what_if.question},     {"feasible", what_if.feasible},
-              {"x_m", what_if.x_m},               {"y_m", what_if.y_m},
-              {"time_s", what_if.time_s},         {"margin_min", what_if.margin_min},
-              {"reason", nullptr}, {"end_shift_m", nullptr}};
+  json row = {{"question", what_if.question},
+              {"feasible", what_if.feasible},
+              {"x_m", what_if.x_m},
+              {"y_m", what_if.y_m},
+              {"time_s", what_if.time_s},
+              {"margin_min", what_if.margin_min},
+              {"reason", nullptr},
+              {"end_shift_m", nullptr}};
   if (what_if.reason) row["reason"] = name(*what_if.reason);
   if (what_if.end_shift_m) row["end_shift_m"] = *what_if.end_shift_m;
   return row;
@@ -132,8 +137,7 @@ json rejected_states_json(const std::vector<RejectedState>& states) {
   for (std::size_t k = 0; k < count; ++k) {
     const RejectedState& state = states[k * states.size() / count];
     // Where the reason is an angle, value and limit are radians.
-    const bool angle =
-        state.reason == Rejection::kSlope || state.reason == Rejection::kSlipAngle;
+    const bool angle = state.reason == Rejection::kSlope || state.reason == Rejection::kSlipAngle;
     const double unit = angle ? degrees(1) : 1;
     rows.push_back({{"reason", name(state.reason)},
                     {"x_m", rounded(state.x_m, 3)},
@@ -204,8 +208,10 @@ json vehicle_json(const Vehicle& vehicle) {
 }
 
 json search_json(const Search& search) {
-  json row = {{"planner", search.planner},       {"seed", search.seed},
-              {"candidates", search.candidates}, {"soil_draws", search.soil_draws},
+  json row = {{"planner", search.planner},
+              {"seed", search.seed},
+              {"candidates", search.candidates},
+              {"soil_draws", search.soil_draws},
               {"threads", search.threads}};
   if (search.time_s) row["time_s"] = *search.time_s;
   if (search.iterations) row["iterations"] = *search.iterations;
@@ -231,8 +237,8 @@ json problem_json(const PlanningProblem& problem) {
         {"sinkage_max_m", limits.sinkage_max_m},
         {"speed_max_mps", problem.speed_max_mps}}},
       {"vehicle", vehicle_json(problem.vehicle)},
-      {"wheel_variant", problem.wheel_variant == WheelVariant::kYoshida2004 ? "yoshida2004"
-                                                                            : "ishigami2007"},
+      {"wheel_variant",
+       problem.wheel_variant == WheelVariant::kYoshida2004 ? "yoshida2004" : "ishigami2007"},
       {"gravity_mps2", problem.gravity_mps2},
       {"search", search_json(problem.search)}};
   if (goal.heading_rad) {

@@ -61,9 +61,9 @@ double block_height_m(const ElevationRaster& elevation, int factor, int block_co
     for (int column = block_column * factor;
          column < std::min((block_column + 1) * factor, frame.columns); ++column) {
       const float height_m =
-          elevation.height_m[static_cast<std::size_t>(row) *
-                                 static_cast<std::size_t>(frame.columns) +
-                             static_cast<std::size_t>(column)];
+          elevation
+              .height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.columns) +
+                        static_cast<std::size_t>(column)];
       ++all;
       if (!std::isfinite(height_m)) continue;
       ++known;
@@ -115,10 +115,10 @@ std::string soil_base64(const TerrainMap& map, const Blocks& blocks) {
 json soil_json(const MapSoil& soil) {
   json parameters = json::array();
   for (const SoilParameter& parameter : soil_parameters()) {
-    parameters.push_back({{"name", parameter.name},
-                          {"mean", soil.soil.mean.*parameter.member / parameter.file_unit},
-                          {"std", soil.soil.standard_deviation.*parameter.member /
-                                      parameter.file_unit}});
+    parameters.push_back(
+        {{"name", parameter.name},
+         {"mean", soil.soil.mean.*parameter.member / parameter.file_unit},
+         {"std", soil.soil.standard_deviation.*parameter.member / parameter.file_unit}});
   }
   return {{"name", soil.name}, {"source", soil.source}, {"parameters", parameters}};
 }
@@ -130,7 +130,9 @@ std::string crs_name(const std::string& wkt) {
   return wkt.substr(open + 1, wkt.find('"', open + 1) - open - 1);
 }
 
-double rounded_mm(double value_m) { return std::round(value_m * 1e3) / 1e3; }
+double rounded_mm(double value_m) {
+  return std::round(value_m * 1e3) / 1e3;
+}
 
 json rocks_json(std::vector<Rock> rocks) {
   if (rocks.size() > kRocksMax) {

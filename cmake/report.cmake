@@ -28,6 +28,9 @@ regoplan_embed(
   kPlanScript
   app/report/plan/model.js
   app/report/plan/candidate_table.js
+  app/report/plan/map_frame.js
+  app/report/plan/map_canvas.js
+  app/report/plan/map_overlay.js
   app/report/plan/map_view.js
   app/report/plan/charts.js
   app/report/plan/layers.js

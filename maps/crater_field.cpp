@@ -27,8 +27,8 @@ Eigen::Vector3d plane_under(const Crater& crater, const std::vector<double>& hei
   });
   // A crater of which a sliver or nothing lies on the grid: the level that is there, no slope.
   if (normal(0, 0) == 0) return Eigen::Vector3d::Zero();
-  normal(1, 1) += 0.1 * normal(0, 0);
-  normal(2, 2) += 0.1 * normal(0, 0);
+  normal(1, 1) += 0.01 * normal(0, 0);
+  normal(2, 2) += 0.01 * normal(0, 0);
   const Eigen::Vector3d scaled = normal.ldlt().solve(right);
   return {scaled[0], scaled[1] / radius_m, scaled[2] / radius_m};
 }
@@ -39,6 +39,38 @@ double wiped_out(double distance, double age) {
   const double half_width = 0.2 + 0.9 * std::sqrt(age);
   const double t = std::clamp(0.5 + 0.5 * (1.05 - distance) / half_width, 0.0, 1.0);
   return t * t * (3 - 2 * t);
+}
+
+/// Lets ground that stands steeper than it can slide down, between neighbours, until it rests.
+void slump(std::vector<double>& height_m, const GridFrame& frame) {
+  struct Neighbour {
+    int columns, rows;
+  };
+  constexpr double kRepose = 0.754;  // tan 37 deg: dry regolith, as the walls of fresh craters
+  constexpr int kSweepsMax = 100;
+  for (int sweep = 0; sweep < kSweepsMax; ++sweep) {
+    bool slid = false;
+    for (const auto& [columns, rows] : {Neighbour{1, 0}, {0, 1}, {1, 1}, {-1, 1}}) {
+      const double drop_max_m =
+          kRepose * std::hypot(columns * frame.cell_width_m, rows * frame.cell_height_m);
+      for (int row = 0; row + rows < frame.rows; ++row) {
+        const int end = frame.columns - std::max(columns, 0);
+        for (int column = std::max(-columns, 0); column < end; ++column) {
+          const std::ptrdiff_t cell = static_cast<std::ptrdiff_t>(row) * frame.columns + column;
+          double& here = height_m[static_cast<std::size_t>(cell)];
+          double& there = height_m[static_cast<std::size_t>(
+              cell + static_cast<std::ptrdiff_t>(rows) * frame.columns + columns)];
+          const double excess = std::abs(here - there) - drop_max_m;
+          if (excess <= 1e-3 * drop_max_m) continue;
+          const double slide = std::copysign(0.5 * excess, here - there);
+          here -= slide;
+          there += slide;
+          slid = true;
+        }
+      }
+    }
+    if (!slid) return;
+  }
 }
 
 }  // namespace
@@ -122,6 +154,7 @@ std::vector<double> with_craters(std::vector<double> height_m, const GridFrame& 
     };
     for_cells_around(crater, CraterProfile::kReach, frame, dig);
   }
+  slump(height_m, frame);
   return height_m;
 }
 

@@ -70,8 +70,8 @@ std::vector<Crater> draw_craters(const GridFrame& frame, double diameter_min_m,
                                  double diameter_max_m, double density_scale, std::uint64_t seed);
 
 /// Digs the craters into the heights one after another: inside its rim each replaces what was there
-/// by its own shape on the plane that fits the older ground best.
-/// \returns the heights row by row from the north, in the order of `frame`
+/// by its own shape on the plane that fits the older ground best. Ground steeper than 37 deg
+/// slides. \returns the heights row by row from the north, in the order of `frame`
 std::vector<double> with_craters(std::vector<double> height_m, const GridFrame& frame,
                                  const std::vector<Crater>& craters);
 

@@ -18,10 +18,10 @@ constexpr int kNodes = static_cast<int>(CraterProfile::kReach / kNode) + 1;
 constexpr double kStep = 0.2 * kNode * kNode;  // an explicit step is stable below a quarter
 constexpr int kAges = 64;
 
-/// Snapshots lie closer together while the crater is young and changes fast.
-double age_of_snapshot(int snapshot) {
+/// How many steps a snapshot is old. They lie closer together while the crater changes fast.
+int steps_of_snapshot(int snapshot) {
   const double share = static_cast<double>(snapshot) / (kAges - 1);
-  return CraterShape::kOldest * share * share;
+  return static_cast<int>(std::lround(CraterShape::kOldest * share * share / kStep));
 }
 
 double fresh_height(double distance) {
@@ -53,9 +53,9 @@ double size_factor_m(double diameter_m) {
 CraterShape::CraterShape() {
   std::vector<double> z(kNodes);
   for (int i = 0; i < kNodes; ++i) z[static_cast<std::size_t>(i)] = fresh_height(i * kNode);
-  double age = 0;
+  int steps = 0;
   for (int snapshot = 0; snapshot < kAges; ++snapshot) {
-    for (; age < age_of_snapshot(snapshot); age += kStep) z = diffused(z);
+    for (; steps < steps_of_snapshot(snapshot); ++steps) z = diffused(z);
     heights_.push_back(z);
   }
 }

@@ -116,12 +116,11 @@ std::vector<Rock> scatter_rocks(const GridFrame& frame, const std::vector<float>
   std::discrete_distribution<std::size_t> cells(abundance.begin(), abundance.end());
   const auto place = [&](double radius_m) {
     const std::size_t cell = cells(random);
-    const auto columns = static_cast<std::size_t>(frame.columns);
+    const std::size_t column = cell % static_cast<std::size_t>(frame.columns);
+    const std::size_t row = cell / static_cast<std::size_t>(frame.columns);
     Rock rock;
-    rock.x_m =
-        frame.west_m + (static_cast<double>(cell % columns) + share(random)) * frame.cell_width_m;
-    rock.y_m =
-        frame.north_m - (static_cast<double>(cell / columns) + share(random)) * frame.cell_height_m;
+    rock.x_m = frame.west_m + (static_cast<double>(column) + share(random)) * frame.cell_width_m;
+    rock.y_m = frame.north_m - (static_cast<double>(row) + share(random)) * frame.cell_height_m;
     rock.radius_m = radius_m;
     return rock;
   };

@@ -26,8 +26,8 @@ void check(const char* field, double value, double min, double max) {
 
 void validate(const SyntheticTerrainSettings& settings) {
   check("cell_m", settings.cell_m, 0.01, 100);
-  check("width_m", settings.width_m, 4 * settings.cell_m, 20000 * settings.cell_m);
-  check("height_m", settings.height_m, 4 * settings.cell_m, 20000 * settings.cell_m);
+  check("width_m", settings.width_m, 16 * settings.cell_m, 20000 * settings.cell_m);
+  check("height_m", settings.height_m, 16 * settings.cell_m, 20000 * settings.cell_m);
   // A crater of fewer cells has neither rim nor floor.
   check("crater_diameter_min_m", settings.crater_diameter_min_m, 4 * settings.cell_m, 5000);
   check("crater_diameter_max_m", settings.crater_diameter_max_m, settings.crater_diameter_min_m,
@@ -65,11 +65,13 @@ class FractalNoise {
   FractalNoise(std::uint64_t seed, double wavelength_min_m, double wavelength_max_m) {
     constexpr double kLacunarity = 1.8;
     constexpr double kHurst = 0.6;
-    std::uint64_t octave = 0;
-    for (double wavelength_m = wavelength_max_m; wavelength_m >= wavelength_min_m;
-         wavelength_m /= kLacunarity) {
+    const auto octaves = static_cast<std::uint64_t>(
+        std::max(0.0, std::log(wavelength_max_m / wavelength_min_m) / std::log(kLacunarity) + 1));
+    for (std::uint64_t octave = 0; octave < octaves; ++octave) {
+      const double wavelength_m =
+          wavelength_max_m * std::pow(kLacunarity, -static_cast<double>(octave));
       octaves_.push_back(
-          {SmoothNoise(sub_seed(seed, octave++), wavelength_m), std::pow(wavelength_m, kHurst)});
+          {SmoothNoise(sub_seed(seed, octave), wavelength_m), std::pow(wavelength_m, kHurst)});
     }
   }
 
@@ -117,7 +119,8 @@ void add_around_craters(std::vector<float>& cells, const GridFrame& frame,
 /// rougher where fresh ejecta lie.
 std::vector<float> make_heights(const SyntheticTerrainSettings& settings, const GridFrame& frame,
                                 const std::vector<Crater>& craters) {
-  const double longest_m = std::min({60.0, settings.width_m / 2, settings.height_m / 2});
+  const double longest_m =
+      std::min({std::max(60.0, 12 * settings.cell_m), settings.width_m / 2, settings.height_m / 2});
   const double shortest_m = 3 * settings.cell_m;
   const double split_m = std::max(8.0, shortest_m);
   const FractalNoise swell(sub_seed(settings.seed, kGround), split_m, longest_m);

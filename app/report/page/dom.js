@@ -1,19 +1,22 @@
 // The page itself: its data, its elements, its theme, and what it says when it cannot draw.
-const REPORT = JSON.parse(document.getElementById("data").textContent);
+const REPORT = JSON.parse(document.getElementById('data').textContent);
 const byId = id => document.getElementById(id);
 
-window.addEventListener("error", event => {
-  const failure = byId("failure");
+window.addEventListener('error', event => {
+  const failure = byId('failure');
   failure.hidden = false;
-  failure.textContent = `A figure could not be drawn (${event.message}). The verdict above stands; the data are at the end of this file.`;
+  failure.textContent = `A figure could not be drawn (${
+      event.message}). The verdict above stands; the data are at the end of this file.`;
 });
 
 /// An element with attributes, text or children. Text never becomes markup.
 function element(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes)) {
-    if (value === true) node.setAttribute(name, "");
-    else if (value !== false && value !== null && value !== undefined) node.setAttribute(name, value);
+    if (value === true)
+      node.setAttribute(name, '');
+    else if (value !== false && value !== null && value !== undefined)
+      node.setAttribute(name, value);
   }
   node.append(...children.filter(child => child !== null && child !== undefined));
   return node;
@@ -21,14 +24,21 @@ function element(tag, attributes = {}, ...children) {
 
 /// A table from {text, number} columns and rows of texts or nodes.
 function table(caption, columns, rows) {
-  const head = columns.map(c => element("th", {scope: "col", class: c.number ? "number" : null}, c.text));
-  const body = rows.map(row => element("tr", {}, ...row.map((cell, k) =>
-    element(k ? "td" : "th", {scope: k ? null : "row", class: columns[k].number ? "number" : null}, cell))));
-  return element("table", {}, caption ? element("caption", {}, caption) : null,
-    element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...body));
+  const head =
+      columns.map(c => element('th', {scope: 'col', class: c.number ? 'number' : null}, c.text));
+  const body = rows.map(
+      row => element(
+          'tr', {},
+          ...row.map(
+              (cell, k) => element(
+                  k ? 'td' : 'th',
+                  {scope: k ? null : 'row', class: columns[k].number ? 'number' : null}, cell))));
+  return element(
+      'table', {}, caption ? element('caption', {}, caption) : null,
+      element('thead', {}, element('tr', {}, ...head)), element('tbody', {}, ...body));
 }
 
-const DARK = window.matchMedia("screen and (prefers-color-scheme: dark)");
+const DARK = window.matchMedia('screen and (prefers-color-scheme: dark)');
 const cssColour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 const onThemeChange = draw => DARK.addListener(draw);
 
@@ -40,5 +50,6 @@ function onWidth(node, draw) {
     if (now && now !== width) draw(width = now);
   };
   update();
-  new ResizeObserver(update).observe(node);
+  // Drawing changes heights: not within the observer, which would see itself.
+  new ResizeObserver(() => requestAnimationFrame(update)).observe(node);
 }
