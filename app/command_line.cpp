@@ -47,8 +47,7 @@ int run_command_line(int argc, const char* const* argv) {
         "regoplan");
     program.set_version_flag("--version", std::string("regoplan ") + REGOPLAN_VERSION);
     program.require_subcommand(1);
-    program.footer(
-        "Exit status: 0 yes, 2 no (the result says why), 1 bad input, 130 interrupted.");
+    program.footer("Exit status: 0 yes, 2 no (the result says why), 1 bad input, 130 interrupted.");
 
     std::vector<Command> commands{add_demo_command(program), add_plan_command(program),
                                   add_wheel_command(program)};

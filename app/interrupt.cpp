@@ -19,7 +19,7 @@ void request_stop(int) {
 }  // namespace
 
 std::stop_token stop_on_interrupt() {
-  const std::stop_token token = source().get_token();  // made before a signal can come
+  std::stop_token token = source().get_token();  // made before a signal can come
   struct sigaction action {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);

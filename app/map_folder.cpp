@@ -69,7 +69,8 @@ std::optional<std::pair<double, double>> free_place_near(const TerrainMap& map, 
   const GridFrame& frame = map.elevation().frame;
   const double step_m = std::max({frame.cell_width_m, frame.cell_height_m, 1.0});
   const double reach_m = std::hypot(frame.east_m() - frame.west_m, frame.north_m - frame.south_m());
-  for (double radius_m = 0; radius_m <= reach_m; radius_m += step_m) {
+  for (int ring = 0; ring * step_m <= reach_m; ++ring) {
+    const double radius_m = ring * step_m;
     const int places = 1 + static_cast<int>(2 * std::numbers::pi * radius_m / step_m);
     for (int i = 0; i < places; ++i) {
       const double angle_rad = 2 * std::numbers::pi * i / places;

@@ -102,6 +102,7 @@ TerrainMap with_model_soil(const TerrainMap& map, const ModelSettings& model,
   const auto soil = std::ranges::find(soils, *model.soil_name, &MapSoil::name);
   if (soil == soils.end()) {
     std::vector<std::string> names;
+    names.reserve(soils.size());
     for (const MapSoil& known : soils) names.push_back(known.name);
     throw SettingsError(fmt::format("{}: soil_name: {} is no soil of the map (it has: {})",
                                     model_file, *model.soil_name, fmt::join(names, ", ")));

@@ -88,8 +88,8 @@ void SettingsMapping::reject_unread_keys() const {
     if (asked_.contains(entry.key)) continue;
     const auto nearest = std::ranges::min_element(
         asked_, {}, [&entry](const std::string& key) { return edits_between(entry.key, key); });
-    const bool near = nearest != asked_.end() &&
-                      2 * edits_between(entry.key, *nearest) <= entry.key.size();
+    const bool near =
+        nearest != asked_.end() && 2 * edits_between(entry.key, *nearest) <= entry.key.size();
     const std::string hint = near ? fmt::format("did you mean {}?", *nearest)
                                   : fmt::format("known: {}", fmt::join(asked_, ", "));
     throw SettingsError(fmt::format("{}:{}: {}: unknown key ({})", node_.file(), entry.line,
