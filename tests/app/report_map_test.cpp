@@ -84,7 +84,7 @@ TEST(ReportMap, DrawsLevelGround) {
 }
 
 TEST(ReportMap, AveragesWhatIsKnownAndLeavesHalfUnknownBlocksUnknown) {
-  std::vector<float> height_m(1024 * 2, 4);
+  std::vector<float> height_m(2048, 4);
   height_m[0] = 0;                       // block 0: (0 + 4 + 4 + 4)/4 = 3
   height_m[2] = kUnknown;                // block 1: one unknown of four
   height_m[4] = height_m[5] = kUnknown;  // block 2: half unknown
