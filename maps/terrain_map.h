@@ -24,7 +24,7 @@ struct GridFrame {
   double north_m = 0;
   double cell_width_m = 0;
   double cell_height_m = 0;
-  std::string crs_wkt;  ///< empty where the file names none
+  std::string crs_wkt = {};  ///< empty where the file names none
 
   double east_m() const { return west_m + columns * cell_width_m; }
   double south_m() const { return north_m - rows * cell_height_m; }

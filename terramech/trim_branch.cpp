@@ -10,39 +10,41 @@ namespace {
 
 using Point = SteadyManoeuvre::Point;
 
+/// A point of the branch with the slopes near it.
+struct BranchPoint {
+  Point at;
+  SteadyManoeuvre::Slopes slopes;
+};
+
 /// Unit tangent of the branch, oriented like `along`.
-std::optional<Point> tangent_at(const SteadyManoeuvre& manoeuvre, const Point& at,
-                                const ForceLine& line, const Point& along) {
-  const auto residual = manoeuvre.residual(at, line);
-  if (!residual) return std::nullopt;
-  const auto slopes = manoeuvre.slopes(at, line, *residual);
-  if (!slopes) return std::nullopt;
+std::optional<Point> tangent_of(const SteadyManoeuvre::Slopes& slopes, const Point& along) {
   Eigen::Matrix4d system;
-  system << *slopes, along.transpose();
-  Point tangent = system.fullPivLu().solve(Point{0, 0, 0, 1});
+  system << slopes, along.transpose();
+  const Point tangent = system.partialPivLu().solve(Point{0, 0, 0, 1});
   const double length = tangent.norm();
   if (!std::isfinite(length) || length == 0) return std::nullopt;
   return tangent / length;
 }
 
-/// The trim on the plane through `predicted` across the tangent, by Newton's method.
-std::optional<Point> correct(const SteadyManoeuvre& manoeuvre, const Point& predicted,
-                             const Point& tangent, const ForceLine& line) {
+/// The trim on the plane through `predicted` across the tangent, by Newton's method; the slopes are
+/// taken anew only when it slows down.
+std::optional<BranchPoint> correct(const SteadyManoeuvre& manoeuvre, const Point& predicted,
+                                   const Point& tangent, const ForceLine& line) {
+  constexpr double kConverged = 3e-7, kAccepted = 1e-4;
   Point at = predicted;
+  std::optional<SteadyManoeuvre::Slopes> slopes;
   double error_before = 0;
-  for (int iteration = 0; iteration < 8; ++iteration) {
+  for (int iteration = 0; iteration < 12; ++iteration) {
     const auto residual = manoeuvre.residual(at, line);
     if (!residual) return std::nullopt;
     const double error = residual->cwiseAbs().maxCoeff();
-    constexpr double kConverged = 1e-7, kAccepted = 1e-4;
-    if (error < kConverged) return at;
-    if (iteration > 1 && error > error_before / 2) {
-      if (error < kAccepted) return at;
-      return std::nullopt;
-    }
-    error_before = error;
-    const auto slopes = manoeuvre.slopes(at, line, *residual);
+    if (slopes && error < kConverged) return BranchPoint{at, *slopes};
+    const bool slows = slopes && error > 0.2 * error_before;
+    if (slows && iteration > 3 && error < kAccepted) return BranchPoint{at, *slopes};
+    if (slows && iteration > 6) return std::nullopt;
+    if (!slopes || slows) slopes = manoeuvre.slopes(at, line, *residual);
     if (!slopes) return std::nullopt;
+    error_before = error;
     Eigen::Matrix4d system;
     system << *slopes, tangent.transpose();
     Point missing;
@@ -58,7 +60,9 @@ class Walk {
  public:
   Walk(const SteadyManoeuvre& manoeuvre, const Point& start, const ForceLine& line)
       : manoeuvre_(manoeuvre), line_(line), at_(start), before_(start) {
-    tangent_ = tangent_at(manoeuvre, start, line, Point{0, 0, 0, 1}).value_or(Point::Zero());
+    const auto residual = manoeuvre.residual(start, line);
+    const auto slopes = residual ? manoeuvre.slopes(start, line, *residual) : std::nullopt;
+    if (slopes) tangent_ = tangent_of(*slopes, Point{0, 0, 0, 1}).value_or(Point::Zero());
   }
 
   bool can_start() const { return tangent_ != Point::Zero() && tangent_[3] > 0; }
@@ -68,7 +72,9 @@ class Walk {
 
   /// The branch at arc length `arc` beyond where it stood before the last step.
   std::optional<Point> between(double arc) const {
-    return correct(manoeuvre_, before_ + arc * tangent_before_, tangent_before_, line_);
+    const auto point = correct(manoeuvre_, before_ + arc * tangent_before_, tangent_before_, line_);
+    if (!point) return std::nullopt;
+    return point->at;
   }
   double last_arc() const { return last_arc_; }
 
@@ -77,13 +83,12 @@ class Walk {
     constexpr double kLongest = 0.4, kShortest = 1e-4;
     while (arc_ > kShortest) {
       const auto next = correct(manoeuvre_, at_ + arc_ * tangent_, tangent_, line_);
-      const auto tangent =
-          next ? tangent_at(manoeuvre_, *next, line_, tangent_) : std::optional<Point>{};
+      const auto tangent = next ? tangent_of(next->slopes, tangent_) : std::nullopt;
       if (tangent && tangent->dot(tangent_) > 0.8) {
         before_ = at_;
         tangent_before_ = tangent_;
         last_arc_ = arc_;
-        at_ = *next;
+        at_ = next->at;
         tangent_ = *tangent;
         arc_ = std::min(arc_ * 1.6, kLongest);
         return true;

@@ -53,10 +53,9 @@ Vehicle tohoku() {
                  {"front_right", kHalfWheelbase_m, -kHalfTread_m, true},
                  {"rear_left", -kHalfWheelbase_m, kHalfTread_m, true},
                  {"rear_right", -kHalfWheelbase_m, -kHalfTread_m, true}},  // all steered [2]
-      .suspension =
-          Suspension::kEqualSprings,  // four loads shared as the rockers of [2] share them
+      .suspension = Suspension::kEqualSprings,  // estimate: the body rests on its four wheels alike
       .rocker_bogie = {},
-      .drive_law = DriveLaw::kKinematic,  // each wheel holds its own commanded speed [2]
+      .drive_law = DriveLaw::kKinematic,  // a motor in each wheel [2]
       .turn_centre_x_m = 0,               // front and rear steer alike
       .body = {.x_min_m = -0.39,          // estimate: over its wheels
                .x_max_m = 0.39,
@@ -203,7 +202,7 @@ Vehicle curiosity() {
       // Estimate: turning in place [1] needs 48 deg, an arc of 2 m 52 deg.
       .steer_angle_max_rad = 60 * kDegree,
       .slip_angle_max_rad = kTestedSlipAngle_rad,
-      .slip_max = 0.6,  // estimate: below the 77 % at which crossings failed [4]
+      .slip_max = 0.6,  // estimate: well below the 77 % of the worst crossings [4]
       .sinkage_max_m = kSinkageShareOfRadius * wheel.radius_m,
       .slope_max_rad = 30 * kDegree,  // tilt limit [1]
       .step_max_m = 0.50,             // [1]

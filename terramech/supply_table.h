@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "terramech/supply.h"
+
+namespace regoplan {
+
+/// Lateral forces that trims can give, newtons, left positive.
+struct SupplyInterval {
+  double right_n = 0;
+  double left_n = 0;
+};
+
+/// Supply and traction of one vehicle on one soil over curvature, force and load, for searches that
+/// ask millions of times: trilinear between steady manoeuvres that are solved when it is built.
+/// Forward driving. Answers nothing outside its grid and next to manoeuvres without supply: on the
+/// safe side for whoever rejects what has no answer.
+class SupplyTable {
+ public:
+  /// \param law the wheel's forces on the soil \param weight_n m g \param tilt_max_rad steepest
+  /// ground asked for \param threads that build it; the table is the same for any number
+  SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const TrimLimits& limits,
+              double weight_n, double tilt_max_rad, int threads);
+
+  /// As `cornering_supply`; off by at most `error_bound() * normal_n` at the sampled checks.
+  std::optional<SupplyInterval> supply(double curvature_1pm, double forward_n,
+                                       double normal_n) const;
+
+  /// As `largest_traction_n`, whatever the forward force at which the branch starts.
+  std::optional<double> traction_n(double curvature_1pm, double left_n, double normal_n) const;
+
+  /// Largest difference to the solved manoeuvre in `kChecks` random states, over the normal load.
+  double error_bound() const { return error_bound_; }
+  static constexpr int kChecks = 200;
+
+ private:
+  struct Cell {  ///< of one grid axis: the node below and the share of the next
+    std::size_t low = 0;
+    double share = 0;
+  };
+  static std::optional<Cell> locate(const std::vector<double>& nodes, double value);
+  static std::optional<double> interpolate(const std::vector<double>& values, std::size_t middle,
+                                           std::size_t inner, const Cell& a, const Cell& b,
+                                           const Cell& c);
+  double measured_error(const Vehicle& vehicle, const WheelLaw& law,
+                        const TrimLimits& limits) const;
+
+  double weight_n_;
+  std::vector<double> curvatures_1pm_;
+  std::vector<double> forces_;   ///< along (supply) or across (traction), over the normal load
+  std::vector<double> normals_;  ///< over the weight
+  std::vector<double> right_, left_, traction_;  ///< over the normal load; NaN: none
+  double error_bound_ = 0;
+};
+
+}  // namespace regoplan
