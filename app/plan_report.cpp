@@ -124,7 +124,7 @@ std::string plan_report(const PlanningProblem& problem, const PlanResult& result
        .lead = lead_sentences(problem, result),
        .body_html = report_assets::kPlanHtml,
        .script = report_assets::kPlanScript,
-       .data = plan_report_data(problem, result)});
+       .data_json = json_for_html(plan_report_data(problem, result))});
 }
 
 }  // namespace regoplan

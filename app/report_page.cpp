@@ -84,12 +84,11 @@ std::string render(const ReportPage& page) {
   const std::string title = html_escaped(page.title);
   const std::string headline = html_escaped(page.headline);
   const std::string lead = paragraphs(page.lead);
-  const std::string data = json_for_html(page.data);
   const std::array<Filling, 10> fillings{{{"title", title},
                                           {"headline", headline},
                                           {"lead", lead},
                                           {"body", page.body_html},
-                                          {"data", data},
+                                          {"data", page.data_json},
                                           {"css", report_assets::kPageCss},
                                           {"d3", report_assets::kD3},
                                           {"d3_licence", report_assets::kD3Licence},

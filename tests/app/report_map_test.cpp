@@ -84,7 +84,7 @@ TEST(ReportMap, DrawsLevelGround) {
 }
 
 TEST(ReportMap, AveragesWhatIsKnownAndLeavesHalfUnknownBlocksUnknown) {
-  std::vector<float> height_m(1024 * 2, 4);
+  std::vector<float> height_m(2048, 4);
   height_m[0] = 0;                       // block 0: (0 + 4 + 4 + 4)/4 = 3
   height_m[2] = kUnknown;                // block 1: one unknown of four
   height_m[4] = height_m[5] = kUnknown;  // block 2: half unknown
@@ -107,14 +107,13 @@ TEST(ReportMap, CoversAMapThatBlocksDoNotDivide) {
 }
 
 TEST(ReportMap, NumbersSoilsFromOneAndForbiddenGroundZero) {
-  const ClassRaster classes{.frame = {.columns = 3,
-                                      .rows = 1,
-                                      .west_m = 100,
-                                      .north_m = 50,
-                                      .cell_width_m = 2,
-                                      .cell_height_m = 2,
-                                      .crs_wkt = ""},
-                            .code = {7, 5, ClassRaster::kNoData}};
+  ClassRaster classes;
+  classes.frame.columns = 3;
+  classes.frame.rows = 1;
+  classes.frame.west_m = 100;
+  classes.frame.north_m = 50;
+  classes.frame.cell_width_m = classes.frame.cell_height_m = 2;
+  classes.code = {7, 5, ClassRaster::kNoData};
   const json data = report_map(map_of(3, 1, {0, 1, 2}, classes));
   EXPECT_EQ(numbers_of(data["raster"]["soil_base64"]), (std::vector<int>{2, 1, 0}));
   EXPECT_EQ(data["soils"][1]["name"], "loose");

@@ -15,7 +15,7 @@ TEST(ReportPage, FillsEveryPlaceOfItsFrame) {
                                    .lead = {"first", "second"},
                                    .body_html = "<p id=\"b\"></p>",
                                    .script = "draw();",
-                                   .data = {{"answer", 42}}});
+                                   .data_json = "{\"answer\":42}"});
   EXPECT_NE(page.find("<title>T</title>"), std::string::npos);
   EXPECT_NE(page.find(">H</h1>"), std::string::npos);
   EXPECT_NE(page.find("<p>first</p>\n<p>second</p>"), std::string::npos);

@@ -55,6 +55,7 @@ function mapView(host) {
     canvas.resize();
     overlay.resize();
     showPaths();
+    canvas.draw();  // at once: a resized canvas is empty
   }
 
   function redraw() {
