@@ -64,7 +64,7 @@ std::string why_overturned(const Replay& replay) {
                        replay.rejection->limit, replay.rejection->x_m, replay.rejection->y_m,
                        replay.rejection_time_s);
   }
-  const VehicleState& end = replay.coarse.back();
+  const VehicleState& end = replay.end;
   return fmt::format("the goal is not reached: the path ends at ({:.2f}, {:.2f})", end.x_m,
                      end.y_m);
 }

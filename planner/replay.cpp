@@ -22,7 +22,8 @@ class Driver {
     const double fine_s = steps_.coarse_s / steps_.fine_per_coarse;
     ++coarse_steps_;
     const bool judges = with_margins_ && coarse_steps_ % steps_.coarse_per_margin == 0;
-    for (int i = 0; i < steps_.fine_per_coarse && goes_on(); ++i) {
+    int done = 0;
+    for (; done < steps_.fine_per_coarse && goes_on(); ++done) {
       const StepResult step = world_.dynamics().step(state_, control, fine_s);
       record_.length_m += std::hypot(step.state.x_m - state_.x_m, step.state.y_m - state_.y_m);
       record_.energy_j += step.drive_energy_j;
@@ -35,13 +36,13 @@ class Driver {
         reject({.reason = reason, .x_m = state_.x_m, .y_m = state_.y_m, .yaw_rad = state_.yaw_rad});
         return;
       }
-      const bool last = i + 1 == steps_.fine_per_coarse;
+      const bool last = done + 1 == steps_.fine_per_coarse;
       record_.reached_goal = world_.at_goal(state_);
       check(with_margins_ && ((last && judges) || record_.reached_goal));
       if (!record_.rejection && with_margins_ && ((last && judges) || record_.reached_goal))
         judge();
     }
-    record_.coarse.push_back(state_);
+    if (done == steps_.fine_per_coarse) record_.coarse.push_back(state_);
   }
 
   Replay take() {
@@ -49,6 +50,7 @@ class Driver {
       check(true);
       if (!record_.rejection) judge();
     }
+    record_.end = state_;
     return std::move(record_);
   }
 

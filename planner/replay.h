@@ -26,7 +26,8 @@ struct JudgedState {
 struct Replay {
   std::vector<TrajectoryPoint> points;  ///< where the margins were judged
   std::vector<JudgedState> judged;      ///< the same moments
-  std::vector<VehicleState> coarse;     ///< after every coarse step, the start first
+  std::vector<VehicleState> coarse;     ///< after every whole coarse step, the start first
+  VehicleState end;
   std::optional<RejectedState> rejection;
   double rejection_time_s = 0;
   bool reached_goal = false;

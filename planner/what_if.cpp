@@ -65,7 +65,7 @@ WhatIf same_controls(std::string question, const World& world, const Replay& ver
       state = step.state;
     }
   }
-  const VehicleState& end = verified.coarse.back();
+  const VehicleState& end = verified.end;
   result.end_shift_m = std::hypot(state.x_m - end.x_m, state.y_m - end.y_m);
   return result;
 }

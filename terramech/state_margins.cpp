@@ -78,13 +78,17 @@ StateMargins margins_of(const VehicleDynamics& dynamics, const SupportPolygon& p
       kinematic_body_slip_angle_rad(dynamics.vehicle(), question.curvature_1pm);
   const double c = std::cos(slip_free), s = std::sin(slip_free);
   const PathForce& force = question.force;
+  // What the soil does not give does not tip the vehicle: it slides instead.
+  const double left_n =
+      answer.supply ? std::clamp(force.left_n, answer.supply->right_n, answer.supply->left_n)
+                    : force.left_n;
   StateMargins margins{
       .demand_n = force.left_n,
       .supply = answer.supply,
       .no_supply = answer.no_supply,
       .tip_over = polygon.tip_over_margin({.normal_n = question.normal_n,
-                                           .forward_n = c * force.forward_n - s * force.left_n,
-                                           .left_n = s * force.forward_n + c * force.left_n}),
+                                           .forward_n = c * force.forward_n - s * left_n,
+                                           .left_n = s * force.forward_n + c * left_n}),
       .cornering = {},
       .traction = {}};
   if (answer.supply) {

@@ -18,7 +18,7 @@ struct StateMargins {
   double demand_n = 0;
   std::optional<SupplyInterval> supply;
   NoSupply no_supply = NoSupply::kTraction;  ///< why, where there is none
-  double tip_over = 0;
+  double tip_over = 0;  ///< at the demand, or the nearest lateral force that the soil can give
   std::optional<double> cornering;  ///< nothing without supply
   std::optional<double> traction;   ///< nothing where the lateral demand has no trim
 
