@@ -19,11 +19,11 @@
 
 #include "terramech/vector_math.h"
 
-// One build serves every x86-64: the integrals are compiled for the plain instruction set, for AVX2
-// and for AVX-512, and chosen when the program is loaded.
+// One build serves every x86-64: the integrals are compiled for the plain instruction set and for
+// AVX2 (x86-64-v3), and chosen when the program is loaded. The same machine always gives the same
+// bits; machines with and without AVX2 differ by rounding, as the former fuse (CMakeLists.txt).
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define REGOPLAN_VECTOR_CLONES \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#define REGOPLAN_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3")))
 #else
 #define REGOPLAN_VECTOR_CLONES
 #endif
@@ -31,182 +31,155 @@
 namespace regoplan::wheel_contact {
 namespace {
 
-/// Nodes t in (0, 1), graded by theta = theta_f - (theta_f - theta_m) t^2 towards the entry and
-/// likewise towards the exit, where stress and shear have their corners. Holds t^2 and 2 t w.
-template <int kNodes>
+using vector_math::kLanes;
+using vector_math::Vec;
+
+/// Gauss-Legendre nodes t in (0, 1), graded by theta = theta_f - (theta_f - theta_m) t^3 towards
+/// the entry and likewise towards the exit, where stress and shear have their corners (n < 1, a
+/// locked wheel, beta near 90 deg). Holds t^3 and 3 t^2 w.
+template <std::size_t kNodes>
 struct GradedNodes {
-  alignas(64) std::array<double, kNodes> t2;
-  alignas(64) std::array<double, kNodes> weight;
+  static constexpr std::size_t kVectors = kNodes / kLanes;
+  std::array<Vec, kVectors> t3;
+  std::array<Vec, kVectors> weight;
 
   GradedNodes() {
     using Gauss = boost::math::quadrature::gauss<double, kNodes>;
-    for (std::size_t i = 0; i < kNodes / 2; ++i) {
-      const double x = Gauss::abscissa()[i];
-      const double w = Gauss::weights()[i] / 2;
-      const std::size_t low = kNodes / 2 - 1 - i;
-      const std::size_t high = kNodes / 2 + i;
-      const double t_low = (1 - x) / 2;
-      const double t_high = (1 + x) / 2;
-      t2[low] = t_low * t_low;
-      t2[high] = t_high * t_high;
-      weight[low] = 2 * t_low * w;
-      weight[high] = 2 * t_high * w;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      const bool upper = i >= kNodes / 2;
+      const std::size_t half = upper ? i - kNodes / 2 : kNodes / 2 - 1 - i;
+      const double t = (1 + (upper ? 1 : -1) * Gauss::abscissa()[half]) / 2;
+      t3[i / kLanes][i % kLanes] = t * t * t;
+      weight[i / kLanes][i % kLanes] = 3 * t * t * Gauss::weights()[half] / 2;
     }
   }
 };
 
-template <int kNodes>
+template <std::size_t kNodes>
 const GradedNodes<kNodes>& graded_nodes() {
   static const GradedNodes<kNodes> nodes;
   return nodes;
 }
 
-/// Angle, its sine and cosine and the displacement geometry at the nodes of one side.
-template <int kNodes>
-struct Side {
-  alignas(64) std::array<double, kNodes> sin_theta;
-  alignas(64) std::array<double, kNodes> cos_theta;
-  alignas(64) std::array<double, kNodes> arc;      // theta_f - theta
-  alignas(64) std::array<double, kNodes> advance;  // sin theta_f - sin theta
-};
-
-/// Normal stress sigma at Q = 1 at the nodes, eq. (4); the rear nodes mirror the front ones, so
-/// that it is the same on both sides, eq. (5).
-template <int kNodes>
-struct Contact {
-  Side<kNodes> front, rear;
-  alignas(64) std::array<double, kNodes> sigma_pa;
-};
-
-template <int kNodes>
-[[gnu::always_inline]] inline Contact<kNodes> lay_out(const Ground& ground, const Angles& angles) {
-  const GradedNodes<kNodes>& nodes = graded_nodes<kNodes>();
-  const double theta_f = angles.theta_f_rad;
-  const double theta_r = angles.theta_r_rad;
-  const double front_arc = theta_f - angles.theta_m_rad;
-  const double rear_arc = angles.theta_m_rad - theta_r;
-  const double sin_f = std::sin(theta_f), cos_f = std::cos(theta_f);
-  const double sin_r = std::sin(theta_r), cos_r = std::cos(theta_r);
-  const double scale = ground.stress_scale_pa;
-  const double n = ground.soil.n;
-
-  Contact<kNodes> contact;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    // theta = theta_f - d: differences to theta_f come without cancellation
-    const double d = front_arc * nodes.t2[i];
-    const double s = vector_math::sin(d / 2);
-    const double c = vector_math::cos(d / 2);
-    const double sin_d = 2 * s * c;
-    const double versin_d = 2 * s * s;
-    contact.front.arc[i] = d;
-    contact.front.advance[i] = sin_f * versin_d + cos_f * sin_d;
-    contact.front.sin_theta[i] = sin_f - contact.front.advance[i];
-    const double rise = sin_f * sin_d - cos_f * versin_d;  // cos theta - cos theta_f
-    contact.front.cos_theta[i] = cos_f + rise;
-    contact.sigma_pa[i] = rise;
-  }
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    const double d = rear_arc * nodes.t2[i];
-    const double s = vector_math::sin(d / 2);
-    const double c = vector_math::cos(d / 2);
-    const double sin_d = 2 * s * c;
-    const double versin_d = 2 * s * s;
-    contact.rear.arc[i] = theta_f - theta_r - d;
-    contact.rear.sin_theta[i] = sin_r + (cos_r * sin_d - sin_r * versin_d);
-    contact.rear.cos_theta[i] = cos_r - (sin_r * sin_d + cos_r * versin_d);
-    contact.rear.advance[i] = sin_f - contact.rear.sin_theta[i];
-  }
-  if (n == 1) {
-    for (std::size_t i = 0; i < kNodes; ++i) contact.sigma_pa[i] *= scale;
-  } else {
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const double rise = contact.sigma_pa[i] < 1e-300 ? 1e-300 : contact.sigma_pa[i];
-      contact.sigma_pa[i] = scale * vector_math::exp(n * vector_math::log(rise));
-    }
-  }
-  return contact;
+/// Normal stress at Q = 1 where cos(theta) exceeds cos(theta_f) by `rise`, eq. (4).
+[[gnu::always_inline]] inline Vec normal_stress_pa(const Ground& ground, Vec rise) {
+  if (ground.soil.n == 1) return ground.stress_scale_pa * rise;
+  const Vec positive = rise < 1e-300 ? Vec{} + 1e-300 : rise;
+  return ground.stress_scale_pa * vector_math::exp(ground.soil.n * vector_math::log(positive));
 }
 
-template <int kNodes>
-[[gnu::always_inline]] inline Integrals integrate_at(const Ground& ground, const Angles& angles,
+/// Sums over the nodes of one side of theta_m, per unit of arc.
+struct Sums {
+  Vec cohesion_x{}, cohesion_z{}, cohesion_t{};
+  Vec stress_x{}, stress_z{}, stress_t{};
+
+  /// \param shear the mobilised share of the shear limit, signed, eq. (7)
+  [[gnu::always_inline]] void add(Vec weight, Vec weighted_sigma, Vec shear, double tan_phi,
+                                  Vec sin_theta, Vec cos_theta) {
+    const Vec cohesive = weight * shear;
+    cohesion_x += cohesive * cos_theta;
+    cohesion_z += cohesive * sin_theta;
+    cohesion_t += cohesive;
+    const Vec frictional = weighted_sigma * (tan_phi * shear);
+    stress_x += frictional * cos_theta - weighted_sigma * sin_theta;
+    stress_z += frictional * sin_theta + weighted_sigma * cos_theta;
+    stress_t += frictional;
+  }
+};
+
+/// sgn(j) (1 - exp(-|j|)), eq. (7), of a displacement counted in shear moduli.
+[[gnu::always_inline]] inline Vec mobilised(Vec j) {
+  return vector_math::with_sign(1.0 - vector_math::exp(-vector_math::abs(j)), j);
+}
+
+template <std::size_t kNodes>
+[[gnu::always_inline]] inline Integrals integrate_at(const Ground& ground, const Contact& at,
                                                      const Ratios& ratios) {
   const GradedNodes<kNodes>& nodes = graded_nodes<kNodes>();
-  const Contact<kNodes> contact = lay_out<kNodes>(ground, angles);
   const double r = ground.wheel.radius_m;
   const double kx = ground.soil.kx0_m + ground.soil.kx1_m * ratios.beta_abs_rad;
   const double rim = ratios.rim * r / kx;
   const double axle = ratios.axle * r / kx;
+  const double front_arc = at.theta_f_rad - at.theta_m_rad;
+  const double rear_arc = at.theta_m_rad - at.theta_r_rad;
+  const double whole_arc = at.theta_f_rad - at.theta_r_rad;
 
-  Integrals sum;
-  for (const Side<kNodes>* side : {&contact.front, &contact.rear}) {
-    double ec = 0, es = 0, ee = 0, sec = 0, ses = 0, see = 0, ss = 0, sc = 0;
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const double w = nodes.weight[i];
-      const double ws = w * contact.sigma_pa[i];
-      const double cos_theta = side->cos_theta[i];
-      const double sin_theta = side->sin_theta[i];
-      const double j = rim * side->arc[i] - axle * side->advance[i];  // j_x / k_x, eq. (8)
-      const double grown = 1 - vector_math::exp(-std::abs(j));
-      const double e = j < 0 ? -grown : grown;  // eq. (7)
-      ec += w * e * cos_theta;
-      es += w * e * sin_theta;
-      ee += w * e;
-      sec += ws * e * cos_theta;
-      ses += ws * e * sin_theta;
-      see += ws * e;
-      ss += ws * sin_theta;
-      sc += ws * cos_theta;
-    }
-    const double arc = side == &contact.front ? angles.theta_f_rad - angles.theta_m_rad
-                                              : angles.theta_m_rad - angles.theta_r_rad;
-    const double rb = r * ground.wheel.width_m * arc;
-    const double c = ground.soil.cohesion_pa;
-    const double tan_phi = ground.tan_phi;
-    sum.fx_cohesion_n += rb * c * ec;
-    sum.fx_stress_n += rb * (tan_phi * sec - ss);
-    sum.fz_cohesion_n += rb * c * es;
-    sum.fz_stress_n += rb * (tan_phi * ses + sc);
-    sum.torque_cohesion_nm += rb * r * c * ee;
-    sum.torque_stress_nm += rb * r * tan_phi * see;
+  Sums front, rear;
+  for (std::size_t i = 0; i < nodes.kVectors; ++i) {
+    const Vec weight = nodes.weight[i];
+    // theta = theta_f - d: differences to theta_f come without cancellation
+    const Vec d = front_arc * nodes.t3[i];
+    const vector_math::Turn down = vector_math::turn(d);
+    const Vec advance = at.sin_f * down.versin + at.cos_f * down.sin;  // sin theta_f - sin theta
+    const Vec rise = at.sin_f * down.sin - at.cos_f * down.versin;     // cos theta - cos theta_f
+    // eq. (5): the rear nodes mirror the front ones, so the stress is the same
+    const Vec weighted_sigma = weight * normal_stress_pa(ground, rise);
+    front.add(weight, weighted_sigma, mobilised(rim * d - axle * advance), ground.tan_phi,
+              at.sin_f - advance, at.cos_f + rise);
+
+    const Vec e = rear_arc * nodes.t3[i];
+    const vector_math::Turn up = vector_math::turn(e);
+    const Vec sin_theta = at.sin_r + (at.cos_r * up.sin - at.sin_r * up.versin);
+    const Vec cos_theta = at.cos_r - (at.sin_r * up.sin + at.cos_r * up.versin);
+    rear.add(weight, weighted_sigma,
+             mobilised(rim * (whole_arc - e) - axle * (at.sin_f - sin_theta)), ground.tan_phi,
+             sin_theta, cos_theta);
   }
-  return sum;
+  const double b = ground.wheel.width_m;
+  const auto resultant = [&](const Vec Sums::*x, const Vec Sums::*z, const Vec Sums::*t) {
+    const auto both = [&](const Vec Sums::*part) {
+      return r * b * vector_math::sum(front_arc * (front.*part) + rear_arc * (rear.*part));
+    };
+    return Resultant{.fx_n = both(x), .fz_n = both(z), .torque_nm = r * both(t)};
+  };
+  return {.cohesion = ground.soil.cohesion_pa *
+                      resultant(&Sums::cohesion_x, &Sums::cohesion_z, &Sums::cohesion_t),
+          .stress = resultant(&Sums::stress_x, &Sums::stress_z, &Sums::stress_t)};
 }
 
-template <int kNodes>
-[[gnu::always_inline]] inline double shear_side_force_n(const Ground& ground, const Angles& angles,
-                                                        const Ratios& ratios, double q) {
+/// |Fy| = Fu + M Fs, eqs. (9)(12), with Fs given.
+template <std::size_t kNodes>
+[[gnu::always_inline]] inline double side_force_at(const Ground& ground, const Contact& at,
+                                                   const Ratios& ratios, double q,
+                                                   double bulldozing_n) {
   const GradedNodes<kNodes>& nodes = graded_nodes<kNodes>();
-  const Contact<kNodes> contact = lay_out<kNodes>(ground, angles);
   const double r = ground.wheel.radius_m;
   const double ky = ground.soil.ky0_m + ground.soil.ky1_m * ratios.beta_abs_rad;
   const double lateral = ratios.lateral * r / ky;
-  const double c = ground.soil.cohesion_pa;
-  const double q_tan_phi = q * ground.tan_phi;
-  double front = 0, rear = 0;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    const double w = nodes.weight[i] * (c + contact.sigma_pa[i] * q_tan_phi);
-    front += w * (1 - vector_math::exp(-lateral * contact.front.arc[i]));  // eqs. (10)(11)
-    rear += w * (1 - vector_math::exp(-lateral * contact.rear.arc[i]));
+  const double front_arc = at.theta_f_rad - at.theta_m_rad;
+  const double rear_arc = at.theta_m_rad - at.theta_r_rad;
+  const double whole_arc = at.theta_f_rad - at.theta_r_rad;
+  Vec total{};
+  for (std::size_t i = 0; i < nodes.kVectors; ++i) {
+    const Vec d = front_arc * nodes.t3[i];
+    const vector_math::Turn down = vector_math::turn(d);
+    const Vec sigma = normal_stress_pa(ground, at.sin_f * down.sin - at.cos_f * down.versin);
+    const Vec limit =
+        nodes.weight[i] * (ground.soil.cohesion_pa + sigma * (q * ground.tan_phi));  // eq. (10)
+    const Vec e = rear_arc * nodes.t3[i];
+    total += limit * (front_arc * (1.0 - vector_math::exp(-lateral * d)) +
+                      rear_arc * (1.0 - vector_math::exp(-lateral * (whole_arc - e))));  // eq. (11)
   }
-  return r * ground.wheel.width_m *
-         (front * (angles.theta_f_rad - angles.theta_m_rad) +
-          rear * (angles.theta_m_rad - angles.theta_r_rad));  // eq. (12)
+  const Vec whole = Vec{} + whole_arc;
+  const double mobilisation = 1 - vector_math::exp(-lateral * whole)[0];
+  return r * ground.wheel.width_m * vector_math::sum(total) + mobilisation * bulldozing_n;
 }
 
 /// Int Rb (r - h cos) dtheta over the contact, eq. (17), in closed form: with C = cos theta,
 /// h = r (C - C_f) where that is positive.
-double bulldozing_integral_n(const Ground& ground, const Angles& angles) {
+double bulldozing_integral_n(const Ground& ground, const Contact& at) {
   const double r = ground.wheel.radius_m;
-  const double c_f = std::cos(angles.theta_f_rad);
-  const double from = std::max(angles.theta_r_rad, -angles.theta_f_rad);
-  const double to = angles.theta_f_rad;
+  const double c_f = at.cos_f;
   // integrals of C^k, k = 0..4
-  const auto primitive = [](double theta) {
-    const double s = std::sin(theta), c = std::cos(theta);
+  const auto primitive = [](double theta, double s, double c) {
     const double i2 = (theta + s * c) / 2;
     return std::array<double, 5>{theta, s, i2, s - s * s * s / 3, s * c * c * c / 4 + 0.75 * i2};
   };
-  const std::array<double, 5> upper = primitive(to), lower = primitive(from);
+  const bool rear_is_higher = at.theta_r_rad < -at.theta_f_rad;
+  const std::array<double, 5> upper = primitive(at.theta_f_rad, at.sin_f, at.cos_f);
+  const std::array<double, 5> lower = rear_is_higher
+                                          ? primitive(-at.theta_f_rad, -at.sin_f, at.cos_f)
+                                          : primitive(at.theta_r_rad, at.sin_r, at.cos_r);
   std::array<double, 5> i{};
   for (std::size_t k = 0; k < 5; ++k) i[k] = upper[k] - lower[k];
   const double h1 = i[1] - c_f * i[0];
@@ -217,24 +190,29 @@ double bulldozing_integral_n(const Ground& ground, const Angles& angles) {
                                ground.bulldoze_weight * r * r * r * (h2 - h3c));
 }
 
-REGOPLAN_VECTOR_CLONES Integrals integrate_fast(const Ground& ground, const Angles& angles,
-                                                const Ratios& ratios) {
-  return integrate_at<16>(ground, angles, ratios);
+REGOPLAN_VECTOR_CLONES Integrals integrate_8(const Ground& ground, const Contact& contact,
+                                             const Ratios& ratios) {
+  return integrate_at<8>(ground, contact, ratios);
 }
-
-REGOPLAN_VECTOR_CLONES Integrals integrate_exact(const Ground& ground, const Angles& angles,
-                                                 const Ratios& ratios) {
-  return integrate_at<40>(ground, angles, ratios);
+REGOPLAN_VECTOR_CLONES Integrals integrate_12(const Ground& ground, const Contact& contact,
+                                              const Ratios& ratios) {
+  return integrate_at<12>(ground, contact, ratios);
 }
-
-REGOPLAN_VECTOR_CLONES double shear_side_force_fast_n(const Ground& ground, const Angles& angles,
-                                                      const Ratios& ratios, double q) {
-  return shear_side_force_n<16>(ground, angles, ratios, q);
+REGOPLAN_VECTOR_CLONES Integrals integrate_20(const Ground& ground, const Contact& contact,
+                                              const Ratios& ratios) {
+  return integrate_at<20>(ground, contact, ratios);
 }
-
-REGOPLAN_VECTOR_CLONES double shear_side_force_exact_n(const Ground& ground, const Angles& angles,
-                                                       const Ratios& ratios, double q) {
-  return shear_side_force_n<40>(ground, angles, ratios, q);
+REGOPLAN_VECTOR_CLONES Integrals integrate_40(const Ground& ground, const Contact& contact,
+                                              const Ratios& ratios) {
+  return integrate_at<40>(ground, contact, ratios);
+}
+REGOPLAN_VECTOR_CLONES double side_force_12_n(const Ground& ground, const Contact& contact,
+                                              const Ratios& ratios, double q, double bulldozing_n) {
+  return side_force_at<12>(ground, contact, ratios, q, bulldozing_n);
+}
+REGOPLAN_VECTOR_CLONES double side_force_20_n(const Ground& ground, const Contact& contact,
+                                              const Ratios& ratios, double q, double bulldozing_n) {
+  return side_force_at<20>(ground, contact, ratios, q, bulldozing_n);
 }
 
 }  // namespace
@@ -245,38 +223,51 @@ Ground::Ground(const Wheel& wheel_, const Soil& soil_, double gravity_mps2)
   const double xc = std::numbers::pi / 4 - phi / 2;  // eq. (15)
   const double cot_xc = 1 / std::tan(xc);
   tan_phi = std::tan(phi);
+  sqrt_lambda = std::sqrt(soil.lambda);
   stress_scale_pa = std::pow(wheel.radius_m, soil.n) * (soil.kc / wheel.width_m + soil.kphi);
   bulldoze_d1 = cot_xc + std::tan(xc + phi);
   const double d2 = cot_xc + cot_xc * cot_xc * tan_phi;
   bulldoze_weight = d2 * soil.density_kgpm3 * gravity_mps2 / 2;
 }
 
-Angles angles_at(const Ground& ground, double theta_f_rad, double slip) {
-  // acos(1 - lambda h/r) with h/r = 1 - cos theta_f, without cancellation at small angles
-  const double sin_half = std::sin(theta_f_rad / 2);
-  const double exit_sin_half = std::sqrt(ground.soil.lambda) * sin_half;
+Contact contact_at(const Ground& ground, double theta_f_rad, double slip) {
+  // h/r = 2 z^2 with z = sin(theta_f/2); acos(1 - lambda h/r) = 2 asin(sqrt(lambda) z): neither
+  // cancels at small angles
+  const double z = std::sin(theta_f_rad / 2);
+  const double z_exit = std::min(ground.sqrt_lambda * z, 1.0);
   return {.theta_f_rad = theta_f_rad,
-          .theta_r_rad = -2 * std::asin(std::min(exit_sin_half, 1.0)),
-          .theta_m_rad = (ground.soil.a0 + ground.soil.a1 * slip) * theta_f_rad};
+          .theta_r_rad = -2 * std::asin(z_exit),
+          .theta_m_rad = (ground.soil.a0 + ground.soil.a1 * slip) * theta_f_rad,
+          .sin_f = 2 * z * std::sqrt(1 - z * z),
+          .cos_f = 1 - 2 * z * z,
+          .sin_r = -2 * z_exit * std::sqrt(1 - z_exit * z_exit),
+          .cos_r = 1 - 2 * z_exit * z_exit};
 }
 
-Integrals integrate(const Ground& ground, const Angles& angles, const Ratios& ratios,
+Integrals integrate(const Ground& ground, const Contact& contact, const Ratios& ratios,
                     WheelAccuracy accuracy) {
-  return accuracy == WheelAccuracy::kFast ? integrate_fast(ground, angles, ratios)
-                                          : integrate_exact(ground, angles, ratios);
+  // Where the shear has corners it takes more nodes: almost locked, it grows within a sliver at the
+  // entry; braking lightly, jx starts forward and turns back, and eq. (7) has a corner at jx = 0.
+  constexpr double kNearlyLocked = 12, kDeepCosine = 0.7, kAlmostSunkCosine = 0.5;
+  const bool nearly_locked = ratios.axle > kNearlyLocked || ratios.rim < 1;
+  const bool shear_turns = ratios.axle > ratios.rim && ratios.axle * contact.cos_f < ratios.rim;
+  if (accuracy == WheelAccuracy::kExact) {
+    return shear_turns || contact.cos_f < kAlmostSunkCosine ? integrate_40(ground, contact, ratios)
+                                                            : integrate_20(ground, contact, ratios);
+  }
+  if (shear_turns && contact.cos_f < kDeepCosine) return integrate_20(ground, contact, ratios);
+  return nearly_locked ? integrate_12(ground, contact, ratios)
+                       : integrate_8(ground, contact, ratios);
 }
 
-double side_force_n(const Ground& ground, const Angles& angles, const Ratios& ratios,
+double side_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios,
                     double stress_scale_q, WheelAccuracy accuracy) {
   constexpr double kNoLateralMotion = 1e-100;
   if (ratios.lateral < kNoLateralMotion) return 0;
-  const double fu = accuracy == WheelAccuracy::kFast
-                        ? shear_side_force_fast_n(ground, angles, ratios, stress_scale_q)
-                        : shear_side_force_exact_n(ground, angles, ratios, stress_scale_q);
-  const double ky = ground.soil.ky0_m + ground.soil.ky1_m * ratios.beta_abs_rad;
-  const double mobilisation = -std::expm1(-ground.wheel.radius_m * ratios.lateral *
-                                          (angles.theta_f_rad - angles.theta_r_rad) / ky);
-  return fu + mobilisation * bulldozing_integral_n(ground, angles);
+  const double bulldozing_n = bulldozing_integral_n(ground, contact);
+  return accuracy == WheelAccuracy::kFast
+             ? side_force_12_n(ground, contact, ratios, stress_scale_q, bulldozing_n)
+             : side_force_20_n(ground, contact, ratios, stress_scale_q, bulldozing_n);
 }
 
 }  // namespace regoplan::wheel_contact

@@ -19,6 +19,7 @@ struct Ground {
   Wheel wheel;
   Soil soil;
   double tan_phi = 0;
+  double sqrt_lambda = 0;
   double stress_scale_pa = 0;  ///< r^n (kc/b + kphi), eq. (5)
   double bulldoze_d1 = 0;      ///< D1 = cot Xc + tan(Xc + phi), eq. (16)
   double bulldoze_weight = 0;  ///< D2 rho g / 2, eq. (16), N/m^3
@@ -39,32 +40,43 @@ struct Ratios {
 };
 
 /// Where the wheel touches the soil. Angles from the downward vertical, forward positive.
-struct Angles {
+struct Contact {
   double theta_f_rad = 0;
   double theta_r_rad = 0;
   double theta_m_rad = 0;
+  double sin_f = 0, cos_f = 1;
+  double sin_r = 0, cos_r = 1;
 };
 
 /// theta_r and theta_m that go with an entry angle at a slip ratio, eq. (6).
-Angles angles_at(const Ground& ground, double theta_f_rad, double slip);
+Contact contact_at(const Ground& ground, double theta_f_rad, double slip);
 
-/// Integrals over the contact. With the stress scaled by Q they are c-part + Q sigma-part.
+/// Fx, Fz and T of one part of the stress.
+struct Resultant {
+  double fx_n = 0, fz_n = 0, torque_nm = 0;
+};
+
+inline Resultant operator+(const Resultant& a, const Resultant& b) {
+  return {a.fx_n + b.fx_n, a.fz_n + b.fz_n, a.torque_nm + b.torque_nm};
+}
+inline Resultant operator*(double q, const Resultant& a) {
+  return {q * a.fx_n, q * a.fz_n, q * a.torque_nm};
+}
+
+/// Integrals over the contact. With the normal stress scaled by Q the resultant is
+/// cohesion + Q stress.
 struct Integrals {
-  double fx_cohesion_n = 0, fx_stress_n = 0;
-  double fz_cohesion_n = 0, fz_stress_n = 0;
-  double torque_cohesion_nm = 0, torque_stress_nm = 0;
+  Resultant cohesion, stress;
 
-  double fx_n(double q) const { return fx_cohesion_n + q * fx_stress_n; }
-  double fz_n(double q) const { return fz_cohesion_n + q * fz_stress_n; }
-  double torque_nm(double q) const { return torque_cohesion_nm + q * torque_stress_nm; }
+  Resultant at(double q) const { return cohesion + q * stress; }
 };
 
 /// Fx, Fz and T by Gauss-Legendre quadrature on either side of theta_m, eqs. (2)-(8).
-Integrals integrate(const Ground& ground, const Angles& angles, const Ratios& ratios,
+Integrals integrate(const Ground& ground, const Contact& contact, const Ratios& ratios,
                     WheelAccuracy accuracy);
 
 /// |Fy| = Fu + Fs, eqs. (9)-(17), with the mobilisation factor M of the bulldozing force.
-double side_force_n(const Ground& ground, const Angles& angles, const Ratios& ratios,
+double side_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios,
                     double stress_scale_q, WheelAccuracy accuracy);
 
 }  // namespace regoplan::wheel_contact

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "terramech/sinkage_solver.h"
 #include "terramech/soil.h"
 #include "terramech/wheel.h"
 #include "terramech/wheel_contact.h"
@@ -88,6 +89,7 @@ class WheelModel {
   WheelModelSpec spec_;
   WheelAccuracy accuracy_;
   wheel_contact::Ground ground_;
+  wheel_contact::SinkageSolver solver_;
 };
 
 }  // namespace regoplan

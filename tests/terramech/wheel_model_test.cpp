@@ -13,53 +13,19 @@
 #include <vector>
 
 #include "terramech/input_error.h"
+#include "tests/terramech/wheel_specs.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
-Soil simulant() {
-  return {.cohesion_pa = 800,
-          .friction_angle_rad = 37.2 * kDegree,
-          .kc = 1.37e3,
-          .kphi = 8.14e5,
-          .n = 1,
-          .a0 = 0.40,
-          .a1 = 0.15,
-          .lambda = 0.9,
-          .density_kgpm3 = 1600,
-          .kx0_m = 0.036,
-          .kx1_m = 0.043,
-          .ky0_m = 0.013,
-          .ky1_m = 0.020};
-}
-
-Soil simulant_2004() {
-  return {.cohesion_pa = 800,
-          .friction_angle_rad = 37.2 * kDegree,
-          .kc = 1.79e6,
-          .kphi = 1.95e6,
-          .n = 1,
-          .a0 = 0.40,
-          .a1 = 0.15,
-          .lambda = 0,
-          .density_kgpm3 = 1600,
-          .kx0_m = 0.004,
-          .ky0_m = 0.045,
-          .c0_m = 0.031};
-}
+using wheel_specs::kDegree;
+using wheel_specs::NamedSpec;
 
 WheelModelSpec spec_2007() {
-  return {.variant = WheelVariant::kIshigami2007,
-          .wheel = {.radius_m = 0.09, .width_m = 0.10},
-          .soil = simulant()};
+  return wheel_specs::ishigami2007();
 }
-
 WheelModelSpec spec_2004() {
-  return {.variant = WheelVariant::kYoshida2004,
-          .wheel = {.radius_m = 0.09, .width_m = 0.10},
-          .soil = simulant_2004()};
+  return wheel_specs::yoshida2004();
 }
 
 using Row = std::map<std::string, std::string>;

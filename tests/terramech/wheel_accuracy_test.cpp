@@ -1,0 +1,67 @@
+// The direct model against adaptive quadrature and a bracketing root finder that share no code with
+// it, over the whole domain.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "tests/terramech/wheel_reference.h"
+#include "tests/terramech/wheel_specs.h"
+
+namespace regoplan {
+namespace {
+
+struct Condition {
+  double load_n, slip, beta_rad;
+};
+
+/// Loads of 2 to 300 % of nominal, uniform in their logarithm; a quarter of the conditions uniform
+/// in slip and slip angle, the others close to a locked wheel, to free rolling, to +-90 deg.
+std::vector<Condition> conditions(double nominal_load_n, int count) {
+  std::mt19937_64 random(20040);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Condition> result;
+  for (int i = 0; i < count; ++i) {
+    Condition at{.load_n = nominal_load_n * 0.02 * std::pow(150, uniform(random)),
+                 .slip = 2 * uniform(random) - 1,
+                 .beta_rad = (2 * uniform(random) - 1) * std::numbers::pi / 2};
+    const double close = std::pow(10, -5 * uniform(random));
+    if (i % 4 == 1) at.slip = close - 1;
+    if (i % 4 == 2) at.slip = std::copysign(close, at.slip);
+    if (i % 4 == 3) at.beta_rad = std::copysign(std::numbers::pi / 2 - close, at.beta_rad);
+    result.push_back(at);
+  }
+  return result;
+}
+
+void expect_within(WheelAccuracy accuracy, double bound) {
+  for (const auto& [name, spec, nominal_load_n] : wheel_specs::all()) {
+    const WheelModel model(spec, accuracy);
+    const wheel_reference::Reference reference(spec, 1e-8);
+    for (const Condition& at : conditions(nominal_load_n, 160)) {
+      const auto expected = reference.forces(at.load_n, at.slip, at.beta_rad);
+      const WheelForces forces = model.forces(at.load_n, motion_at(at.slip, at.beta_rad));
+      const std::string where = name + " load " + std::to_string(at.load_n) + " slip " +
+                                std::to_string(at.slip) + " angle " + std::to_string(at.beta_rad);
+      ASSERT_EQ(has_forces(forces.status), expected.carried) << where;
+      if (!expected.carried) continue;
+      const double allowed = bound * at.load_n;
+      EXPECT_NEAR(forces.fx_n, expected.fx_n, allowed) << where;
+      EXPECT_NEAR(forces.fy_n, expected.fy_n, allowed) << where;
+      EXPECT_NEAR(forces.torque_nm, expected.torque_nm, allowed * spec.wheel.radius_m) << where;
+    }
+  }
+}
+
+}  // namespace
+
+TEST(WheelAccuracy, ExactIsWithinThreeMillionthsOfTheLoad) {
+  expect_within(WheelAccuracy::kExact, 3e-6);
+}
+
+TEST(WheelAccuracy, FastIsWithinOneAndAHalfTenThousandthsOfTheLoad) {
+  expect_within(WheelAccuracy::kFast, 1.5e-4);
+}
+
+}  // namespace regoplan
