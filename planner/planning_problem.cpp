@@ -38,13 +38,13 @@ void validate_place(const TerrainMap& map, const char* what, double x_m, double 
 void validate(const Limits& limits) {
   require("limits.margin_min", limits.margin_min, limits.margin_min >= 0 && limits.margin_min < 1,
           "0 to below 1");
-  require("limits.slip_max", limits.slip_max, limits.slip_max > 0 && limits.slip_max <= 0.9,
-          "above 0 to 0.9");
+  require("limits.slip_max", limits.slip_max, limits.slip_max > 0 && limits.slip_max <= 0.95,
+          "above 0 to 0.95");
   require("limits.slip_angle_max_deg", limits.slip_angle_max_rad / kDegree,
           limits.slip_angle_max_rad > 0 && limits.slip_angle_max_rad <= 60 * kDegree,
           "above 0 to 60");
   require("limits.slope_max_deg", limits.slope_max_rad / kDegree,
-          limits.slope_max_rad > 0 && limits.slope_max_rad <= 45 * kDegree, "above 0 to 45");
+          limits.slope_max_rad > 0 && limits.slope_max_rad <= 60 * kDegree, "above 0 to 60");
   require("limits.sinkage_max_m", limits.sinkage_max_m, limits.sinkage_max_m > 0, "above 0");
 }
 
