@@ -5,7 +5,6 @@
 namespace regoplan {
 
 void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
-  const ValueRange whole{.min = 1, .max = 100000};
   parser.add_option("--planner", overrides.planner, "auto, SST, RRT, KPIECE1, EST or PDST")
       ->type_name("NAME")
       ->check(one_of(planner_names()));
@@ -23,10 +22,10 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
       ->excludes(time);
   parser.add_option("--candidates", overrides.candidates, "how many paths to look for")
       ->type_name("N")
-      ->check(in_range(whole));
+      ->check(in_range({.min = 1, .max = 100}));
   parser.add_option("--threads", overrides.threads, "default: all cores; changes no result")
       ->type_name("N")
-      ->check(in_range(whole));
+      ->check(in_range({.min = 1, .max = kThreadsMax}));
 }
 
 void add_stub_options(CLI::App& parser, ScenarioStub& stub) {

@@ -136,7 +136,7 @@ Search overridden(Search search, const ScenarioOverrides& overrides) {
   }
   if (!search.time_s && !search.iterations) search.time_s = kDefaultTime_s;
   search.threads = overrides.threads.value_or(
-      static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+      std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kThreadsMax));
   return search;
 }
 

@@ -11,6 +11,8 @@
 
 namespace regoplan {
 
+inline constexpr int kThreadsMax = 256;
+
 /// What a command line says in place of the scenario.
 struct ScenarioOverrides {
   std::optional<std::string> model_file{};
