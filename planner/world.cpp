@@ -108,7 +108,8 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   if (!problem_.map.inside(state.x_m, state.y_m)) return because(Rejection::kBounds, 0, 0);
   // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
   const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
-  if (speed > problem_.speed_max_mps * (1 + kRounding)) {
+  const double speed_reserve = use_ == WorldUse::kSearch ? 0.995 : 1 + kRounding;
+  if (speed > problem_.speed_max_mps * speed_reserve) {
     return because(Rejection::kBounds, speed, problem_.speed_max_mps);
   }
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
