@@ -20,6 +20,12 @@ double approach(double value, double target, double rate_max, double duration_s)
   return std::abs(target - value) <= step ? target : value + std::copysign(step, target - value);
 }
 
+/// What makes forces vanish with the speed that they oppose. A locked wheel shears the soil fully
+/// along either axis of its own, whichever way it slides: without this its forces would jump.
+double fade(double speed_mps) {
+  return speed_mps / (speed_mps + VehicleDynamics::kStandstillSpeed_mps);
+}
+
 Eigen::Vector3d vector_of(const BodyMotion& motion) {
   return {motion.vx_mps, motion.vy_mps, motion.yaw_rate_rad_s};
 }
@@ -85,11 +91,10 @@ VehicleDynamics::WheelSums VehicleDynamics::wheel_sums(const BodyMotion& motion,
         wheel_motion(mount, wheel, motion, stage.rim_speed_mps * wheel.rim_speed_per_speed);
     const auto faded = [&](const WheelMotion& m) {
       WheelForces forces = law.forces(load, m);
-      const double speed = std::hypot(m.vx_mps, m.vy_mps, m.rim_speed_mps);
-      const double fade = speed / (speed + kStandstillSpeed_mps);
-      forces.fx_n *= fade;
-      forces.fy_n *= fade;
-      forces.torque_nm *= fade;
+      const double fade_x = fade(std::hypot(m.vx_mps, m.rim_speed_mps));
+      forces.fx_n *= fade_x;
+      forces.fy_n *= fade(std::hypot(m.vy_mps, m.rim_speed_mps));
+      forces.torque_nm *= fade_x;
       return forces;
     };
     const WheelForces forces = faded(at);
@@ -136,9 +141,12 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
   const Eigen::Vector3d per_force{1 / m, 1 / m, 1 / inertia};
   const double h = stage.step_s;
   const double lag = h / (h + kTransferTime_s);
-  double error_before = 0;
+  const Eigen::Vector3d in_mps{1, 1, std::sqrt(inertia / m)};
+  double error_before = 0, missing_before = 0;
   bool slows = false;
-  for (int iteration = 0; iteration < 25; ++iteration) {
+  Eigen::Vector3d velocity_before = stage.velocity;
+  int halvings = 0;
+  for (int iteration = 0; iteration < 40; ++iteration) {
     // The slopes are dear: taken anew only where the old ones slow the convergence down.
     const bool with_slopes = !stage.newton || slows;
     const Eigen::Vector3d& v = stage.velocity;
@@ -160,6 +168,17 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
     stage.drive_power_w = sums.drive_power_w;
 
     const Eigen::Vector3d missing = stage.base + h * stage.acceleration - v;
+    const double missing_mps = missing.cwiseProduct(in_mps).norm();
+    if (iteration > 0 && missing_mps > missing_before && halvings < 10) {
+      // Sliding friction saturates: a whole step may only change the direction of the slide.
+      ++halvings;
+      slows = true;
+      stage.velocity = (stage.velocity + velocity_before) / 2;
+      continue;
+    }
+    halvings = 0;
+    missing_before = missing_mps;
+    velocity_before = v;
     if (with_slopes) {
       Eigen::Matrix3d jacobian = per_force.asDiagonal() * sums.slopes;
       jacobian(0, 1) += v[2];
@@ -256,7 +275,7 @@ StepResult VehicleDynamics::try_step(const VehicleState& state, const VehicleCon
       drift(PatchAxes(first.patch, gravity_mps2_), first.velocity, pose_first[2]);
 
   const double rest = (1 - kGamma) / kGamma;  // (1 - gamma) h K1 = rest (stage value - start)
-  const Eigen::Vector3d base = velocity + (1 - kGamma) * h * first.acceleration;
+  const Eigen::Vector3d base = velocity + rest * (first.velocity - velocity);
   const double forward_base =
       state.transfer_forward_n + rest * (first.transfer_forward_n - state.transfer_forward_n);
   const double left_base =
