@@ -1,4 +1,5 @@
 # Fails when a folder includes against the arrows of the house, or OMPL outside planner/.
+cmake_minimum_required(VERSION 3.25)  # a script of its own: without it IN_LIST is unknown
 set(terramech_may terramech)
 set(maps_may terramech maps)
 set(planner_may terramech maps planner)

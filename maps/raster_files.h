@@ -1,18 +1,21 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
+#include "maps/rock_files.h"
 #include "maps/terrain_map.h"
 
 namespace regoplan {
 
-/// Reads band 1 of any raster that GDAL knows. Nodata and NaN cells become NaN: unknown.
+/// Reads band 1 of any raster that GDAL knows; its scale and offset are applied. Nodata, masked and
+/// NaN cells become NaN: unknown.
 /// \throws InputError naming the file and what is wrong with it: missing, not a raster, rotated or
-/// south-up, a geographic CRS (degrees; names the remedy), not one band of numbers, no known cell
+/// south-up, a CRS in degrees or feet (names the remedy), no numbers, no known cell, a height that
+/// cannot be one (beyond 1000 km)
 ElevationRaster read_elevation(const std::string& file);
 
-/// Reads band 1 of any raster of integers that GDAL knows; nodata becomes `ClassRaster::kNoData`.
+/// Reads band 1 of any raster of integers that GDAL knows, whatever number type holds them; nodata,
+/// masked and NaN cells become `ClassRaster::kNoData`.
 /// \throws InputError as above, and where a cell is not an integer
 ClassRaster read_classes(const std::string& file);
 
@@ -22,13 +25,8 @@ ClassRaster read_classes(const std::string& file);
 std::string adopt_crs(ClassRaster& classes, const GridFrame& elevation,
                       const std::string& classes_file);
 
-/// Write GeoTIFF. \throws InputError where the file cannot be written
+/// Write GeoTIFF, whole or not at all. \throws InputError where the file cannot be written
 void write_elevation(const ElevationRaster& elevation, const std::string& file);
 void write_classes(const ClassRaster& classes, const std::string& file);
-
-/// Reads `x_m, y_m, radius_m, height_m` with a header line, in any column order.
-/// \throws InputError naming file, line, column and value
-std::vector<Rock> read_rocks(const std::string& file);
-void write_rocks(const std::vector<Rock>& rocks, const std::string& file);
 
 }  // namespace regoplan

@@ -72,8 +72,29 @@ struct Vehicle {
   double step_max_m = 0;  ///< rocks up to this height are driven over
 };
 
-/// \throws ValueError or InputError naming the field that cannot be
+/// Checks every field, and what only fields together decide:
+/// - at least three wheels with names of their own, not all on a line, the centre of gravity within
+///   the polygon of their contacts, one of them driven;
+/// - each steered wheel off the line of turn centres, its angle at `curvature_max_1pm`, either
+///   side, at least 1 deg within `steer_angle_max_rad` (trim needs room to steer against slip);
+/// - rocker-bogie: six wheels in three axles, each pivot between what it carries;
+/// - rocks that are driven over pass below the body; the sinkage limit is below the axle.
+/// \throws ValueError or InputError naming the field, as it stands in files, that cannot be
 void validate(const Vehicle& vehicle);
+
+/// Ackermann angle of a wheel, left positive, for slip-free rotation about the point
+/// (x_c, y_c) of the vehicle frame, x_c = `turn_centre_x_m`, y_c = sign(k) sqrt(1/k^2 - x_c^2):
+///   tan(angle) = (x - x_c) / (y_c - y) = k (x - x_c) / (sqrt(1 - k^2 x_c^2) - k y).
+/// The second form is used: exact to rounding down to k = 0 and exactly odd under reflection
+/// (k -> -k, y -> -y). Zero for a wheel that does not steer.
+/// \param curvature_1pm k, signed curvature of the path of the vehicle's origin, left positive
+/// \returns radians; beyond +-pi/2 where the turn centre lies between the wheels (no valid vehicle
+/// commands that), NaN where |k x_c| > 1 (no such turn)
+double steer_angle_rad(const Vehicle& vehicle, const WheelMount& wheel, double curvature_1pm);
+
+/// Body slip angle of the origin, atan2(v_y, v_x), in the slip-free rotation of
+/// `steer_angle_rad`: -asin(k x_c). Radians, odd in k, NaN where |k x_c| > 1.
+double kinematic_body_slip_angle_rad(const Vehicle& vehicle, double curvature_1pm);
 
 /// The vehicles that regoplan brings: `tohoku`, `lrv`, `curiosity`.
 /// \throws InputError for another name, listing these

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace regoplan {
+
+/// The shortest text that reads back to the same number; empty for NaN and infinities.
+std::string number_cell(double value);
+
+/// Text as a CSV cell, quoted where it must be.
+std::string text_cell(std::string_view text);
+
+/// The cells of one line, quotes taken off. Nothing where a quote is not closed.
+std::optional<std::vector<std::string>> split_cells(std::string_view line);
+
+}  // namespace regoplan

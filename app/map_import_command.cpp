@@ -1,0 +1,71 @@
+#include <memory>
+#include <optional>
+
+#include "app/command.h"
+#include "app/map_folder.h"
+#include "app/map_summary.h"
+#include "app/plan_options.h"
+#include "app/soil_settings.h"
+#include "app/staged_files.h"
+#include "maps/raster_files.h"
+
+namespace regoplan {
+namespace {
+
+struct MapImportOptions {
+  std::string elevation;
+  std::optional<std::string> classes;
+  std::string soils;
+  std::optional<std::string> rocks;
+  ScenarioStub stub{.vehicle = "lrv"};
+  std::filesystem::path out;
+  bool json = false;
+  bool quiet = false;
+};
+
+ExitStatus run_map_import(const MapImportOptions& options) {
+  require_writable_folder(options.out);
+  SoilCatalogue soils =
+      read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
+  ElevationRaster elevation = read_elevation(options.elevation);
+  std::optional<ClassRaster> classes;
+  if (options.classes) {
+    classes = read_classes(*options.classes);
+    const std::string notice = adopt_crs(*classes, elevation.frame, *options.classes);
+    if (!notice.empty()) notify(notice, options.quiet);
+  }
+  std::vector<Rock> rocks;
+  if (options.rocks) rocks = read_rocks(*options.rocks);
+  const TerrainMap map(std::move(elevation), std::move(classes), std::move(soils),
+                       std::move(rocks));
+  write_map_folder(map, options.stub, options.out);
+  print_map_written(map, options.out, options.json, options.quiet);
+  return kYes;
+}
+
+}  // namespace
+
+Command add_map_import_command(CLI::App& map) {
+  const auto options = std::make_shared<MapImportOptions>();
+  CLI::App* parser = map.add_subcommand(
+      "import",
+      "Check an elevation raster, a class raster and their soils, and make a map of them.\n"
+      "Writes dem.tif, classes.tif, soils.yaml, rocks.csv and scenario.yaml.");
+  parser->add_option("--elevation", options->elevation, "any raster that GDAL reads, metres")
+      ->type_name("FILE")
+      ->required();
+  parser->add_option("--soil-class", options->classes, "raster of integers, same CRS, own grid")
+      ->type_name("FILE");
+  parser->add_option("--soils", options->soils, "classes, soils, unmapped")
+      ->type_name("FILE.yaml")
+      ->required();
+  parser->add_option("--rocks", options->rocks, "x_m, y_m, radius_m, height_m")
+      ->type_name("FILE.csv");
+  parser->add_option("--out", options->out, "folder for the map")->type_name("DIR")->required();
+  add_stub_options(*parser, options->stub);
+  parser->get_option("--gravity-mps2")->required();
+  add_output_flags(*parser, options->json, options->quiet);
+  return {parser, [options] { return run_map_import(*options); }};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "app/command.h"
+#include "app/map_folder.h"
+#include "app/map_summary.h"
+#include "app/plan_options.h"
+#include "app/share_files.h"
+#include "app/soil_settings.h"
+#include "app/staged_files.h"
+#include "maps/synthetic_terrain.h"
+#include "terramech/input_error.h"
+#include "terramech/vehicle.h"
+
+namespace regoplan {
+namespace {
+
+struct MapMakeOptions {
+  SyntheticTerrainSettings terrain;
+  std::string soils = share_file("scenarios/demo/soils.yaml");
+  ScenarioStub stub{.vehicle = "lrv", .gravity_mps2 = 1.62};
+  std::filesystem::path out;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `cell_m` is given as `--cell-m`.
+std::string option_name(std::string field) {
+  std::ranges::replace(field, '_', '-');
+  return "--" + field;
+}
+
+SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings) {
+  try {
+    return make_synthetic_terrain(settings);
+  } catch (const ValueError& bad) {
+    throw ValueError(option_name(bad.field()), bad.value(), bad.allowed());
+  }
+}
+
+ExitStatus run_map_make(const MapMakeOptions& options) {
+  require_writable_folder(options.out);
+  SoilCatalogue soils =
+      read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
+  for (int code = 1; code <= options.terrain.soil_zones; ++code) {
+    if (std::ranges::find(soils.classes, code, &std::pair<std::int32_t, int>::first) ==
+        soils.classes.end()) {
+      throw InputError(fmt::format("{}: classes: no soil for zone {} (--soil-zones {})",
+                                   options.soils, code, options.terrain.soil_zones));
+    }
+  }
+  SyntheticTerrain terrain = make_terrain(options.terrain);
+  const TerrainMap map(std::move(terrain.elevation), std::move(terrain.classes), std::move(soils),
+                       std::move(terrain.rocks));
+  write_map_folder(map, options.stub, options.out);
+  print_map_written(map, options.out, options.json, options.quiet);
+  return kYes;
+}
+
+}  // namespace
+
+Command add_map_make_command(CLI::App& map) {
+  const auto options = std::make_shared<MapMakeOptions>();
+  CLI::App* parser = map.add_subcommand(
+      "make",
+      "Make a synthetic terrain: craters, rocks and zones of soil. Same settings, same terrain.\n"
+      "Writes dem.tif, classes.tif, rocks.csv, soils.yaml and scenario.yaml.");
+  parser->add_option("--out", options->out, "folder for the map")->type_name("DIR")->required();
+  parser->add_option("--seed", options->terrain.seed, "of all that is drawn")
+      ->type_name("N")
+      ->check(in_range(kAtLeast0))
+      ->capture_default_str();
+  const auto number = [&](const char* name, double SyntheticTerrainSettings::*member,
+                          const char* help) {
+    parser->add_option(name, options->terrain.*member, help)
+        ->type_name("NUMBER")
+        ->check(in_range(kAnyNumber))
+        ->capture_default_str();
+  };
+  using Settings = SyntheticTerrainSettings;
+  number("--width-m", &Settings::width_m, "east to west");
+  number("--height-m", &Settings::height_m, "north to south");
+  number("--cell-m", &Settings::cell_m, "edge of a cell");
+  number("--crater-diameter-min-m", &Settings::crater_diameter_min_m, "smallest crater");
+  number("--crater-diameter-max-m", &Settings::crater_diameter_max_m, "largest crater");
+  number("--crater-density-scale", &Settings::crater_density_scale, "1: as on a lunar mare");
+  number("--roughness-m", &Settings::roughness_m, "standard deviation between craters");
+  number("--rock-coverage", &Settings::rock_coverage, "share of the area under rocks");
+  number("--rock-diameter-min-m", &Settings::rock_diameter_min_m, "smallest rock");
+  number("--rock-diameter-max-m", &Settings::rock_diameter_max_m, "largest rock");
+  number("--soil-zone-size-m", &Settings::soil_zone_size_m, "typical width of a zone");
+  parser->add_option("--soil-zones", options->terrain.soil_zones, "class codes 1 to N")
+      ->type_name("N")
+      ->check(in_range({.min = 1, .max = 1000}))
+      ->capture_default_str();
+  parser->add_option("--soils", options->soils, "soils of the zones; default: lunar soils")
+      ->type_name("FILE.yaml");
+  add_stub_options(*parser, options->stub);
+  add_output_flags(*parser, options->json, options->quiet);
+  return {parser, [options] { return run_map_make(*options); }};
+}
+
+}  // namespace regoplan

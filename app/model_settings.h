@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/settings_node.h"
+#include "terramech/wheel_model.h"
+
+namespace regoplan {
+
+/// A wheel model as a model file describes it.
+struct ModelSettings {
+  WheelModelSpec spec;                   ///< `{mean, std}` counts by its mean
+  UncertainSoil soil;                    ///< the soil with what is known of its spread
+  std::optional<std::string> soil_name;  ///< the soil of a map that these numbers replace
+};
+
+/// Reads `{model, wheel: {radius_m, width_m}, gravity_mps2, soil: {<soil keys>}, soil_name,
+/// mechanisms: []}`.
+ModelSettings read_model(const SettingsNode& node);
+ModelSettings read_model_file(const std::string& file);
+
+/// The word under which a variant stands in files: `ishigami2007`, `yoshida2004`.
+std::string variant_name(WheelVariant variant);
+
+/// Reads a wheel `{radius_m, width_m}`.
+Wheel read_wheel(const SettingsNode& node);
+
+}  // namespace regoplan

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/staged_files.h"
+#include "planner/plan_result.h"
+#include "planner/planning_problem.h"
+
+namespace regoplan {
+
+/// The text of plan.json. Two runs of the same problem under an iteration budget differ in
+/// `planning_time_s` and `verification_time_s` only.
+std::string plan_json(const PlanningProblem& problem, const PlanResult& result);
+
+/// The table of a candidate's points: candidate-K.csv.
+std::string candidate_csv(const PlanningProblem& problem, const Candidate& candidate);
+
+/// A candidate's path in map coordinates, GeoJSON with a `crs` member: candidate-K.geojson.
+std::string candidate_geojson(const PlanningProblem& problem, const Candidate& candidate);
+
+/// Writes plan.json, candidate-K.csv, candidate-K.geojson and report.html, all or none, and takes
+/// away the candidate files of an earlier plan in the same folder.
+/// \throws InputError where the folder takes no files
+void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
+                      const std::filesystem::path& folder);
+
+}  // namespace regoplan

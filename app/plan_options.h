@@ -1,0 +1,19 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "app/map_folder.h"
+#include "app/scenario_settings.h"
+
+namespace regoplan {
+
+/// The options that take the place of a scenario's `planner`. `overrides` must outlive the parsing.
+void add_search_options(CLI::App& parser, ScenarioOverrides& overrides);
+
+/// `--vehicle` and `--gravity-mps2` of the scenario that is written beside a map.
+void add_stub_options(CLI::App& parser, ScenarioStub& stub);
+
+/// `--json` and `--quiet`.
+void add_output_flags(CLI::App& parser, bool& json, bool& quiet);
+
+}  // namespace regoplan

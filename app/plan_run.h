@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/command.h"
+#include "app/scenario_settings.h"
+
+namespace regoplan {
+
+struct PlanOutput {
+  std::filesystem::path folder;
+  bool json = false;   ///< plan.json to standard output as well
+  bool quiet = false;  ///< neither notices, progress nor the table of candidates
+};
+
+/// Plans, shows progress, writes the result files and prints what came out.
+/// \throws InputError
+ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output);
+
+}  // namespace regoplan

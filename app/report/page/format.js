@@ -1,0 +1,60 @@
+// Numbers and names as text. What is not known is a dash, never a zero.
+const UNKNOWN = '\u2014';
+const isKnown = value => typeof value === 'number' && Number.isFinite(value);
+
+function fixed(value, decimals, unit = '') {
+  if (!isKnown(value)) return UNKNOWN;
+  const text = value.toFixed(decimals).replace(/^-(0(\.0*)?)$/, '$1').replace('-', '\u2212');
+  return unit ? text + '\u00a0' + unit : text;
+}
+
+const percent = (share, decimals = 0) => fixed(isKnown(share) ? 100 * share : null, decimals, '%');
+const integer = value =>
+    (isKnown(value) ? d3.format(',d')(value).replace(/,/g, '\u202f') : UNKNOWN);
+const millimetres = value_m => fixed(isKnown(value_m) ? 1000 * value_m : null, 1, 'mm');
+
+/// As many digits as say something, whatever the size: 1600, 0.036, 8.14e+5.
+function significant(value, digits = 4) {
+  if (!isKnown(value)) return UNKNOWN;
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-3)
+    return value.toExponential(digits - 2).replace(/\.?0+e/, 'e').replace('-', '\u2212');
+  return String(Number(value.toPrecision(digits))).replace('-', '\u2212');
+}
+
+const SECONDS = value_s =>
+    (isKnown(value_s) && value_s >= 120 ?
+         `${Math.floor(value_s / 60)}\u00a0min ${fixed(value_s % 60, 0, 's')}` :
+         fixed(value_s, 1, 's'));
+const energy = value_j =>
+    (isKnown(value_j) && Math.abs(value_j) >= 1e4 ? fixed(value_j / 1000, 1, 'kJ') :
+                                                    fixed(value_j, 0, 'J'));
+
+/// A name of files as words: "tip_over" as "tip over".
+const words = name => String(name).replace(/_/g, ' ');
+const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
+const place = (x_m, y_m) =>
+    `x\u00a0=\u00a0${fixed(x_m, 1, 'm')}, y\u00a0=\u00a0${fixed(y_m, 1, 'm')}`;
+
+const UNIT_ENDINGS = [
+  ['_kgpm3', 'kg/m\u00b3'],
+  ['_kgm2', 'kg m\u00b2'],
+  ['_mps2', 'm/s\u00b2'],
+  ['_1pms', '1/(m s)'],
+  ['_1pm', '1/m'],
+  ['_mps', 'm/s'],
+  ['_deg', '\u00b0'],
+  ['_pa', 'Pa'],
+  ['_kg', 'kg'],
+  ['_m', 'm'],
+  ['_s', 's'],
+  ['_n', 'N'],
+];
+
+/// A key as {name, unit}: "sinkage_max_m" as {name: "sinkage max", unit: "m"}.
+function nameAndUnit(key) {
+  const ending = UNIT_ENDINGS.find(([end]) => key.endsWith(end) && key.length > end.length);
+  return ending ? {name: words(key.slice(0, -ending[0].length)), unit: ending[1]} :
+                  {name: words(key), unit: ''};
+}

@@ -1,0 +1,164 @@
+// The terrain of a map as pictures: hillshade, soil layer, contour lines. Raster cells run row by
+// row from the north; index = row * columns + column.
+
+/// Little-endian 16-bit numbers out of base64.
+function numbersOf(base64) {
+  const bytes = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
+  const view = new DataView(bytes.buffer);
+  return Uint16Array.from({length: bytes.length / 2}, (_, i) => view.getUint16(2 * i, true));
+}
+
+/// The rasters of a report's map, with heights in metres (NaN unknown) and soils as index (-1
+/// none).
+function readTerrain(map) {
+  const raster = map.raster, {min_m, max_m} = raster.elevation;
+  const step_m = (max_m - min_m) / 65534;
+  const height_m = Float32Array.from(
+      numbersOf(raster.elevation.base64), q => (q ? min_m + (q - 1) * step_m : NaN));
+  const soil = Int16Array.from(numbersOf(raster.soil_base64), code => code - 1);
+  const terrain = {
+    columns: raster.columns,
+    rows: raster.rows,
+    cell_width_m: raster.cell_width_m,
+    cell_height_m: raster.cell_height_m,
+    height_m,
+    soil
+  };
+  terrain.indexAt = (x_m, y_m) => {
+    const column = Math.floor((x_m - map.west_m) / raster.cell_width_m);
+    const row = Math.floor((map.north_m - y_m) / raster.cell_height_m);
+    return x_m >= map.west_m && x_m < map.east_m && y_m <= map.north_m && y_m > map.south_m ?
+        row * raster.columns + column :
+        -1;
+  };
+  return terrain;
+}
+
+function rasterCanvas(terrain, paintCell) {
+  const canvas = element('canvas', {width: terrain.columns, height: terrain.rows});
+  const context = canvas.getContext('2d');
+  const image = context.createImageData(terrain.columns, terrain.rows);
+  for (let i = 0; i < terrain.columns * terrain.rows; ++i) paintCell(image.data, 4 * i, i);
+  context.putImageData(image, 0, 0);
+  return canvas;
+}
+
+/// Rise per metre to the east and to the north at a cell; 0 towards unknown neighbours.
+function gradient(terrain, i) {
+  const {columns, rows, height_m} = terrain, column = i % columns, row = (i - column) / columns;
+  const rise = (a, b, span_m) => {
+    const difference_m = height_m[b] - height_m[a];
+    return Number.isNaN(difference_m) || a === b ? 0 : difference_m / span_m;
+  };
+  const west = column > 0 ? i - 1 : i, east = column < columns - 1 ? i + 1 : i;
+  const north = row > 0 ? i - columns : i, south = row < rows - 1 ? i + columns : i;
+  return [
+    rise(west, east, (east - west) * terrain.cell_width_m),
+    rise(south, north, ((south - north) / columns) * terrain.cell_height_m)
+  ];
+}
+
+/// How much heights are stretched so that the shading shows them: the steep tenth at 25 degrees.
+function shadingStretch(terrain) {
+  const slopes = [];
+  const stride = Math.max(1, Math.floor(terrain.height_m.length / 20000));
+  for (let i = 0; i < terrain.height_m.length; i += stride)
+    if (!Number.isNaN(terrain.height_m[i])) slopes.push(Math.hypot(...gradient(terrain, i)));
+  const steep = d3.quantile(slopes.sort(d3.ascending), 0.9) || 0;
+  return steep > 0 ? Math.min(8, Math.max(1, Math.tan(25 * Math.PI / 180) / steep)) : 1;
+}
+
+/// Light from the north-west, 45 degrees high. Unknown cells stay transparent.
+function hillshade(terrain, stretch, dark) {
+  const light = [-0.5, 0.5, Math.SQRT1_2], [low, high] = dark ? [16, 168] : [70, 252];
+  return rasterCanvas(terrain, (pixels, p, i) => {
+    if (Number.isNaN(terrain.height_m[i])) return;
+    const [east, north] = gradient(terrain, i).map(g => g * stretch);
+    const lit = Math.max(
+        0,
+        (light[2] - east * light[0] - north * light[1]) /
+            Math.sqrt(1 + east * east + north * north));
+    const grey = low + (high - low) * lit;
+    pixels[p] = grey;
+    pixels[p + 1] = grey * 0.985;
+    pixels[p + 2] = grey * 0.96;
+    pixels[p + 3] = 255;
+  });
+}
+
+function soilLayer(terrain) {
+  const colours = new Map();
+  const colourOf = soil => {
+    if (!colours.has(soil)) colours.set(soil, d3.rgb(soilColour(soil)));
+    return colours.get(soil);
+  };
+  return rasterCanvas(terrain, (pixels, p, i) => {
+    if (terrain.soil[i] < 0 || Number.isNaN(terrain.height_m[i])) return;
+    const {r, g, b} = colourOf(terrain.soil[i]);
+    pixels.set([r, g, b, 255], p);
+  });
+}
+
+/// Cells that no soil is known for, or that are forbidden: where no vehicle may go.
+function forbiddenLayer(terrain) {
+  return rasterCanvas(terrain, (pixels, p, i) => {
+    if (terrain.soil[i] < 0) pixels[p + 3] = 255;
+  });
+}
+
+/// Heights averaged over three by three cells, so that contour lines follow the ground and not
+/// its roughness.
+function smoothed(terrain) {
+  const {columns, rows, height_m} = terrain;
+  return Float32Array.from(height_m, (own, i) => {
+    if (Number.isNaN(own)) return NaN;
+    const column = i % columns, row = (i - column) / columns;
+    let sum = 0, count = 0;
+    for (let r = Math.max(0, row - 1); r <= Math.min(rows - 1, row + 1); ++r)
+      for (let c = Math.max(0, column - 1); c <= Math.min(columns - 1, column + 1); ++c) {
+        const value = height_m[r * columns + c];
+        if (!Number.isNaN(value)) {
+          sum += value;
+          ++count;
+        }
+      }
+    return sum / count;
+  });
+}
+
+/// Contour lines as {interval_m, fine, bold}, two Path2D in raster cells; every fifth line is bold.
+function contourLines(terrain) {
+  const {columns, rows} = terrain, heights = smoothed(terrain);
+  const [low, high] = d3.extent(heights.filter(h => !Number.isNaN(h)));
+  const paths = {interval_m: 0, fine: new Path2D(), bold: new Path2D()};
+  if (!(high > low)) return paths;
+  paths.interval_m = d3.tickStep(low, high, 15);
+  const first = Math.ceil(low / paths.interval_m), last = Math.floor(high / paths.interval_m);
+  const unknown = (x, y) => {
+    for (const r of [Math.floor(y - 0.5), Math.ceil(y - 0.5)])
+      for (const c of [Math.floor(x - 0.5), Math.ceil(x - 0.5)])
+        if (r < 0 || c < 0 || r >= rows || c >= columns || Number.isNaN(heights[r * columns + c]))
+          return true;
+    return false;
+  };
+  const filled = Array.from(heights, h => (Number.isNaN(h) ? low - 1e3 * (high - low) : h));
+  const contour = d3.contours().size([columns, rows]);
+  for (let k = first; k <= last; ++k) {
+    const path = k % 5 === 0 ? paths.bold : paths.fine;
+    for (const polygon of contour.contour(filled, k * paths.interval_m).coordinates)
+      for (const ring of polygon) {
+        let down = false;
+        for (const [x, y] of ring) {
+          const off = unknown(x, y);  // along the rim of the known ground there is no contour
+          if (!off) {
+            if (down)
+              path.lineTo(x, y);
+            else
+              path.moveTo(x, y);
+          }
+          down = !off;
+        }
+      }
+  }
+  return paths;
+}

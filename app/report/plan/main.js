@@ -1,0 +1,12 @@
+// Draws the planning report.
+document.body.classList.add(`status-${PLAN.status}`);
+candidateTable(byId('candidates'));
+whatIfTable(byId('what-ifs'));
+rejectionBars(byId('rejected'));
+facts(byId('facts'));
+readout(byId('readout'), byId('position'));
+layerPanel(byId('layers'), mapView(byId('map')));
+charts(byId('charts'));
+if (view.selected) setCursor(view.selected, worstIndex(view.selected));
+view.events.call('marks');
+document.documentElement.dataset.drawn = 'yes';

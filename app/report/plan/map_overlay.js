@@ -1,0 +1,233 @@
+// Paths, places, the vehicle, axes and scale bar in SVG over the terrain.
+function mapOverlay(svg, frame) {
+  svg.append('clipPath').attr('id', 'plot').append('rect');
+  const over = svg.append('g').attr('clip-path', 'url(#plot)');
+  const pathLayer = over.append('g');
+  const placeLayer = over.append('g');
+  const markerLayer = over.append('g').attr('pointer-events', 'none');
+  const axes = [svg.append('g').attr('class', 'axis'), svg.append('g').attr('class', 'axis')];
+  const scaleBar = svg.append('g').attr('class', 'scale-bar');
+
+  function resize() {
+    svg.attr('viewBox', `0 0 ${frame.width} ${frame.height}`);
+    svg.select('#plot rect')
+        .attr('x', frame.left)
+        .attr('y', frame.top)
+        .attr('width', frame.plotWidth)
+        .attr('height', frame.plotHeight);
+    drawPaths();
+  }
+
+  /// A path as runs of one colour: neighbours in the same fortieth of the scale share a line.
+  function pieces(path) {
+    const {x_m, y_m, margin: margins} = path.points;
+    const [low, high] = marginColour.domain();
+    const step = (high - low) / 40;
+    const colourOf = bin => {
+      if (bin === null) return '#888888';
+      return bin < 0 ? UNDER_LIMIT : marginColour(low + (bin + 0.5) * step);
+    };
+    const binOf = (a, b) => {
+      if (!isKnown(a) || !isKnown(b)) return null;
+      const worse = Math.min(a, b);
+      return worse < LIMITS.margin_min ? -1 : Math.min(40, Math.floor((worse - low) / step));
+    };
+    const list = [];
+    for (let i = 0; i + 1 < path.length; ++i) {
+      if (![x_m[i], y_m[i], x_m[i + 1], y_m[i + 1]].every(isKnown)) continue;
+      const bin = binOf(margins[i], margins[i + 1]);
+      const end = frame.base(x_m[i + 1], y_m[i + 1]);
+      const last = list[list.length - 1];
+      if (last && last.bin === bin && last.end === i) {
+        last.points.push(end);
+        last.end = i + 1;
+      } else {
+        const points = [frame.base(x_m[i], y_m[i]), end];
+        list.push({bin, end: i + 1, colour: colourOf(bin), points});
+      }
+    }
+    return list;
+  }
+
+  function drawPaths() {
+    const shown =
+        view.paths.filter(p => p.visible && p.length)
+            .sort((a, b) => (a === view.selected) - (b === view.selected) || b.rank - a.rank);
+    const groups = pathLayer.selectAll('g.path')
+                       .data(shown, p => p.label)
+                       .join('g')
+                       .attr('class', 'path')
+                       .order();
+    groups.each(function(path) {
+      const chosen = path === view.selected, runs = pieces(path), line = d3.line();
+      const outline = runs.map(run => line(run.points)).join('');
+      const group = d3.select(this);
+      group.selectAll('*').remove();
+      group.append('path')
+          .attr('class', 'casing')
+          .attr('d', outline)
+          .attr('vector-effect', 'non-scaling-stroke')
+          .attr('stroke-width', chosen ? 7.6 : 5)
+          .attr('stroke-opacity', chosen ? 0.95 : 0.7);
+      group.selectAll('path.piece')
+          .data(runs)
+          .join('path')
+          .attr('class', 'piece')
+          .attr('d', run => line(run.points))
+          .attr('stroke', run => run.colour)
+          .attr('vector-effect', 'non-scaling-stroke')
+          .attr('stroke-width', chosen ? 5 : 3.4)
+          .attr('stroke-dasharray', path.verified_path ? null : '6 5');
+    });
+    arrange();
+  }
+
+  function arrange() {
+    pathLayer.attr('transform', frame.transform);
+    placeLayer.selectAll('*').remove();
+    const {start, goal} = PLAN.problem;
+    const [sx, sy] = frame.screen(start.x_m, start.y_m);
+    const [gx, gy] = frame.screen(goal.x_m, goal.y_m);
+    placeLayer.append('circle')
+        .attr('class', 'goal-ring')
+        .attr('cx', gx)
+        .attr('cy', gy)
+        .attr('r', Math.max(5, goal.radius_m * frame.pixelsPerMetre()));
+    placeLayer.append('path')
+        .attr('class', 'place')
+        .attr('d', 'M-6,-6L9,0L-6,6L-3,0Z')
+        .attr('transform', `translate(${sx},${sy}) rotate(${- start.heading_deg})`);
+    placeLayer.append('path')
+        .attr('class', 'place')
+        .attr('d', 'M0,0V-17L11,-13L0,-9')
+        .attr('transform', `translate(${gx},${gy})`);
+    label('Start', sx, sy + 20);
+    label('Goal', gx, gy + 16);
+    for (const path of view.paths.filter(p => p.visible && p.length)) {
+      const share = path.verified_path ? 0.35 + 0.3 * ((path.rank * 0.382) % 1) : 0.5,
+            i = Math.round(share * (path.length - 1));
+      if (isKnown(path.points.x_m[i]) && isKnown(path.points.y_m[i]))
+        label(
+            path.verified_path ? path.label : path.label.replace('overturned ', '\u2715'),
+            ...frame.screen(path.points.x_m[i], path.points.y_m[i]), 9, -7);
+    }
+    PLAN.what_ifs.forEach((w, k) => {
+      if (w.feasible || !isKnown(w.x_m) || !isKnown(w.y_m)) return;
+      const [x, y] = frame.screen(w.x_m, w.y_m);
+      const g = placeLayer.append('g').attr('class', 'what-if');
+      g.attr('transform', `translate(${x},${y})`);
+      g.append('title').text(`${w.question}: rejected${w.reason ? ' for ' + words(w.reason) : ''}`);
+      g.append('path')
+          .attr('d', 'M0,0V-15')
+          .attr('stroke', cssVar('--alarm'))
+          .attr('stroke-width', 2);
+      g.append('circle').attr('cy', -24).attr('r', 9.5);
+      g.append('text').attr('y', -24).text(whatIfLetter(k));
+    });
+    if (view.mark) {
+      const [x, y] = frame.screen(view.mark.x_m, view.mark.y_m);
+      placeLayer.append('circle')
+          .attr('class', 'mark-chosen')
+          .attr('cx', x)
+          .attr('cy', y)
+          .attr('r', 9);
+    }
+    drawAxes();
+    drawMarker();
+  }
+
+  function label(text, x, y, dx = 0, dy = 0) {
+    placeLayer.append('text')
+        .attr('class', 'label')
+        .attr('text-anchor', dx ? 'start' : 'middle')
+        .attr('x', x + dx)
+        .attr('y', y + dy)
+        .text(text);
+  }
+
+  function drawAxes() {
+    const [west, north] = frame.mapPoint([frame.left, frame.top]);
+    const [east, south] =
+        frame.mapPoint([frame.left + frame.plotWidth, frame.top + frame.plotHeight]);
+    const x =
+        d3.scaleLinear().domain([west, east]).range([frame.left, frame.left + frame.plotWidth]);
+    const y =
+        d3.scaleLinear().domain([south, north]).range([frame.top + frame.plotHeight, frame.top]);
+    const plain = scale => {
+      const ticks = scale.ticks(6);
+      return d3.format(`.${d3.precisionFixed(ticks.length > 1 ? ticks[1] - ticks[0] : 1)}f`);
+    };
+    axes[0]
+        .attr('transform', `translate(0,${frame.top + frame.plotHeight})`)
+        .call(d3.axisBottom(x)
+                  .ticks(Math.max(2, Math.min(8, frame.width / 110)))
+                  .tickSize(4)
+                  .tickFormat(plain(x)));
+    axes[1]
+        .attr('transform', `translate(${frame.left},0)`)
+        .call(d3.axisLeft(y).ticks(6).tickSize(4).tickFormat(plain(y)));
+    const span_m = d3.tickStep(0, 130 / frame.pixelsPerMetre(), 1.5),
+          length = span_m * frame.pixelsPerMetre();
+    scaleBar.selectAll('*').remove();
+    scaleBar.attr(
+        'transform',
+        `translate(${frame.left + frame.plotWidth - length - 14},${
+            frame.top + frame.plotHeight - 12})`);
+    scaleBar.append('rect')
+        .attr('x', -6)
+        .attr('y', -22)
+        .attr('width', length + 12)
+        .attr('height', 29)
+        .attr('rx', 3)
+        .attr('fill', cssVar('--panel'))
+        .attr('opacity', 0.82);
+    scaleBar.append('path').attr('d', `M0,-5V0H${length}V-5`);
+    scaleBar.append('text')
+        .attr('x', length / 2)
+        .attr('y', -8)
+        .attr('text-anchor', 'middle')
+        .text(span_m >= 1 ? `${span_m} m` : `${Math.round(span_m * 100)} cm`);
+  }
+
+  /// The vehicle at the marker: its body and wheels to scale where that can be seen, else a dot.
+  function drawMarker() {
+    markerLayer.selectAll('*').remove();
+    if (!view.cursor || !view.cursor.path.visible) return;
+    const {path, index} = view.cursor, p = path.points, k = frame.pixelsPerMetre(),
+                 {body} = VEHICLE;
+    if (!isKnown(p.x_m[index]) || !isKnown(p.y_m[index])) return;
+    const [x, y] = frame.screen(p.x_m[index], p.y_m[index]);
+    const g = markerLayer.append('g').attr(
+        'transform', `translate(${x},${y}) rotate(${- (p.yaw_deg[index] || 0)})`);
+    if ((body.x_max_m - body.x_min_m) * k > 16) {
+      g.append('rect')
+          .attr('class', 'vehicle')
+          .attr('x', body.x_min_m * k)
+          .attr('y', -body.y_max_m * k)
+          .attr('width', (body.x_max_m - body.x_min_m) * k)
+          .attr('height', (body.y_max_m - body.y_min_m) * k)
+          .attr('rx', 2);
+      for (const wheel of VEHICLE.wheels) {
+        const steer = wheel.steered ?
+            (p.steer_deg[index] || 0) * Math.sign(wheel.x_m - VEHICLE.turn_centre_x_m) :
+            0;
+        g.append('rect')
+            .attr('class', 'vehicle-wheel')
+            .attr('x', -VEHICLE.wheel_radius_m * k)
+            .attr('y', -VEHICLE.wheel_width_m * k / 2)
+            .attr('width', 2 * VEHICLE.wheel_radius_m * k)
+            .attr('height', VEHICLE.wheel_width_m * k)
+            .attr('transform', `translate(${wheel.x_m * k},${- wheel.y_m * k}) rotate(${- steer})`);
+      }
+      g.append('path')
+          .attr('class', 'vehicle')
+          .attr(
+              'd',
+              `M${body.x_max_m * k + 3},-4L${body.x_max_m * k + 10},0L${body.x_max_m * k + 3},4Z`);
+    } else {
+      g.append('path').attr('class', 'marker-dot').attr('d', 'M-7,-6.5L10,0L-7,6.5L-3.5,0Z');
+    }
+  }
+
+  return {resize, drawPaths, drawMarker, arrange};
+}

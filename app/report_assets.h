@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+/// Files that the build puts into the program (see cmake/embed.cmake).
+namespace regoplan::report_assets {
+
+extern const std::string_view kD3;          ///< d3.min.js of Debian's node-d3
+extern const std::string_view kD3Licence;   ///< its copyright file
+extern const std::string_view kPageHtml;    ///< frame of every report
+extern const std::string_view kPageCss;     ///< look of every report
+extern const std::string_view kPageScript;  ///< what every report's script may use
+extern const std::string_view kPlanHtml;    ///< sections of the planning report
+extern const std::string_view kPlanScript;  ///< draws them
+
+}  // namespace regoplan::report_assets

@@ -1,0 +1,236 @@
+#include "app/scenario_settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+#include <thread>
+
+#include "app/model_settings.h"
+#include "app/settings_mapping.h"
+#include "app/settings_path.h"
+#include "app/soil_settings.h"
+#include "app/vehicle_settings.h"
+#include "maps/raster_files.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr ValueRange kShare{.min = 0, .max = 1, .min_excluded = true};
+constexpr ValueRange kAngle_deg{.min = 0, .max = 90, .min_excluded = true};
+constexpr ValueRange kHeading_deg{.min = -360, .max = 360};
+
+StartState read_start(const SettingsNode& node) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
+    return StartState{.x_m = mapping.number("x_m", kAnyNumber),
+                      .y_m = mapping.number("y_m", kAnyNumber),
+                      .heading_rad = mapping.number("heading_deg", kHeading_deg) * kDegree,
+                      .speed_mps = mapping.number_or("speed_mps", kAtLeast0, 0)};
+  });
+}
+
+Goal read_goal(const SettingsNode& node) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
+    Goal goal;
+    goal.x_m = mapping.number("x_m", kAnyNumber);
+    goal.y_m = mapping.number("y_m", kAnyNumber);
+    goal.radius_m = mapping.number("radius_m", kAbove0);
+    const SettingsNode* heading = mapping.optional("heading_deg");
+    const SettingsNode* tolerance = mapping.optional("heading_tolerance_deg");
+    if (!heading != !tolerance) {
+      throw mapping.node().error("heading_deg and heading_tolerance_deg go together");
+    }
+    if (heading) {
+      goal.heading_rad = heading->number(kHeading_deg) * kDegree;
+      goal.heading_tolerance_rad =
+          tolerance->number({.min = 0, .max = 180, .min_excluded = true}) * kDegree;
+    }
+    return goal;
+  });
+}
+
+Limits read_limits(const SettingsNode& node, Limits defaults) {
+  return read_mapping(node, [&defaults](SettingsMapping& mapping) {
+    const auto angle_rad = [&mapping](const char* key, double fallback_rad) {
+      const SettingsNode* given = mapping.optional(key);
+      return given ? given->number(kAngle_deg) * kDegree : fallback_rad;
+    };
+    return Limits{
+        .margin_min = mapping.number_or("margin_min", {.min = 0, .max = 1}, defaults.margin_min),
+        .slip_max = mapping.number_or("slip_max", kShare, defaults.slip_max),
+        .slip_angle_max_rad = angle_rad("slip_angle_max_deg", defaults.slip_angle_max_rad),
+        .slope_max_rad = angle_rad("slope_max_deg", defaults.slope_max_rad),
+        .sinkage_max_m = mapping.number_or("sinkage_max_m", kAbove0, defaults.sinkage_max_m)};
+  });
+}
+
+Search read_search(const SettingsNode& node) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
+    Search search;
+    if (const SettingsNode* name = mapping.optional("name")) {
+      search.planner = planner_names()[name->choice(planner_names())];
+    }
+    const SettingsNode* time = mapping.optional("time_s");
+    const SettingsNode* iterations = mapping.optional("iterations");
+    if (time && iterations) throw iterations->error("either time_s or iterations, not both");
+    if (time) search.time_s = time->number(kAbove0);
+    if (iterations) search.iterations = iterations->integer(1, INT64_MAX);
+    if (const SettingsNode* seed = mapping.optional("seed")) {
+      search.seed = static_cast<std::uint64_t>(seed->integer(0, INT64_MAX));
+    }
+    const auto count = [&mapping](const char* key, int fallback) {
+      const SettingsNode* given = mapping.optional(key);
+      return given ? static_cast<int>(given->integer(1, 100000)) : fallback;
+    };
+    search.candidates = count("candidates", search.candidates);
+    search.soil_draws = count("soil_draws", search.soil_draws);
+    return search;
+  });
+}
+
+/// The map's soils with the one that the model names replaced by the model's.
+TerrainMap with_model_soil(const TerrainMap& map, const ModelSettings& model,
+                           const std::string& model_file) {
+  if (!model.soil_name) {
+    throw SettingsError(
+        fmt::format("{}: soil_name is missing: it says which soil of the map these numbers replace",
+                    model_file));
+  }
+  std::vector<MapSoil> soils = map.soils();
+  const auto soil = std::ranges::find(soils, *model.soil_name, &MapSoil::name);
+  if (soil == soils.end()) {
+    std::vector<std::string> names;
+    names.reserve(soils.size());
+    for (const MapSoil& known : soils) names.push_back(known.name);
+    throw SettingsError(fmt::format("{}: soil_name: {} is no soil of the map (it has: {})",
+                                    model_file, *model.soil_name, fmt::join(names, ", ")));
+  }
+  soil->soil = model.soil;
+  soil->source = model_file;
+  return map.with_soils(std::move(soils));
+}
+
+double read_speed_max(const SettingsNode& node, const Vehicle& vehicle) {
+  return read_mapping(node, [&vehicle](SettingsMapping& mapping) {
+    return mapping.number("max", {.min = 0, .max = vehicle.speed_max_mps, .min_excluded = true});
+  });
+}
+
+Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::path& folder) {
+  return node.kind() == SettingsNode::Kind::kMapping ? read_vehicle(node)
+                                                     : named_vehicle(node, folder);
+}
+
+}  // namespace
+
+Search overridden(Search search, const ScenarioOverrides& overrides) {
+  constexpr double kDefaultTime_s = 20;
+  if (overrides.planner) search.planner = *overrides.planner;
+  if (overrides.seed) search.seed = *overrides.seed;
+  if (overrides.candidates) search.candidates = *overrides.candidates;
+  if (overrides.time_s || overrides.iterations) {
+    search.time_s = overrides.time_s;
+    search.iterations = overrides.iterations;
+  }
+  if (!search.time_s && !search.iterations) search.time_s = kDefaultTime_s;
+  search.threads = overrides.threads.value_or(
+      std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kThreadsMax));
+  return search;
+}
+
+ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& folder,
+                     WheelVariant variant) {
+  return read_mapping(node, [&](SettingsMapping& mapping) {
+    const auto file = [&folder](const SettingsNode& name) {
+      return named_file(name, folder).string();
+    };
+    std::vector<std::string> notices;
+
+    const SettingsNode& soils = mapping.required("soils");
+    SoilCatalogue catalogue =
+        soils.kind() == SettingsNode::Kind::kMapping
+            ? read_soil_catalogue(soils, variant)
+            : placed(soils, [&] {
+                if (!std::filesystem::exists(file(soils))) {
+                  throw InputError(file(soils) + ": no such file");
+                }
+                return read_soil_catalogue(read_settings(file(soils)), variant);
+              });
+
+    const SettingsNode& elevation_file = mapping.required("elevation");
+    ElevationRaster elevation =
+        placed(elevation_file, [&] { return read_elevation(file(elevation_file)); });
+
+    std::optional<ClassRaster> classes;
+    if (const SettingsNode* name = mapping.optional("soil_class")) {
+      placed(*name, [&] {
+        classes = read_classes(file(*name));
+        std::string notice = adopt_crs(*classes, elevation.frame, file(*name));
+        if (!notice.empty()) notices.push_back(std::move(notice));
+        return true;
+      });
+    } else if (catalogue.soils.size() != 1) {
+      throw soils.error(
+          fmt::format("{} soils (allowed without soil_class: one)", catalogue.soils.size()));
+    }
+
+    std::vector<Rock> rocks;
+    if (const SettingsNode* name = mapping.optional("rocks")) {
+      rocks = placed(*name, [&] { return read_rocks(file(*name)); });
+    }
+    return ScenarioMap{.map = TerrainMap(std::move(elevation), std::move(classes),
+                                         std::move(catalogue), std::move(rocks)),
+                       .notices = std::move(notices)};
+  });
+}
+
+Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrides) {
+  const SettingsNode root = read_settings(file);
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::optional<ModelSettings> model;
+  if (overrides.model_file) model = read_model_file(*overrides.model_file);
+  const WheelVariant variant = model ? model->spec.variant : WheelVariant::kIshigami2007;
+
+  return read_mapping(root, [&](SettingsMapping& mapping) {
+    const SettingsNode& vehicle_node = mapping.required("vehicle");
+    Vehicle vehicle =
+        placed(vehicle_node, [&] { return read_scenario_vehicle(vehicle_node, folder); });
+    const double gravity_mps2 = mapping.number("gravity_mps2", kAbove0);
+    const StartState start = read_start(mapping.required("start"));
+    const Goal goal = read_goal(mapping.required("goal"));
+    const SettingsNode* speed = mapping.optional("speed_mps");
+    const double speed_max_mps = speed ? read_speed_max(*speed, vehicle) : vehicle.speed_max_mps;
+    const SettingsNode* limits = mapping.optional("limits");
+    const SettingsNode* planner = mapping.optional("planner");
+
+    const Limits kept =
+        limits ? read_limits(*limits, default_limits(vehicle)) : default_limits(vehicle);
+    const Search search = overridden(planner ? read_search(*planner) : Search{}, overrides);
+    ScenarioMap read = read_map(mapping.required("map"), folder, variant);
+    Scenario scenario{
+        .problem = {.map = model ? with_model_soil(read.map, *model, *overrides.model_file)
+                                 : std::move(read.map),
+                    .vehicle = std::move(vehicle),
+                    .wheel_variant = variant,
+                    .gravity_mps2 = gravity_mps2,
+                    .start = start,
+                    .goal = goal,
+                    .speed_max_mps = speed_max_mps,
+                    .limits = kept,
+                    .search = search},
+        .notices = std::move(read.notices)};
+    validate(scenario.problem);
+    return scenario;
+  });
+}
+
+ScenarioMap read_scenario_map(const std::string& file) {
+  const SettingsNode root = read_settings(file);
+  const SettingsNode* map = root.find("map");
+  if (!map) throw root.error("map is missing");
+  return read_map(*map, std::filesystem::path(file).parent_path(), WheelVariant::kIshigami2007);
+}
+
+}  // namespace regoplan

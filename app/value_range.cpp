@@ -1,0 +1,22 @@
+#include "app/value_range.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace regoplan {
+
+bool ValueRange::contains(double value) const {
+  return std::isfinite(value) && value <= max && (min_excluded ? value > min : value >= min);
+}
+
+std::string ValueRange::text() const {
+  const bool from = std::isfinite(min);
+  const bool to = std::isfinite(max);
+  if (from && to) return fmt::format("{}{} to {}", min_excluded ? "above " : "", min, max);
+  if (from) return fmt::format("{}{}", min_excluded ? "above " : "at least ", min);
+  if (to) return fmt::format("at most {}", max);
+  return "any finite number";
+}
+
+}  // namespace regoplan

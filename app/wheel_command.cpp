@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "app/command.h"
+#include "app/interrupt.h"
+#include "app/model_settings.h"
+#include "app/plan_options.h"
+#include "app/staged_files.h"
+#include "app/wheel_rows.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+struct WheelOptions {
+  std::string conditions;
+  std::string model;
+  std::optional<std::filesystem::path> out;
+  bool json = false;
+  bool quiet = false;
+};
+
+ExitStatus run_wheel(const WheelOptions& options) {
+  const WheelModel model(read_model_file(options.model).spec);
+  if (!std::filesystem::exists(options.conditions)) {
+    throw InputError(options.conditions + ": no such file");
+  }
+  std::ifstream conditions(options.conditions);
+  if (!conditions || std::filesystem::is_directory(options.conditions)) {
+    throw InputError(options.conditions + ": cannot be read");
+  }
+  if (options.out && std::filesystem::exists(*options.out) &&
+      std::filesystem::equivalent(*options.out, options.conditions)) {
+    throw InputError("--out: " + options.conditions + " would overwrite its own input");
+  }
+
+  const std::stop_token stop = stop_on_interrupt();
+  std::optional<StagedFiles> staged;
+  std::ofstream out;
+  WheelRowSinks sinks{.json = options.json ? &std::cout : nullptr};
+  if (options.out) {
+    staged.emplace(std::filesystem::absolute(*options.out).parent_path());
+    out.open(staged->path(options.out->filename().string()), std::ios::binary);
+    sinks.csv = &out;
+  } else if (!options.json) {
+    sinks.csv = &std::cout;
+  }
+  const WheelRowsResult result =
+      compute_wheel_rows(conditions, options.conditions, model, sinks, stop);
+  if (staged) {
+    out.close();
+    if (!out) throw InputError(options.out->string() + ": cannot be written (disk full?)");
+    staged->commit();
+  }
+  if (!result.renamed.empty()) {
+    notify(fmt::format("{}: {} kept as input_*; the model writes columns of these names",
+                       options.conditions, fmt::join(result.renamed, ", ")),
+           options.quiet);
+  }
+  if (result.interrupted) {
+    notify(fmt::format("interrupted after {} rows", result.rows), options.quiet);
+    return kInterrupted;
+  }
+  return kYes;
+}
+
+}  // namespace
+
+Command add_wheel_command(CLI::App& program) {
+  const auto options = std::make_shared<WheelOptions>();
+  CLI::App* parser = program.add_subcommand(
+      "wheel",
+      "Forces of one wheel for each row of a table.\n"
+      "Rows keep their columns and get fx_n, fy_n, torque_nm, sinkage_m, fc_n, fb_n, status;\n"
+      "where no sinkage carries the load, status says so and the other cells are empty.");
+  parser
+      ->add_option("CONDITIONS.csv", options->conditions,
+                   "with columns load_n, slip_ratio, slip_angle_deg")
+      ->required();
+  parser->add_option("--model", options->model, "model, wheel, gravity_mps2, soil")
+      ->type_name("FILE.yaml")
+      ->required();
+  parser->add_option("--out", options->out, "where the table goes; default: standard output")
+      ->type_name("OUT.csv");
+  add_output_flags(*parser, options->json, options->quiet);
+  return {parser, [options] { return run_wheel(*options); }};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,196 @@
+#include "app/wheel_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <istream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <ostream>
+
+#include "app/csv_cells.h"
+#include "app/number_text.h"
+#include "app/value_range.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Condition {
+  const char* column;
+  ValueRange allowed;
+};
+constexpr std::array<Condition, 3> kConditions{{
+    {"load_n", kAbove0},
+    {"slip_ratio", {.min = -1, .max = 1}},
+    {"slip_angle_deg", {.min = -90, .max = 90}},
+}};
+
+constexpr std::array<const char*, 7> kResults{"fx_n", "fy_n", "torque_nm", "sinkage_m",
+                                              "fc_n", "fb_n", "status"};
+
+using Cells = std::vector<std::string>;
+
+/// A CSV table read line by line.
+class Table {
+ public:
+  Table(std::istream& stream, std::string file) : stream_(stream), file_(std::move(file)) {
+    std::optional<Cells> header = next_line();
+    if (!header) throw InputError(file_ + ": empty (expected a header line)");
+    constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
+    if (header->front().starts_with(kByteOrderMark)) header->front().erase(0, 3);
+    for (std::string& column : *header) {
+      const std::size_t from = column.find_first_not_of(' ');
+      const std::size_t to = column.find_last_not_of(' ');
+      column = from == std::string::npos ? "" : column.substr(from, to - from + 1);
+      if (std::ranges::count(*header, column) > 1) throw error("column " + column + " given twice");
+    }
+    columns_ = std::move(*header);
+  }
+
+  const Cells& columns() const { return columns_; }
+
+  std::size_t column(const char* sought) const {
+    const auto found = std::ranges::find(columns_, sought);
+    if (found == columns_.end()) throw error(fmt::format("column {} is missing", sought));
+    return static_cast<std::size_t>(found - columns_.begin());
+  }
+
+  /// The next row; nothing at the end.
+  std::optional<Cells> next() {
+    std::optional<Cells> cells = next_line();
+    if (cells && cells->size() != columns_.size()) {
+      throw error(fmt::format("{} cells (the header has {})", cells->size(), columns_.size()));
+    }
+    return cells;
+  }
+
+  double number(const Cells& cells, std::size_t index, const ValueRange& allowed) const {
+    const std::string& cell = cells[index];
+    const std::optional<double> value = parse_number(cell);
+    if (value && allowed.contains(*value)) return *value;
+    throw error(fmt::format("{}: {} is not valid (allowed: {})", columns_[index],
+                            cell.empty() ? "an empty cell" : cell, allowed.text()));
+  }
+
+ private:
+  std::optional<Cells> next_line() {
+    std::string line;
+    int blank = 0;
+    while (std::getline(stream_, line)) {
+      ++line_;
+      if (line.ends_with('\r')) line.pop_back();
+      if (!line.empty()) break;
+      ++blank;
+    }
+    if (stream_.bad()) throw InputError(file_ + ": cannot be read");
+    if (line.empty()) return {};  // blank lines at the end say nothing
+    if (blank > 0) throw InputError(fmt::format("{}:{}: an empty line", file_, line_ - 1));
+    std::optional<Cells> cells = split_cells(line);
+    if (!cells) throw error("a quote is not closed");
+    return cells;
+  }
+
+  InputError error(const std::string& what) const {
+    return InputError(fmt::format("{}:{}: {}", file_, line_, what));
+  }
+
+  std::istream& stream_;
+  std::string file_;
+  std::int64_t line_ = 0;
+  Cells columns_;
+};
+
+Cells result_cells(const WheelForces& forces, double slip_angle_rad) {
+  Cells cells(kResults.size());
+  cells.back() = name(forces.status);
+  if (!has_forces(forces.status)) return cells;
+  const double sine = std::sin(slip_angle_rad);
+  const double cosine = std::cos(slip_angle_rad);
+  const std::array values{forces.fx_n,
+                          forces.fy_n,
+                          forces.torque_nm,
+                          forces.sinkage_m,
+                          forces.fx_n * sine + forces.fy_n * cosine,   // eq. (18)
+                          forces.fx_n * cosine - forces.fy_n * sine};  // eq. (19)
+  std::ranges::transform(values, cells.begin(), number_cell);
+  return cells;
+}
+
+std::string csv_line(const Cells& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    line += text_cell(cell);
+  }
+  return line + '\n';
+}
+
+nlohmann::ordered_json json_row(const Cells& columns, const Cells& cells) {
+  nlohmann::ordered_json row = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::optional<double> number = parse_number(cells[i]);
+    if (number) {
+      row[columns[i]] = *number;
+    } else if (cells[i].empty()) {
+      row[columns[i]] = nullptr;
+    } else {
+      row[columns[i]] = cells[i];
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& file,
+                                   const WheelModel& model, const WheelRowSinks& sinks,
+                                   const std::stop_token& stop) {
+  Table table(conditions, file);
+  std::array<std::size_t, kConditions.size()> condition_columns{};
+  for (std::size_t i = 0; i < kConditions.size(); ++i) {
+    condition_columns.at(i) = table.column(kConditions.at(i).column);
+  }
+
+  WheelRowsResult result;
+  Cells columns = table.columns();
+  for (std::string& column : columns) {
+    if (std::ranges::find(kResults, column) == kResults.end()) continue;
+    result.renamed.push_back(column);
+    column.insert(0, "input_");
+  }
+  columns.insert(columns.end(), kResults.begin(), kResults.end());
+  if (sinks.csv) *sinks.csv << csv_line(columns);
+  if (sinks.json) *sinks.json << R"({"rows": [)";
+
+  while (std::optional<Cells> cells = table.next()) {
+    if (stop.stop_requested()) {
+      result.interrupted = true;
+      break;
+    }
+    std::array<double, kConditions.size()> values{};
+    for (std::size_t i = 0; i < kConditions.size(); ++i) {
+      values.at(i) = table.number(*cells, condition_columns.at(i), kConditions.at(i).allowed);
+    }
+    const auto [load_n, slip, slip_angle_deg] = values;
+    const double slip_angle_rad = slip_angle_deg * kDegree;
+    const WheelForces forces = model.forces(load_n, motion_at(slip, slip_angle_rad));
+    for (std::string& cell : result_cells(forces, slip_angle_rad)) {
+      cells->push_back(std::move(cell));
+    }
+    if (sinks.csv) *sinks.csv << csv_line(*cells);
+    if (sinks.json) *sinks.json << (result.rows ? ",\n" : "\n") << json_row(columns, *cells).dump();
+    ++result.rows;
+  }
+  if (sinks.json) {
+    *sinks.json << "\n], \"interrupted\": " << (result.interrupted ? "true" : "false") << "}\n";
+  }
+  return result;
+}
+
+}  // namespace regoplan

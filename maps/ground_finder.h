@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+
+#include "maps/terrain_map.h"
+#include "terramech/ground_patch.h"
+#include "terramech/vehicle.h"
+
+namespace regoplan {
+
+/// Finds the ground under one vehicle on one map: the plane that fits the heights at its wheels'
+/// contacts best, and the soil under each. Both must outlive it; safe from many threads.
+class GroundFinder {
+ public:
+  GroundFinder(const TerrainMap& map, const Vehicle& vehicle);
+
+  /// \param x_m, y_m below the centre of gravity \param yaw_rad heading from +x toward +y
+  GroundPatch at(double x_m, double y_m, double yaw_rad) const;
+
+ private:
+  const TerrainMap& map_;
+  const Vehicle& vehicle_;
+  std::array<std::array<double, 3>, kMaxWheels> fit_{};  ///< height -> (z, slope forward, left)
+};
+
+}  // namespace regoplan

@@ -1,0 +1,342 @@
+#include "maps/raster_files.h"
+
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <ogr_spatialref.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+#include <type_traits>
+
+#include "maps/whole_file.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+
+namespace {
+
+/// No elevation lies further from its datum; what does is a nodata value that nobody declared.
+constexpr double kHeightMax_m = 1e6;
+constexpr double kCellsMax = 1e9;
+
+/// While it lives GDAL keeps its remarks to itself; the last one goes into our message.
+class QuietGdal {
+ public:
+  QuietGdal() {
+    static const bool registered = [] {
+      GDALAllRegister();
+      return true;
+    }();
+    static_cast<void>(registered);
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    CPLErrorReset();
+  }
+  ~QuietGdal() { CPLPopErrorHandler(); }
+  QuietGdal(const QuietGdal&) = delete;
+  QuietGdal& operator=(const QuietGdal&) = delete;
+};
+
+[[noreturn]] void fail(const std::string& file, std::string_view what) {
+  throw InputError(fmt::format("{}: {}", file, what));
+}
+
+/// `what`, and GDAL's own words where it has any, on one line.
+[[noreturn]] void fail_with_gdal(const std::string& file, std::string_view what) {
+  std::string words = CPLGetLastErrorMsg();
+  std::ranges::replace(words, '\n', ' ');
+  fail(file, words.empty() ? std::string(what) : fmt::format("{} ({})", what, words));
+}
+
+OGRSpatialReference crs_of(const std::string& wkt) {
+  OGRSpatialReference crs;
+  crs.importFromWkt(wkt.c_str());
+  crs.StripVertical();
+  return crs;
+}
+
+std::string crs_name(const std::string& wkt) {
+  const OGRSpatialReference crs = crs_of(wkt);
+  const char* name = crs.GetName();
+  return name == nullptr ? "unnamed" : name;
+}
+
+/// A local projection in metres, true to scale about the middle of the raster, for any body.
+std::string metric_crs(const OGRSpatialReference& crs, const std::array<double, 6>& transform,
+                       int columns, int rows) {
+  return fmt::format("+proj=tmerc +lat_0={:.4f} +lon_0={:.4f} +a={:.0f} +b={:.0f} +units=m",
+                     transform[3] + 0.5 * rows * transform[5],
+                     transform[0] + 0.5 * columns * transform[1], crs.GetSemiMajor(),
+                     crs.GetSemiMinor());
+}
+
+GridFrame read_frame(GDALDataset& dataset, const std::string& file) {
+  GridFrame frame;
+  frame.columns = dataset.GetRasterXSize();
+  frame.rows = dataset.GetRasterYSize();
+  if (static_cast<double>(frame.columns) * frame.rows > kCellsMax) {
+    fail(file, fmt::format("{} x {} cells are too many (allowed: {}); remedy: cut out the part "
+                           "needed with gdal_translate -projwin",
+                           frame.columns, frame.rows, kCellsMax));
+  }
+  std::array<double, 6> transform{};
+  if (dataset.GetGeoTransform(transform.data()) != CE_None) {
+    fail(file,
+         "says nowhere where its cells lie (no georeference); remedy: gdal_translate -a_ullr "
+         "WEST NORTH EAST SOUTH in.tif out.tif");
+  }
+  const OGRSpatialReference* crs = dataset.GetSpatialRef();
+  if (crs != nullptr && crs->IsGeographic()) {
+    fail(file,
+         fmt::format("its CRS \"{}\" is geographic (degrees), metres are needed; remedy: "
+                     "gdalwarp -t_srs \"{}\" {} out.tif",
+                     crs->GetName(), metric_crs(*crs, transform, frame.columns, frame.rows), file));
+  }
+  if (crs != nullptr && std::abs(crs->GetLinearUnits() - 1) > 1e-9) {
+    fail(file,
+         fmt::format("the unit of its CRS \"{}\" is {} m, metres are needed; remedy: gdalwarp "
+                     "-t_srs CRS_IN_METRES {} out.tif",
+                     crs->GetName(), crs->GetLinearUnits(), file));
+  }
+  // Below a thousandth of a cell over the whole raster, a rotation is rounding.
+  const bool rotated = std::abs(transform[2]) * frame.rows > 1e-3 * std::abs(transform[1]) ||
+                       std::abs(transform[4]) * frame.columns > 1e-3 * std::abs(transform[5]);
+  if (rotated) {
+    fail(file, fmt::format("is rotated against its CRS; remedy: gdalwarp {} out.tif", file));
+  }
+  if (!(transform[1] > 0 && transform[5] < 0)) {
+    fail(file,
+         fmt::format("is not north-up (its rows do not run from north to south, or its columns "
+                     "not from west to east); remedy: gdalwarp {} out.tif",
+                     file));
+  }
+  frame.west_m = transform[0];
+  frame.north_m = transform[3];
+  frame.cell_width_m = transform[1];
+  frame.cell_height_m = -transform[5];
+  if (crs != nullptr) {
+    char* wkt = nullptr;
+    const std::array<const char*, 2> options{"FORMAT=WKT2_2019", nullptr};
+    if (crs->exportToWkt(&wkt, options.data()) == OGRERR_NONE) frame.crs_wkt = wkt;
+    CPLFree(wkt);
+  }
+  return frame;
+}
+
+GDALDatasetUniquePtr open(const std::string& file) {
+  if (!file.starts_with("/vsi") && !std::filesystem::exists(file)) fail(file, "no such file");
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
+  if (dataset == nullptr) fail_with_gdal(file, "is not a raster that GDAL can read");
+  if (dataset->GetRasterCount() == 0) fail(file, "holds no raster band");
+  if (GDALDataTypeIsComplex(dataset->GetRasterBand(1)->GetRasterDataType())) {
+    fail(file, "holds complex numbers");
+  }
+  return dataset;
+}
+
+template <typename Number>
+std::vector<Number> read_cells(GDALRasterBand& band, GDALDataType type, const std::string& file) {
+  const int columns = band.GetXSize();
+  const int rows = band.GetYSize();
+  std::vector<Number> cells(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  if (band.RasterIO(GF_Read, 0, 0, columns, rows, cells.data(), columns, rows, type, 0, 0,
+                    nullptr) != CE_None) {
+    fail_with_gdal(file, "cannot be read to its end");
+  }
+  return cells;
+}
+
+/// Which cells count: empty where all do.
+std::vector<std::uint8_t> read_mask(GDALRasterBand& band, const std::string& file) {
+  if (band.GetMaskFlags() == GMF_ALL_VALID) return {};
+  return read_cells<std::uint8_t>(*band.GetMaskBand(), GDT_Byte, file);
+}
+
+std::string cell_place(std::size_t cell, const GridFrame& frame) {
+  const auto columns = static_cast<std::size_t>(frame.columns);
+  const std::size_t column = cell % columns;
+  const std::size_t row = cell / columns;
+  return fmt::format("column {}, row {}", column, row);
+}
+
+/// Reads the cells as `Stored`, applies scale and offset, and turns each into a `Cell`.
+template <typename Stored, typename Cell, typename Convert>
+std::vector<Cell> convert_cells(GDALRasterBand& band, GDALDataType type, const std::string& file,
+                                Cell unknown, Convert convert) {
+  std::vector<std::uint8_t> mask = read_mask(band, file);
+  const double scale = band.GetScale();
+  const double offset = band.GetOffset();
+  const bool scaled = scale != 1 || offset != 0;
+  std::vector<Stored> stored = read_cells<Stored>(band, type, file);
+  const auto converted = [&](std::size_t i) {
+    if (!mask.empty() && mask[i] == 0) return unknown;
+    const auto value = static_cast<double>(stored[i]);
+    return std::isnan(value) ? unknown : convert(scaled ? value * scale + offset : value, i);
+  };
+  if constexpr (std::is_same_v<Stored, Cell>) {
+    for (std::size_t i = 0; i < stored.size(); ++i) stored[i] = converted(i);
+    return stored;
+  } else {
+    std::vector<Cell> cells(stored.size());
+    for (std::size_t i = 0; i < stored.size(); ++i) cells[i] = converted(i);
+    return cells;
+  }
+}
+
+void check_unit(GDALRasterBand& band, const std::string& file) {
+  const std::string unit = band.GetUnitType();
+  for (const char* metre : {"", "m", "metre", "meter", "metres", "meters"}) {
+    if (EQUAL(unit.c_str(), metre)) return;
+  }
+  fail(file, fmt::format("its heights are in \"{}\", metres are needed", unit));
+}
+
+template <typename Raster, typename Number>
+void write_raster(const Raster& raster, const std::vector<Number>& cells, GDALDataType type,
+                  double nodata, const char* predictor, const std::string& file) {
+  const QuietGdal quiet;
+  const GridFrame& frame = raster.frame;
+  if (cells.size() != static_cast<std::size_t>(frame.columns) * frame.rows || cells.empty()) {
+    fail(file, "cannot be written: the cells do not fill the grid");
+  }
+  write_whole_file(file, [&](const std::string& unfinished) {
+    // No side file: what a GeoTIFF cannot hold would stay behind under the unfinished name.
+    const CPLConfigOptionSetter no_side_file("GDAL_PAM_ENABLED", "NO", false);
+    CPLStringList options;
+    options.SetNameValue("COMPRESS", "DEFLATE");
+    options.SetNameValue("PREDICTOR", predictor);
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+    GDALDatasetUniquePtr dataset(driver == nullptr
+                                     ? nullptr
+                                     : driver->Create(unfinished.c_str(), frame.columns, frame.rows,
+                                                      1, type, options.List()));
+    if (dataset == nullptr) fail_with_gdal(file, "cannot be written");
+    std::array<double, 6> transform{frame.west_m,        frame.cell_width_m, 0, frame.north_m, 0,
+                                    -frame.cell_height_m};
+    GDALRasterBand& band = *dataset->GetRasterBand(1);
+    bool good = dataset->SetGeoTransform(transform.data()) == CE_None;
+    good = good && band.SetNoDataValue(nodata) == CE_None;
+    if (!frame.crs_wkt.empty()) {
+      good = good && dataset->SetProjection(frame.crs_wkt.c_str()) == CE_None;
+    }
+    // GDAL takes the cells it writes through a pointer to non-const, and leaves them as they are.
+    good = good && band.RasterIO(GF_Write, 0, 0, frame.columns, frame.rows,
+                                 const_cast<Number*>(cells.data()), frame.columns, frame.rows, type,
+                                 0, 0, nullptr) == CE_None;
+    // Closing writes what is left, and says in its last remark only whether it could.
+    dataset.reset();
+    good = good && CPLGetLastErrorType() < CE_Failure;
+    if (!good) fail_with_gdal(file, "cannot be written");
+  });
+}
+
+}  // namespace
+
+ElevationRaster read_elevation(const std::string& file) {
+  const QuietGdal quiet;
+  const GDALDatasetUniquePtr dataset = open(file);
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  const GDALColorInterp colour = band.GetColorInterpretation();
+  if (colour == GCI_RedBand || colour == GCI_PaletteIndex) {
+    fail(file, "is a picture of colours, heights in metres are needed");
+  }
+  check_unit(band, file);
+  ElevationRaster raster{.frame = read_frame(*dataset, file), .height_m = {}};
+  bool known = false;
+  const auto height = [&](double value, std::size_t cell) {
+    if (!(std::abs(value) <= kHeightMax_m)) {
+      fail(file,
+           fmt::format("height {} m at {} is not valid (allowed: -{} to {}); remedy, where it "
+                       "marks unknown cells: gdal_translate -a_nodata {} {} out.tif",
+                       value, cell_place(cell, raster.frame), kHeightMax_m, kHeightMax_m, value,
+                       file));
+    }
+    known = true;
+    return static_cast<float>(value);
+  };
+  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  // Through double only where float would lose digits or range before scale and nodata are seen.
+  const bool float_holds_it = GDALGetDataTypeSizeBits(band.GetRasterDataType()) <= 16 ||
+                              band.GetRasterDataType() == GDT_Float32;
+  raster.height_m = float_holds_it
+                        ? convert_cells<float, float>(band, GDT_Float32, file, kUnknown, height)
+                        : convert_cells<double, float>(band, GDT_Float64, file, kUnknown, height);
+  if (!known) fail(file, "no cell is known: every cell is nodata");
+  return raster;
+}
+
+ClassRaster read_classes(const std::string& file) {
+  const QuietGdal quiet;
+  const GDALDatasetUniquePtr dataset = open(file);
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  ClassRaster raster{.frame = read_frame(*dataset, file), .code = {}};
+  bool known = false;
+  const auto code = [&](double value, std::size_t cell) {
+    if (!(value > INT32_MIN && value <= INT32_MAX) || value != std::floor(value)) {
+      fail(file, fmt::format("class code {} at {} is not valid (allowed: integers of 32 bits; "
+                             "remedy, where it was resampled: gdalwarp -r near)",
+                             value, cell_place(cell, raster.frame)));
+    }
+    known = true;
+    return static_cast<std::int32_t>(value);
+  };
+  const GDALDataType type = band.GetRasterDataType();
+  const bool int32_holds_it =
+      GDALDataTypeIsInteger(type) && (GDALGetDataTypeSizeBits(type) <= 16 || type == GDT_Int32);
+  raster.code = int32_holds_it ? convert_cells<std::int32_t, std::int32_t>(
+                                     band, GDT_Int32, file, ClassRaster::kNoData, code)
+                               : convert_cells<double, std::int32_t>(band, GDT_Float64, file,
+                                                                     ClassRaster::kNoData, code);
+  if (!known) fail(file, "no cell has a class: every cell is nodata");
+  return raster;
+}
+
+std::string adopt_crs(ClassRaster& classes, const GridFrame& elevation,
+                      const std::string& classes_file) {
+  const QuietGdal quiet;
+  const std::string own = classes.frame.crs_wkt;
+  std::string notice;
+  if (own.empty() && !elevation.crs_wkt.empty()) {
+    notice = fmt::format("{}: names no CRS; taken to be the elevation's, \"{}\"", classes_file,
+                         crs_name(elevation.crs_wkt));
+  } else if (!own.empty() && elevation.crs_wkt.empty()) {
+    notice = fmt::format("{}: the elevation names no CRS; taken to be the same as \"{}\"",
+                         classes_file, crs_name(own));
+  } else if (own != elevation.crs_wkt) {
+    const std::array<const char*, 4> options{
+        "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "IGNORE_COORDINATE_EPOCH=YES",
+        "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
+    const OGRSpatialReference elevation_crs = crs_of(elevation.crs_wkt);
+    if (!crs_of(own).IsSame(&elevation_crs, options.data())) {
+      fail(classes_file,
+           fmt::format("its CRS \"{}\" is not the elevation's, \"{}\"; remedy: gdalwarp -r near "
+                       "-t_srs THE_ELEVATION'S_CRS {} out.tif",
+                       crs_name(own), crs_name(elevation.crs_wkt), classes_file));
+    }
+  }
+  if (!overlap(classes.frame, elevation)) {
+    fail(classes_file,
+         fmt::format("lies elsewhere than the elevation: x {} to {} m, y {} to {} m against x {} "
+                     "to {} m, y {} to {} m",
+                     classes.frame.west_m, classes.frame.east_m(), classes.frame.south_m(),
+                     classes.frame.north_m, elevation.west_m, elevation.east_m(),
+                     elevation.south_m(), elevation.north_m));
+  }
+  classes.frame.crs_wkt = elevation.crs_wkt;
+  return notice;
+}
+
+void write_elevation(const ElevationRaster& elevation, const std::string& file) {
+  write_raster(elevation, elevation.height_m, GDT_Float32, std::numeric_limits<double>::quiet_NaN(),
+               "3", file);
+}
+
+void write_classes(const ClassRaster& classes, const std::string& file) {
+  write_raster(classes, classes.code, GDT_Int32, ClassRaster::kNoData, "2", file);
+}
+
+}  // namespace regoplan

@@ -1,0 +1,123 @@
+#include "maps/rock_files.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include "maps/whole_file.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+
+namespace {
+
+struct Column {
+  std::string_view name;
+  double Rock::*member;
+  bool positive;
+};
+
+constexpr std::array<Column, 4> kColumns{{{"x_m", &Rock::x_m, false},
+                                          {"y_m", &Rock::y_m, false},
+                                          {"radius_m", &Rock::radius_m, true},
+                                          {"height_m", &Rock::height_m, true}}};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\"";
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string_view> fields(std::string_view line) {
+  std::vector<std::string_view> result;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t comma = std::min(line.find(',', begin), line.size());
+    result.push_back(trimmed(line.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  return result;
+}
+
+/// Where each of kColumns stands in the header.
+std::array<std::size_t, kColumns.size()> find_columns(std::string_view header,
+                                                      const std::string& file) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (header.starts_with(kByteOrderMark)) header.remove_prefix(kByteOrderMark.size());
+  const std::vector<std::string_view> names = fields(header);
+  std::array<std::size_t, kColumns.size()> places{};
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    const auto count = std::count(names.begin(), names.end(), kColumns[i].name);
+    if (count != 1) {
+      throw InputError(
+          fmt::format("{}:1: column {} stands {} times in the header \"{}\" (needs "
+                      "x_m, y_m, radius_m, height_m once each)",
+                      file, kColumns[i].name, count, trimmed(header)));
+    }
+    places[i] = static_cast<std::size_t>(std::find(names.begin(), names.end(), kColumns[i].name) -
+                                         names.begin());
+  }
+  return places;
+}
+
+double number(std::string_view text, const Column& column, const std::string& file, int line) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool valid = error == std::errc() && end == text.data() + text.size() &&
+                     std::isfinite(value) && (!column.positive || value > 0);
+  if (!valid) {
+    throw InputError(fmt::format("{}:{}: {}: \"{}\" is not valid (allowed: a finite number{})",
+                                 file, line, column.name, text, column.positive ? " above 0" : ""));
+  }
+  return value;
+}
+
+}  // namespace
+
+std::vector<Rock> read_rocks(const std::string& file) {
+  std::ifstream stream(file);
+  std::string text;
+  if (!stream || !std::getline(stream, text)) {
+    throw InputError(fmt::format("{}: cannot be read, or is empty", file));
+  }
+  const auto places = find_columns(text, file);
+  const std::size_t columns = fields(text).size();
+  std::vector<Rock> rocks;
+  for (int line = 2; std::getline(stream, text); ++line) {
+    if (trimmed(text).empty()) continue;
+    const std::vector<std::string_view> cells = fields(text);
+    if (cells.size() != columns) {
+      throw InputError(fmt::format("{}:{}: {} columns where the header has {}", file, line,
+                                   cells.size(), columns));
+    }
+    Rock rock;
+    for (std::size_t i = 0; i < kColumns.size(); ++i) {
+      rock.*kColumns[i].member = number(cells[places[i]], kColumns[i], file, line);
+    }
+    rocks.push_back(rock);
+  }
+  if (stream.bad()) throw InputError(fmt::format("{}: cannot be read to its end", file));
+  return rocks;
+}
+
+void write_rocks(const std::vector<Rock>& rocks, const std::string& file) {
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text), "x_m,y_m,radius_m,height_m\n");
+  for (const Rock& rock : rocks) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", rock.x_m, rock.y_m, rock.radius_m,
+                   rock.height_m);
+  }
+  write_whole_file(file, [&](const std::string& unfinished) {
+    std::ofstream stream(unfinished, std::ios::binary);
+    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+    stream.close();
+    if (!stream) throw InputError(fmt::format("{}: cannot be written", file));
+  });
+}
+
+}  // namespace regoplan

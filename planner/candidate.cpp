@@ -1,0 +1,187 @@
+#include "planner/candidate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <tuple>
+
+#include "planner/soil_uncertainty.h"
+
+namespace regoplan {
+namespace {
+
+LimitingPlace limiting_place(const std::vector<TrajectoryPoint>& points) {
+  const auto at = std::min_element(
+      points.begin(), points.end(),
+      [](const TrajectoryPoint& a, const TrajectoryPoint& b) { return a.margin < b.margin; });
+  const MarginKind kind = at->margin == at->cornering_margin  ? MarginKind::kCornering
+                          : at->margin == at->tip_over_margin ? MarginKind::kTipOver
+                                                              : MarginKind::kTraction;
+  return {.margin = kind, .x_m = at->x_m, .y_m = at->y_m, .time_s = at->time_s};
+}
+
+double smallest_margin(const std::vector<TrajectoryPoint>& points) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const TrajectoryPoint& point : points) smallest = std::min(smallest, point.margin);
+  return smallest;
+}
+
+/// Mean margin over the tenth of the length where it is smallest; each point stands for the way to
+/// the next.
+double margin_of_worst_tenth(const std::vector<TrajectoryPoint>& points) {
+  struct Piece {
+    double margin, length_m;
+  };
+  std::vector<Piece> pieces;
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double step =
+        std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m);
+    pieces.push_back({std::min(points[i].margin, points[i + 1].margin), step});
+    length += step;
+  }
+  if (!(length > 0)) return points.front().margin;
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& a, const Piece& b) { return a.margin < b.margin; });
+  double left = length / 10, sum = 0;
+  for (const Piece& piece : pieces) {
+    const double share = std::min(left, piece.length_m);
+    sum += share * piece.margin;
+    left -= share;
+    if (left <= 0) break;
+  }
+  return sum / (length / 10);
+}
+
+std::string why_overturned(const Replay& replay) {
+  if (replay.rejection) {
+    return fmt::format("{} {:.4g} against {:.4g} at ({:.2f}, {:.2f}), {:.2f} s",
+                       name(replay.rejection->reason), replay.rejection->value,
+                       replay.rejection->limit, replay.rejection->x_m, replay.rejection->y_m,
+                       replay.rejection_time_s);
+  }
+  const VehicleState& end = replay.end;
+  return fmt::format("the goal is not reached: the path ends at ({:.2f}, {:.2f})", end.x_m,
+                     end.y_m);
+}
+
+VerifiedPath verify(const World& verdict, const World& searched, const FoundPath& path) {
+  const ReplaySteps fine = verification_steps(verdict);
+  const ReplaySteps coarse{.coarse_s = fine.coarse_s};
+  VerifiedPath verified{
+      .candidate = {.planner = path.planner, .seed = path.seed, .controls = path.controls},
+      .replay = replay(verdict, path.controls, fine)};
+  const Replay& replayed = verified.replay;
+  Candidate& candidate = verified.candidate;
+  candidate.points = replayed.points;
+  candidate.length_m = replayed.length_m;
+  candidate.duration_s = replayed.duration_s;
+  candidate.energy_j = replayed.energy_j;
+  candidate.verified.passed = replayed.reached_goal && !replayed.rejection;
+  candidate.verified.deviation_max_m =
+      deviation_max_m(replayed, replay(searched, path.controls, coarse, false));
+  if (!candidate.verified.passed) {
+    candidate.verified.reason = why_overturned(replayed);
+    return verified;
+  }
+  candidate.margin_min = smallest_margin(candidate.points);
+  candidate.verified.margin_min = candidate.margin_min;
+  candidate.margin_worst_tenth = margin_of_worst_tenth(candidate.points);
+  candidate.limiting = limiting_place(candidate.points);
+  return verified;
+}
+
+/// The farthest that a path strays from another.
+double stray_m(const Candidate& path, const Candidate& other) {
+  double farthest = 0;
+  for (const TrajectoryPoint& point : path.points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const TrajectoryPoint& there : other.points) {
+      nearest = std::min(nearest, std::hypot(point.x_m - there.x_m, point.y_m - there.y_m));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+}  // namespace
+
+VerifiedPaths verify_all(const World& verdict, const World& searched,
+                         const std::vector<FoundPath>& found,
+                         const std::function<void(const PlanProgress&)>& on_progress) {
+  std::vector<VerifiedPath> all(found.size());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> done = 0;
+  const auto work = [&](bool reports) {
+    for (std::size_t i = next++; i < found.size(); i = next++) {
+      all[i] = verify(verdict, searched, found[i]);
+      ++done;
+      if (reports) {
+        on_progress({.stage = "verifying",
+                     .share = static_cast<double>(done) / static_cast<double>(found.size()),
+                     .found = static_cast<int>(found.size())});
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < verdict.problem().search.threads; ++i) {
+      others.emplace_back([&work] { work(false); });
+    }
+    work(true);
+  }
+  VerifiedPaths paths;
+  for (VerifiedPath& path : all) {
+    if (path.candidate.verified.passed) {
+      paths.passed.push_back(std::move(path));
+    } else {
+      paths.overturned.push_back(std::move(path.candidate));
+    }
+  }
+  return paths;
+}
+
+std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most) {
+  std::stable_sort(paths.begin(), paths.end(), [](const VerifiedPath& a, const VerifiedPath& b) {
+    return a.candidate.margin_min > b.candidate.margin_min;
+  });
+  std::vector<VerifiedPath> chosen;
+  for (VerifiedPath& path : paths) {
+    if (static_cast<int>(chosen.size()) == most) break;
+    const auto differs = [&](const VerifiedPath& other) {
+      constexpr double kLeast_m = 2, kShareOfWay = 0.04;
+      const double apart = std::max(stray_m(path.candidate, other.candidate),
+                                    stray_m(other.candidate, path.candidate));
+      return apart >= std::max(kLeast_m, kShareOfWay * other.candidate.length_m);
+    };
+    if (std::all_of(chosen.begin(), chosen.end(), differs)) chosen.push_back(std::move(path));
+  }
+  return chosen;
+}
+
+void add_spread(const PlanningProblem& problem, VerifiedPath& path) {
+  const MarginSpread spread = margin_spread(problem, path.replay, problem.search.soil_draws,
+                                            problem.search.seed, problem.search.threads);
+  path.candidate.margin_p05 = spread.p05;
+  path.candidate.probability_feasible = spread.probability_feasible;
+}
+
+void rank(std::vector<VerifiedPath>& paths) {
+  constexpr double kTie = 0.01;
+  const auto key = [](const VerifiedPath& path) {
+    const Candidate& c = path.candidate;
+    return std::tuple(-std::round(c.margin_p05 / kTie), -c.margin_worst_tenth, c.duration_s,
+                      c.energy_j);
+  };
+  std::stable_sort(paths.begin(), paths.end(),
+                   [&](const VerifiedPath& a, const VerifiedPath& b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    paths[i].candidate.rank = static_cast<int>(i) + 1;
+  }
+}
+
+}  // namespace regoplan

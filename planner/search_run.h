@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "planner/plan_result.h"
+#include "planner/world.h"
+
+namespace regoplan {
+
+/// One run of one planner. Exactly one of `time_s` and `iterations` bounds it.
+struct SearchRun {
+  std::string planner;  ///< SST, RRT, KPIECE1, EST or PDST
+  std::uint64_t seed = 1;
+  double margin_min = 0;  ///< every state keeps at least this stability margin
+  std::optional<double> time_s;
+  std::optional<std::int64_t> iterations;
+};
+
+/// What a run came to.
+struct SearchOutcome {
+  std::vector<ControlSegment> controls;  ///< to the goal; empty where none was found
+  std::array<std::int64_t, kRejectionCount> rejected{};
+  std::vector<RejectedState> rejected_states;  ///< an even sample
+  std::int64_t propagations = 0;
+};
+
+/// Runs a planner of OMPL in this process, which must not have drawn from OMPL's random numbers
+/// before: the seed is set for the whole process.
+SearchOutcome search(const World& world, const SearchRun& run);
+
+}  // namespace regoplan

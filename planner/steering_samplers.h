@@ -1,0 +1,51 @@
+#pragma once
+
+#include <ompl/control/ControlSampler.h>
+#include <ompl/control/DirectedControlSampler.h>
+
+#include "planner/world.h"
+
+namespace regoplan {
+
+/// Controls that steer: a curvature drawn among those whose centripetal force the softest soil of
+/// the map can give on the flat at the speed drawn, half of the time toward the goal where the
+/// state is known.
+class SteeringSampler : public ompl::control::ControlSampler {
+ public:
+  SteeringSampler(const ompl::control::ControlSpace* space, const World& world);
+
+  void sample(ompl::control::Control* control) override;
+  void sample(ompl::control::Control* control, const ompl::base::State* state) override;
+  void sampleNext(ompl::control::Control* control, const ompl::control::Control* previous,
+                  const ompl::base::State* state) override;
+
+ private:
+  const World& world_;
+};
+
+/// Drives from one state toward another: pure pursuit at several speeds, and some free tries; the
+/// motion that comes nearest wins. Motions end where they reach the goal, or come no nearer.
+class PursuitSampler : public ompl::control::DirectedControlSampler {
+ public:
+  PursuitSampler(const ompl::control::SpaceInformation* si, const World& world);
+
+  unsigned int sampleTo(ompl::control::Control* control, const ompl::base::State* source,
+                        ompl::base::State* target) override;
+  unsigned int sampleTo(ompl::control::Control* control, const ompl::control::Control* previous,
+                        const ompl::base::State* source, ompl::base::State* target) override;
+
+ private:
+  /// Propagates while valid; stops at the goal. \returns steps done
+  unsigned int drive(const ompl::control::Control* control, const ompl::base::State* source,
+                     unsigned int steps, ompl::base::State* result) const;
+
+  const World& world_;
+  ompl::RNG rng_;
+};
+
+/// The curvature of the circle through a state, tangent to its heading, that meets a point; limited
+/// to what the vehicle can steer.
+double pursuit_curvature_1pm(const VehicleState& state, double x_m, double y_m,
+                             double curvature_max_1pm);
+
+}  // namespace regoplan

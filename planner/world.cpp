@@ -1,0 +1,190 @@
+#include "planner/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace regoplan {
+namespace {
+
+std::vector<WheelModel> models_of(const PlanningProblem& problem, WorldUse use) {
+  std::vector<WheelModel> models;
+  for (const MapSoil& soil : problem.map.soils()) {
+    models.emplace_back(WheelModelSpec{.variant = problem.wheel_variant,
+                                       .wheel = problem.vehicle.wheel,
+                                       .soil = soil.soil.mean,
+                                       .gravity_mps2 = problem.gravity_mps2},
+                        use == WorldUse::kSearch ? WheelAccuracy::kFast : WheelAccuracy::kExact);
+  }
+  return models;
+}
+
+double largest_by_magnitude(const Vehicle& vehicle, double curvature_1pm) {
+  double largest = 0;
+  for (const WheelMount& wheel : vehicle.wheels) {
+    const double angle = steer_angle_rad(vehicle, wheel, curvature_1pm);
+    // Front wheels tell the direction: a left turn is positive.
+    if (wheel.x_m > vehicle.turn_centre_x_m && std::abs(angle) > std::abs(largest)) largest = angle;
+  }
+  return largest;
+}
+
+}  // namespace
+
+TrimLimits trim_limits(const PlanningProblem& problem) {
+  return {.slip_angle_max_rad = problem.limits.slip_angle_max_rad,
+          .slip_max = problem.limits.slip_max,
+          .sinkage_max_m = problem.limits.sinkage_max_m,
+          .steer_angle_max_rad = problem.vehicle.steer_angle_max_rad};
+}
+
+World::World(const PlanningProblem& problem, WorldUse use, int threads)
+    : problem_(problem),
+      use_(use),
+      models_(models_of(problem, use)),
+      laws_(models_.begin(), models_.end()),
+      ground_(problem.map, problem.vehicle),
+      dynamics_(
+          problem.vehicle, laws_,
+          [this](double x_m, double y_m, double yaw_rad) { return ground_.at(x_m, y_m, yaw_rad); },
+          problem.gravity_mps2),
+      polygon_(problem.vehicle),
+      obstacles_(problem.map, problem.vehicle, use == WorldUse::kSearch ? kSearchClearance_m : 0) {
+  if (use != WorldUse::kSearch) return;
+  for (const WheelLaw& law : laws_) {
+    tables_.emplace_back(problem.vehicle, law, trim_limits(problem),
+                         problem.vehicle.mass_kg * problem.gravity_mps2,
+                         problem.limits.slope_max_rad, threads);
+  }
+}
+
+VehicleState World::start() const {
+  const StartState& start = problem_.start;
+  return dynamics_.rolling_state(start.x_m, start.y_m, start.heading_rad, start.speed_mps);
+}
+
+bool World::at_goal(const VehicleState& state) const {
+  const Goal& goal = problem_.goal;
+  const double share = use_ == WorldUse::kSearch ? kSearchGoalShare : 1;
+  if (std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) > share * goal.radius_m) return false;
+  return !goal.heading_rad ||
+         std::abs(std::remainder(state.yaw_rad - *goal.heading_rad, 2 * std::numbers::pi)) <=
+             share * goal.heading_tolerance_rad;
+}
+
+double World::search_step_s() const {
+  constexpr double kTravel_m = 0.3, kLongest_s = 2.5;
+  const GridFrame& frame = problem_.map.elevation().frame;
+  const double travel = std::min({kTravel_m, frame.cell_width_m, frame.cell_height_m});
+  return std::min(travel / problem_.speed_max_mps, kLongest_s);
+}
+
+StateMargins World::margins(const VehicleState& state, const GroundPatch& patch) const {
+  const SupplyQuestion question = question_of(dynamics_, state, patch);
+  const bool tabled = !tables_.empty() && !question.reverse;
+  const SupplyAnswer answer =
+      tabled ? TabledSupply(tables_).answer(question, problem_.vehicle.wheels.size())
+             : SolvedSupply(problem_.vehicle, dynamics_.sharing(), laws_, trim_limits(problem_))
+                   .answer(question);
+  return margins_of(dynamics_, polygon_, question, answer);
+}
+
+std::optional<RejectedState> World::rejected(const VehicleState& state, const WheelStrain& strain,
+                                             std::optional<double> margin_min) const {
+  RejectedState rejection{.x_m = state.x_m,
+                          .y_m = state.y_m,
+                          .yaw_rad = state.yaw_rad,
+                          .speed_mps = state.motion.vx_mps,
+                          .curvature_1pm = state.curvature_1pm};
+  const auto because = [&](Rejection reason, double value, double limit) {
+    rejection.reason = reason;
+    rejection.value = value;
+    rejection.limit = limit;
+    return rejection;
+  };
+  const Limits& limits = problem_.limits;
+  constexpr double kRounding = 1e-3;  // in which a speed counts as held
+  if (!problem_.map.inside(state.x_m, state.y_m)) return because(Rejection::kBounds, 0, 0);
+  // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
+  const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+  if (speed > problem_.speed_max_mps * (1 + kRounding)) {
+    return because(Rejection::kBounds, speed, problem_.speed_max_mps);
+  }
+  const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
+  if (!patch.known) return because(Rejection::kUnknownTerrain, 0, 0);
+  if (obstacles_.hit(state.x_m, state.y_m, state.yaw_rad, patch)) {
+    return because(Rejection::kObstacle, 0, 0);
+  }
+  const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
+  const double tilt = patch.tilt_rad();
+  if (tilt > share * limits.slope_max_rad) {
+    return because(Rejection::kSlope, tilt, limits.slope_max_rad);
+  }
+  if (strain.sinkage_m > share * limits.sinkage_max_m) {
+    return because(Rejection::kSinkage, strain.sinkage_m, limits.sinkage_max_m);
+  }
+  if (std::abs(strain.slip) > share * limits.slip_max) {
+    return because(Rejection::kSlip, strain.slip, limits.slip_max);
+  }
+  if (std::abs(strain.slip_angle_rad) > share * limits.slip_angle_max_rad) {
+    return because(Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad);
+  }
+  if (!margin_min) return std::nullopt;
+  return rejected_by_margins(state, patch, *margin_min, rejection);
+}
+
+std::optional<RejectedState> World::rejected_by_margins(const VehicleState& state,
+                                                        const GroundPatch& patch, double margin_min,
+                                                        RejectedState rejection) const {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const StateMargins margins = this->margins(state, patch);
+  rejection.limit = margin_min;
+  const auto because = [&](Rejection reason, double value) {
+    rejection.reason = reason;
+    rejection.value = value;
+    return rejection;
+  };
+  if (!margins.supply) {
+    return because(
+        margins.no_supply == NoSupply::kTraction ? Rejection::kTraction : Rejection::kCornering,
+        kNone);
+  }
+  // A lateral demand beyond the supply has no trim and hence no traction: that is cornering.
+  if (margins.traction && *margins.traction < margin_min) {
+    return because(Rejection::kTraction, *margins.traction);
+  }
+  if (margins.tip_over < margin_min) return because(Rejection::kTipOver, margins.tip_over);
+  if (*margins.cornering < margin_min) return because(Rejection::kCornering, *margins.cornering);
+  if (!margins.traction) return because(Rejection::kTraction, kNone);
+  return std::nullopt;
+}
+
+TrajectoryPoint World::describe(const VehicleState& state, const WheelStrain& strain,
+                                double time_s) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
+  const StateMargins margins = this->margins(state, patch);
+  return {.time_s = time_s,
+          .x_m = state.x_m,
+          .y_m = state.y_m,
+          .z_m = patch.z_m,
+          .yaw_rad = state.yaw_rad,
+          .speed_mps = state.motion.vx_mps,
+          .yaw_rate_rad_s = state.motion.yaw_rate_rad_s,
+          .steer_rad = largest_by_magnitude(problem_.vehicle, state.curvature_1pm),
+          .curvature_1pm = state.curvature_1pm,
+          .slip_max = strain.slip,
+          .slip_angle_max_rad = strain.slip_angle_rad,
+          .sinkage_max_m = strain.sinkage_m,
+          .soil = problem_.map.soil_index(state.x_m, state.y_m).value_or(-1),
+          .demand_n = margins.demand_n,
+          .supply_min_n = margins.supply ? margins.supply->right_n : kNone,
+          .supply_max_n = margins.supply ? margins.supply->left_n : kNone,
+          .cornering_margin = margins.cornering.value_or(kNone),
+          .tip_over_margin = margins.tip_over,
+          .traction_margin = margins.traction.value_or(kNone),
+          .margin = margins.stability().value_or(kNone)};
+}
+
+}  // namespace regoplan

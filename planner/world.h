@@ -1,0 +1,83 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "maps/ground_finder.h"
+#include "planner/obstacles.h"
+#include "planner/plan_result.h"
+#include "planner/planning_problem.h"
+#include "terramech/state_margins.h"
+#include "terramech/vehicle_dynamics.h"
+#include "terramech/wheel_model.h"
+
+namespace regoplan {
+
+/// How a world answers: fast, as searches need it, or as exactly as a verdict needs it.
+enum class WorldUse {
+  kSearch,  ///< fast wheel model, tabled supply, obstacles enlarged, limits kept with reserve
+  kVerdict  ///< exact wheel model, every manoeuvre solved, limits as they are
+};
+
+/// A vehicle in its map: how it moves, and what it may not do.
+class World {
+ public:
+  /// \param problem must outlive it \param threads that build the tables
+  World(const PlanningProblem& problem, WorldUse use, int threads);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const PlanningProblem& problem() const { return problem_; }
+  const VehicleDynamics& dynamics() const { return dynamics_; }
+  const Obstacles& obstacles() const { return obstacles_; }
+
+  /// Demand, supply and margins of a state on known ground.
+  StateMargins margins(const VehicleState& state, const GroundPatch& patch) const;
+
+  /// The first reason, in the order of `Rejection`, why a state may not be; nothing where it may.
+  /// \param strain of the wheels in the step that led there
+  std::optional<RejectedState> rejected(const VehicleState& state,
+                                        const WheelStrain& strain) const {
+    return rejected(state, strain, problem_.limits.margin_min);
+  }
+  /// The same with another smallest margin; none leaves traction, tip-over and cornering out.
+  std::optional<RejectedState> rejected(const VehicleState& state, const WheelStrain& strain,
+                                        std::optional<double> margin_min) const;
+
+  /// Everything that decides about a state. \pre it stands on known ground
+  TrajectoryPoint describe(const VehicleState& state, const WheelStrain& strain,
+                           double time_s) const;
+
+  /// The start of the problem, rolling at its speed.
+  VehicleState start() const;
+  bool at_goal(const VehicleState& state) const;
+
+  /// Search steps: as far as a third of a metre at top speed, and within one elevation cell.
+  double search_step_s() const;
+
+  /// What a search keeps in reserve, so that what it finds survives a finer replay: clearance to
+  /// obstacles, the share of the goal's radius and of each limit that it uses.
+  static constexpr double kSearchClearance_m = 0.1;
+  static constexpr double kSearchGoalShare = 0.9;
+  static constexpr double kSearchLimitShare = 0.97;
+
+ private:
+  std::optional<RejectedState> rejected_by_margins(const VehicleState& state,
+                                                   const GroundPatch& patch, double margin_min,
+                                                   RejectedState rejection) const;
+
+  const PlanningProblem& problem_;
+  WorldUse use_;
+  std::vector<WheelModel> models_;  ///< by soil
+  std::vector<WheelLaw> laws_;      ///< views of them
+  GroundFinder ground_;
+  VehicleDynamics dynamics_;
+  SupportPolygon polygon_;
+  Obstacles obstacles_;
+  std::vector<SupplyTable> tables_;  ///< by soil; search only
+};
+
+/// The limits of a problem as trims know them.
+TrimLimits trim_limits(const PlanningProblem& problem);
+
+}  // namespace regoplan

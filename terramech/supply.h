@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "terramech/trim_branch.h"
+
+namespace regoplan {
+
+/// One end of the supply interval.
+struct SupplyEnd {
+  double force_n = 0;  ///< signed, left positive
+  BranchLimit limit = BranchLimit::kFold;
+  int wheel = -1;  ///< which wheel reaches the limit, as index in the vehicle's wheels
+  std::optional<double> fold_n = {};
+};
+
+/// Why there is no supply at all.
+enum class NoSupply {
+  kTraction,  ///< the forward force cannot be had, or not within slip and sinkage
+  kYaw,       ///< no balance of the yaw moment, or not within slip angle and steering range
+};
+
+/// The lateral forces [A-, A+] that steady trims can give while curvature, load and forward force
+/// are held: the ends of the branch of trims connected to zero lateral force, out to the first of
+/// fold, slip angle, slip, sinkage, steering range and a lifted wheel.
+struct Supply {
+  SupplyEnd right;  ///< A-, normally negative
+  SupplyEnd left;   ///< A+, normally positive
+};
+
+struct SupplyResult {
+  std::optional<Supply> supply;
+  NoSupply reason = NoSupply::kTraction;  ///< counts where there is none
+};
+
+/// \param forward_n sum of the wheels' forces along the path (vehicle's forward): acceleration and
+/// slope \param find_folds also reports the folds beyond the limits
+SupplyResult cornering_supply(const SteadyManoeuvre& manoeuvre, double forward_n,
+                              const TrimLimits& limits, bool find_folds = false);
+
+/// The largest force along the direction of travel that trims with the given lateral force can
+/// give: along the branch connected to `force`, out to the first of fold and limits. Signed in the
+/// direction of travel; nothing where the lateral force itself has no trim within the limits.
+std::optional<double> largest_traction_n(const SteadyManoeuvre& manoeuvre, const PathForce& force,
+                                         const TrimLimits& limits, bool reverse = false);
+
+}  // namespace regoplan

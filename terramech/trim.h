@@ -1,0 +1,107 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "terramech/steered_wheel.h"
+#include "terramech/vehicle.h"
+#include "terramech/wheel_law.h"
+#include "terramech/wheel_loads.h"
+
+namespace regoplan {
+
+/// What the wheels' forces sum to, in the directions of the path: along the velocity (of a vehicle
+/// that drives forward; against it in reverse) and to the left of that.
+struct PathForce {
+  double forward_n = 0;
+  double left_n = 0;
+};
+
+/// A straight line of path forces, from + p per_unit.
+struct ForceLine {
+  PathForce from;
+  PathForce per_unit;
+
+  PathForce at(double p) const {
+    return {.forward_n = from.forward_n + p * per_unit.forward_n,
+            .left_n = from.left_n + p * per_unit.left_n};
+  }
+};
+
+/// A wheel in a trim.
+struct TrimmedWheel {
+  double load_n = 0;
+  double steer_rad = 0;
+  double slip = 0;
+  double slip_angle_rad = 0;
+  WheelForces forces;
+};
+
+/// A steady manoeuvre in balance: constant speed, path curvature and body slip angle.
+struct Trim {
+  PathForce force;
+  double body_slip_angle_rad = 0;  ///< of the vehicle's origin, left positive
+  double steer_curvature_1pm = 0;  ///< curvature that the steering is set for
+  double drive_factor = 1;         ///< rim speeds over the slip-free kinematic ones
+  std::vector<TrimmedWheel> wheels;
+};
+
+/// The balance of the steady manoeuvres of one vehicle along one path curvature, with a given load
+/// on the ground and each wheel on its own soil.
+///
+/// Unknowns: body slip angle, the curvature the steering is set for, and one drive factor: rim
+/// speeds are the slip-free kinematic ones times it. Equations: the wheels' forces (fx, -fy),
+/// summed in the body frame and turned into the directions of the path, give the path force; their
+/// yaw moment about the vehicle's origin vanishes, so that what a virtual side force adds acts at
+/// the centre of gravity. Wheel forces depend on velocity ratios only: the balance holds at any
+/// speed.
+class SteadyManoeuvre {
+ public:
+  /// The unknowns and the position p on a line of path forces, each scaled to order one.
+  using Point = Eigen::Vector4d;
+  using Residual = Eigen::Vector3d;
+  using Slopes = Eigen::Matrix<double, 3, 4>;
+
+  /// \param vehicle, sharing, laws must outlive this; `laws` one for each wheel
+  /// \param curvature_1pm commanded path curvature, left positive
+  /// \param normal_n sum of the wheels' loads, above 0 \param reverse drives backwards
+  SteadyManoeuvre(const Vehicle& vehicle, const LoadSharing& sharing,
+                  std::span<const WheelLaw> laws, double curvature_1pm, double normal_n,
+                  bool reverse = false);
+
+  /// Missing path force along and across, over the normal load, and yaw moment, over load and
+  /// length; nothing where a wheel has no load or no forces.
+  std::optional<Residual> residual(const Point& at, const ForceLine& line) const;
+  std::optional<Slopes> slopes(const Point& at, const ForceLine& line,
+                               const Residual& residual) const;
+
+  /// The trim on the line at p nearest to a guess; nothing where Newton's method finds none.
+  std::optional<Point> solve(const Point& guess, const ForceLine& line) const;
+
+  /// The trim at line.from nearest to slip-free rolling, from a scan over the drive factor; nothing
+  /// where the forward force or the yaw moment cannot be balanced.
+  std::optional<Point> solve_from_rolling(const ForceLine& line) const;
+
+  /// What a point stands for.
+  Trim trim(const Point& at, const ForceLine& line) const;
+
+  double normal_n() const { return normal_n_; }
+
+ private:
+  BodyMotion body_motion(const Point& at) const;
+  double steer_curvature_1pm(const Point& at) const;
+  double drive_factor(const Point& at) const;
+  GroundReaction reaction(const Point& at, const ForceLine& line) const;
+
+  const Vehicle& vehicle_;
+  const LoadSharing& sharing_;
+  std::span<const WheelLaw> laws_;
+  double curvature_1pm_;
+  double normal_n_;
+  double direction_;  ///< 1 forward, -1 reverse
+  double length_m_;   ///< scale of steering and of the yaw moment
+};
+
+}  // namespace regoplan

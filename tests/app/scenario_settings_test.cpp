@@ -1,0 +1,146 @@
+#include "app/scenario_settings.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <numbers>
+
+#include "tests/app/error_text.h"
+#include "tests/app/flat_map.h"
+#include "tests/app/simulant_model.h"
+
+namespace regoplan {
+namespace {
+
+class ScenarioSettings : public testing::Test {
+ protected:
+  ScenarioSettings() { write_elevation(flat_elevation(), folder_.path("dem.tif")); }
+
+  Scenario scenario(const std::string& from, const std::string& to,
+                    const ScenarioOverrides& overrides = {}) const {
+    return read_scenario(folder_.write("s.yaml", replaced(flat_scenario(), from, to)), overrides);
+  }
+  PlanningProblem problem(const std::string& from, const std::string& to,
+                          const ScenarioOverrides& overrides = {}) const {
+    return scenario(from, to, overrides).problem;
+  }
+  /// Without the folder that the file stands in.
+  std::string error_of(const std::string& from, const std::string& to,
+                       const ScenarioOverrides& overrides = {}) const {
+    const std::string text = error_text([&] { scenario(from, to, overrides); });
+    return text.starts_with(folder_.path("")) ? text.substr(folder_.path("").size()) : text;
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(ScenarioSettings, AnglesAreHeldInRadiansAndOmissionsComeFromTheVehicle) {
+  const PlanningProblem read = problem("heading_deg: 0", "heading_deg: 90");
+  const Limits limits = default_limits(preset_vehicle("lrv"));
+  EXPECT_DOUBLE_EQ(read.start.heading_rad, std::numbers::pi / 2);
+  EXPECT_EQ(read.start.speed_mps, 0);
+  EXPECT_EQ(read.limits.slope_max_rad, limits.slope_max_rad);
+  EXPECT_EQ(read.limits.slip_angle_max_rad, limits.slip_angle_max_rad);
+  EXPECT_EQ(read.limits.sinkage_max_m, limits.sinkage_max_m);
+  EXPECT_EQ(read.speed_max_mps, read.vehicle.speed_max_mps);
+  EXPECT_FALSE(read.goal.heading_rad);
+}
+
+TEST_F(ScenarioSettings, ALimitThatIsGivenReplacesTheVehiclesAndNoOther) {
+  const PlanningProblem read = problem("planner:", "limits: {slope_max_deg: 10}\nplanner:");
+  EXPECT_DOUBLE_EQ(read.limits.slope_max_rad, 10 * std::numbers::pi / 180);
+  EXPECT_EQ(read.limits.slip_max, default_limits(read.vehicle).slip_max);
+}
+
+TEST_F(ScenarioSettings, OneBudgetBoundsTheSearch) {
+  EXPECT_EQ(problem("iterations: 200", "iterations: 7").search.iterations, 7);
+  EXPECT_EQ(problem("iterations: 200", "time_s: 3").search.time_s, 3);
+  EXPECT_TRUE(problem("planner: {iterations: 200}\n", "").search.time_s);
+  EXPECT_EQ(error_of("iterations: 200", "iterations: 200, time_s: 3"),
+            "s.yaml:8: planner.iterations: either time_s or iterations, not both");
+}
+
+TEST_F(ScenarioSettings, TheCommandLineTakesThePlaceOfTheFile) {
+  const PlanningProblem read =
+      problem("iterations: 200", "iterations: 200, seed: 4",
+              {.planner = "RRT", .seed = 9, .time_s = 2.5, .candidates = 2, .threads = 1});
+  EXPECT_EQ(read.search.planner, "RRT");
+  EXPECT_EQ(read.search.seed, 9);
+  EXPECT_EQ(read.search.time_s, 2.5);
+  EXPECT_FALSE(read.search.iterations);
+  EXPECT_EQ(read.search.candidates, 2);
+  EXPECT_EQ(read.search.threads, 1);
+}
+
+TEST_F(ScenarioSettings, AModelReplacesTheSoilThatItNames) {
+  const std::string model =
+      folder_.write("m.yaml", replaced(kSimulantModel, "soil_name: simulant", "soil_name: mare"));
+  const PlanningProblem read = problem("200", "201", {.model_file = model});
+  EXPECT_EQ(read.map.soils().front().soil.mean.cohesion_pa, 800);
+  EXPECT_EQ(read.map.soils().front().name, "mare");
+
+  const std::string other = folder_.write("m.yaml", kSimulantModel);
+  EXPECT_EQ(error_of("200", "201", {.model_file = other}),
+            "m.yaml: soil_name: simulant is no soil of the map (it has: mare)");
+  const std::string nameless =
+      folder_.write("m.yaml", replaced(kSimulantModel, "soil_name: simulant\n", ""));
+  EXPECT_TRUE(
+      error_of("200", "201", {.model_file = nameless}).starts_with("m.yaml: soil_name is missing"));
+}
+
+TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
+  EXPECT_EQ(error_of("radius_m: 3", "radius_m: 0"),
+            "s.yaml:7: goal.radius_m: 0 is not valid (allowed: above 0)");
+  EXPECT_EQ(error_of("radius_m: 3", "radius: 3"),
+            "s.yaml:7: goal: radius_m is missing (line 7 has radius)");
+  EXPECT_EQ(error_of("gravity_mps2: 1.62", "gravity_mps2: .nan"),
+            "s.yaml:5: gravity_mps2: .nan is not valid (allowed: a number, above 0)");
+  EXPECT_EQ(error_of("planner:", "speed_mps: {max: 50}\nplanner:").substr(0, 40),
+            "s.yaml:8: speed_mps.max: 50 is not valid");
+  EXPECT_EQ(error_of("radius_m: 3", "radius_m: 3, heading_deg: 5"),
+            "s.yaml:7: goal: heading_deg and heading_tolerance_deg go together");
+  EXPECT_EQ(error_of("planner:", "planer:").substr(0, 54),
+            "s.yaml:8: planer: unknown key (did you mean planner?)");
+  EXPECT_EQ(error_of("iterations: 200", "name: A*"),
+            "s.yaml:8: planner.name: A* is not valid (allowed: auto | SST | RRT | KPIECE1 | EST | "
+            "PDST)");
+}
+
+TEST_F(ScenarioSettings, AFileThatIsNotThereIsAnErrorThatNamesWhoWantsIt) {
+  EXPECT_TRUE(error_of("dem.tif", "no.tif").starts_with("s.yaml:2: map.elevation: "));
+  EXPECT_NE(error_of("dem.tif", "no.tif").find("no.tif"), std::string::npos);
+  EXPECT_TRUE(error_of(kOneSoil, "no.yaml").starts_with("s.yaml:3: map.soils: "));
+  EXPECT_TRUE(error_of("vehicle: lrv", "vehicle: no.yaml").starts_with("s.yaml:4: vehicle: "));
+  EXPECT_TRUE(error_of("vehicle: lrv", "vehicle: [1]").starts_with("s.yaml:4: vehicle: "));
+}
+
+TEST_F(ScenarioSettings, ManySoilsNeedARasterThatSaysWhereTheyAre) {
+  EXPECT_NE(error_of(kOneSoil, REGOPLAN_SOURCE_DIR "/scenarios/demo/soils.yaml").find("soils"),
+            std::string::npos);
+}
+
+TEST_F(ScenarioSettings, AFileNameMayHoldAnEnvironmentVariable) {
+  unsetenv("REGOPLAN_TEST_FOLDER");
+  EXPECT_EQ(error_of("dem.tif", "${REGOPLAN_TEST_FOLDER}/dem.tif"),
+            "s.yaml:2: map.elevation: ${REGOPLAN_TEST_FOLDER}/dem.tif: the environment variable "
+            "REGOPLAN_TEST_FOLDER is not set");
+  setenv("REGOPLAN_TEST_FOLDER", folder_.path("").c_str(), 1);
+  EXPECT_EQ(error_of("dem.tif", "${REGOPLAN_TEST_FOLDER}/dem.tif"), "");
+}
+
+TEST_F(ScenarioSettings, AClassRasterWithoutCrsTakesTheElevationsWithANotice) {
+  ElevationRaster elevation = flat_elevation();
+  elevation.frame.crs_wkt =
+      R"(LOCAL_CS["site",UNIT["metre",1],AXIS["Easting",EAST],AXIS["Northing",NORTH]])";
+  write_elevation(elevation, folder_.path("dem.tif"));
+  write_classes({.frame = flat_elevation().frame, .code = std::vector<std::int32_t>(1600, 1)},
+                folder_.path("classes.tif"));
+  std::string soils = kOneSoil;
+  soils.insert(1, "classes: {1: mare}, ");
+  const Scenario read =
+      scenario(std::string("soils: ") + kOneSoil, "soil_class: classes.tif\n  soils: " + soils);
+  EXPECT_EQ(read.notices.size(), 1);
+}
+
+}  // namespace
+}  // namespace regoplan

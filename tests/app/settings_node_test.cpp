@@ -1,0 +1,120 @@
+#include "app/settings_node.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/app/error_text.h"
+#include "tests/app/scratch_folder.h"
+
+namespace regoplan {
+namespace {
+
+SettingsNode value(const std::string& yaml) {
+  return parse_settings("key: " + yaml, "f.yaml").mapping().front().value;
+}
+
+std::string number_error(const std::string& yaml, const ValueRange& allowed = kAnyNumber) {
+  return error_text([&] { value(yaml).number(allowed); });
+}
+
+TEST(SettingsNode, NumbersAreDecimal) {
+  EXPECT_EQ(value("-1.5").number(kAnyNumber), -1.5);
+  EXPECT_EQ(value(".036").number(kAnyNumber), 0.036);
+  EXPECT_EQ(value("+8.14e5").number(kAnyNumber), 814000);
+  for (const char* bad : {"five", "0x10", "1_000", "1,5", "1 m", "'5'", "\"5\"", "true", "1.2.3",
+                          "+-1", "[1]", "{mean: 1}", "", "~"}) {
+    EXPECT_NE(number_error(bad), "") << bad;
+  }
+}
+
+TEST(SettingsNode, NanAndInfinitiesAreNoNumbers) {
+  for (const char* bad : {".nan", ".NaN", "nan", ".inf", "-.inf", "inf", "1e999", "-1e999"}) {
+    EXPECT_NE(number_error(bad), "") << bad;
+  }
+}
+
+TEST(SettingsNode, AnErrorNamesFileLineKeyValueAndRange) {
+  const SettingsNode root = parse_settings("vehicle:\n  name: x\n  mass_kg: -5\n", "scenario.yaml");
+  EXPECT_EQ(error_text([&] { root.find("vehicle.mass_kg")->number(kAbove0); }),
+            "scenario.yaml:3: vehicle.mass_kg: -5 is not valid (allowed: above 0)");
+}
+
+TEST(SettingsNode, RangesAreKeptExactly) {
+  const ValueRange open{.min = 0, .max = 60, .min_excluded = true};
+  EXPECT_EQ(number_error("0", open), "f.yaml:1: key: 0 is not valid (allowed: above 0 to 60)");
+  EXPECT_EQ(number_error("60.0001", open),
+            "f.yaml:1: key: 60.0001 is not valid (allowed: above 0 to 60)");
+  EXPECT_EQ(value("60").number(open), 60);
+  EXPECT_EQ(value("0").number(kAtLeast0), 0);
+}
+
+TEST(SettingsNode, IntegersAreWhole) {
+  EXPECT_EQ(value("12").integer(1, 20), 12);
+  EXPECT_EQ(error_text([] { value("0").integer(1, 20); }),
+            "f.yaml:1: key: 0 is not valid (allowed: an integer, 1 to 20)");
+  for (const char* bad : {"1.0", "1e3", "99999999999999999999", "'5'", "five"}) {
+    EXPECT_NE(error_text([&] { value(bad).integer(0, INT64_MAX); }), "") << bad;
+  }
+}
+
+TEST(SettingsNode, TruthIsTrueOrFalse) {
+  EXPECT_TRUE(value("true").truth());
+  EXPECT_FALSE(value("false").truth());
+  EXPECT_EQ(error_text([] { value("yes").truth(); }),
+            "f.yaml:1: key: yes is not valid (allowed: true | false)");
+}
+
+TEST(SettingsNode, AChoiceListsWhatThereIs) {
+  EXPECT_EQ(value("b").choice({"a", "b"}), 1);
+  EXPECT_EQ(error_text([] {
+              value("c").choice({"a", "b"});
+            }),
+            "f.yaml:1: key: c is not valid (allowed: a | b)");
+}
+
+TEST(SettingsNode, AKeyGivenTwiceIsAnErrorAtAnyDepth) {
+  EXPECT_EQ(error_text([] { parse_settings("a: 1\nb: 2\na: 3\n", "f.yaml"); }),
+            "f.yaml:3: a: given twice (first in line 1)");
+  EXPECT_EQ(error_text([] { parse_settings("l:\n  - m:\n      a: 1\n      a: 1\n", "f.yaml"); }),
+            "f.yaml:4: l[0].m.a: given twice (first in line 3)");
+}
+
+TEST(SettingsNode, AMappingStandsWhereItsKeyStands) {
+  const SettingsNode root = parse_settings("a: 1\nsoil:\n\n\n  n: 1\n", "f.yaml");
+  EXPECT_EQ(root.find("soil")->line(), 2);
+  EXPECT_EQ(root.find("soil.n")->line(), 5);
+}
+
+TEST(SettingsNode, AFieldIsFoundByPathByNameOfAListItemAndByFirstKey) {
+  const SettingsNode root = parse_settings(
+      "start: {x_m: 1}\ngoal:\n  x_m: 2\nwheels:\n  - {name: left, x_m: 3}\n"
+      "  - {name: right, x_m: 4}\n",
+      "f.yaml");
+  EXPECT_EQ(root.find("goal.x_m")->number(kAnyNumber), 2);
+  EXPECT_EQ(root.find("wheels.right.x_m")->number(kAnyNumber), 4);
+  EXPECT_EQ(root.find("x_m")->number(kAnyNumber), 1);
+  EXPECT_EQ(root.find("goal.radius_m"), root.find("goal"));
+  EXPECT_EQ(root.find("nowhere"), nullptr);
+}
+
+TEST(SettingsNode, WhatIsNotOneYamlDocumentIsAnError) {
+  EXPECT_NE(error_text([] { parse_settings("a: [1\nb: 2\n", "f.yaml"); }).find("f.yaml:2: "),
+            std::string::npos);
+  EXPECT_EQ(error_text([] { parse_settings("", "f.yaml"); }), "f.yaml: empty");
+  EXPECT_EQ(error_text([] { parse_settings("# nothing\n", "f.yaml"); }), "f.yaml: empty");
+  EXPECT_EQ(error_text([] { parse_settings("a: 1\n---\nb: 2\n", "f.yaml"); }),
+            "f.yaml: 2 YAML documents (allowed: one)");
+  EXPECT_NE(error_text([] { parse_settings("a: &x [*x]\n", "f.yaml"); }), "");
+}
+
+TEST(SettingsNode, AFileThatCannotBeReadIsAnError) {
+  const ScratchFolder folder;
+  EXPECT_EQ(error_text([&] { read_settings(folder.path("none.yaml")); }),
+            folder.path("none.yaml") + ": no such file");
+  EXPECT_EQ(error_text([&] { read_settings(folder.path("")); }),
+            folder.path("") + ": cannot be read");
+  EXPECT_EQ(error_text([&] { read_settings(folder.write("e.yaml", "")); }),
+            folder.path("e.yaml") + ": empty");
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,167 @@
+#include "app/wheel_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "app/csv_cells.h"
+#include "app/model_settings.h"
+#include "tests/app/error_text.h"
+#include "tests/app/simulant_model.h"
+
+namespace regoplan {
+namespace {
+
+const WheelModel& simulant() {
+  static const WheelModel model(read_model(parse_settings(kSimulantModel, "m.yaml")).spec);
+  return model;
+}
+
+std::vector<std::vector<std::string>> rows_of(const std::string& table) {
+  std::istringstream conditions(table);
+  std::ostringstream csv;
+  compute_wheel_rows(conditions, "c.csv", simulant(), {.csv = &csv}, {});
+  std::istringstream lines(csv.str());
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(lines, line);) rows.push_back(split_cells(line).value());
+  return rows;
+}
+
+std::string error_of(const std::string& table) {
+  return error_text([&] { rows_of(table); });
+}
+
+TEST(WheelRows, CarryTheModelsForcesAndTheirTurnIntoThePathsDirections) {
+  const double beta_rad = 12 * std::numbers::pi / 180;
+  const WheelForces forces = simulant().forces(64.7, motion_at(0.3, beta_rad));
+  const auto rows = rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0.3,12\n");
+  ASSERT_EQ(rows.size(), 2);
+  const std::vector<std::string> columns{"load_n", "slip_ratio", "slip_angle_deg", "fx_n",
+                                         "fy_n",   "torque_nm",  "sinkage_m",      "fc_n",
+                                         "fb_n",   "status"};
+  EXPECT_EQ(rows[0], columns);
+  EXPECT_EQ(std::stod(rows[1][3]), forces.fx_n);
+  EXPECT_EQ(std::stod(rows[1][4]), forces.fy_n);
+  EXPECT_EQ(std::stod(rows[1][5]), forces.torque_nm);
+  EXPECT_EQ(std::stod(rows[1][6]), forces.sinkage_m);
+  // Eqs. (18)(19) turn the force by the slip angle: its size stays.
+  const double fc_n = std::stod(rows[1][7]);
+  const double fb_n = std::stod(rows[1][8]);
+  EXPECT_NEAR(std::hypot(fc_n, fb_n), std::hypot(forces.fx_n, forces.fy_n), 1e-9);
+  EXPECT_NEAR(fc_n, forces.fx_n * std::sin(beta_rad) + forces.fy_n * std::cos(beta_rad), 1e-12);
+  EXPECT_EQ(rows[1][9], "ok");
+}
+
+TEST(WheelRows, CellsAreEmptyWhereNoSinkageCarriesTheLoad) {
+  const auto rows = rows_of("load_n,slip_ratio,slip_angle_deg\n1e7,0.1,0\n64.7,0.1,0\n");
+  ASSERT_EQ(rows.size(), 3);
+  for (std::size_t i = 3; i < 9; ++i) EXPECT_EQ(rows[1][i], "") << rows[0][i];
+  EXPECT_EQ(rows[1][9], "sinks_to_axle");
+  EXPECT_EQ(rows[2][9], "ok");
+}
+
+TEST(WheelRows, BeyondTheTestedSlipTheValueIsMarkedUntrusted) {
+  const auto rows = rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0.97,0\n64.7,0.2,70\n");
+  EXPECT_EQ(rows[1][9], "untrusted");
+  EXPECT_NE(rows[1][3], "");
+  EXPECT_EQ(rows[2][9], "untrusted");
+}
+
+TEST(WheelRows, KeepEveryColumnInItsPlaceAndAsItWasWritten) {
+  const auto rows = rows_of(
+      "run_id,slip_angle_deg,note,load_n,slip_ratio\r\n007,4,\"a, \"\"b\"\"\",64.70,.20\r\n");
+  EXPECT_EQ(rows[1][0], "007");
+  EXPECT_EQ(rows[1][2], "a, \"b\"");
+  EXPECT_EQ(rows[1][3], "64.70");
+}
+
+TEST(WheelRows, AMeasuredColumnOfTheSameNameIsKeptUnderAnother) {
+  const auto rows = rows_of("load_n,slip_ratio,slip_angle_deg,fx_n\n64.7,0.3,0,123\n");
+  EXPECT_EQ(rows[0][3], "input_fx_n");
+  EXPECT_EQ(rows[1][3], "123");
+  EXPECT_EQ(rows[0][4], "fx_n");
+  EXPECT_NE(rows[1][4], "123");
+}
+
+TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
+  const std::string header = "load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n";
+  EXPECT_EQ(error_of(header + "-1,0,0\n"), "c.csv:3: load_n: -1 is not valid (allowed: above 0)");
+  EXPECT_EQ(error_of(header + "64.7,1.01,0\n"),
+            "c.csv:3: slip_ratio: 1.01 is not valid (allowed: -1 to 1)");
+  EXPECT_EQ(error_of(header + "64.7,0,nan\n"),
+            "c.csv:3: slip_angle_deg: nan is not valid (allowed: -90 to 90)");
+  EXPECT_EQ(error_of(header + "64.7,,0\n"),
+            "c.csv:3: slip_ratio: an empty cell is not valid (allowed: -1 to 1)");
+  EXPECT_EQ(error_of(header + "64.7,0\n"), "c.csv:3: 2 cells (the header has 3)");
+  EXPECT_EQ(error_of(header + "\n64.7,0,0\n"), "c.csv:3: an empty line");
+  EXPECT_EQ(error_of("load_n,slip_ratio\n1,0\n"), "c.csv:1: column slip_angle_deg is missing");
+  EXPECT_EQ(error_of("load_n,load_n\n"), "c.csv:1: column load_n given twice");
+  EXPECT_EQ(error_of(""), "c.csv: empty (expected a header line)");
+}
+
+TEST(WheelRows, ATableWithoutRowsIsATableWithoutRows) {
+  EXPECT_EQ(rows_of("load_n,slip_ratio,slip_angle_deg\n").size(), 1);
+  EXPECT_EQ(rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n\n\n").size(), 2);
+}
+
+/// Rows that are made while they are read; counts how many have been asked for.
+class EndlessTable : public std::streambuf {
+ public:
+  EndlessTable(std::ostringstream& out, long rows_max) : out_(out), rows_max_(rows_max) {}
+  bool rows_came_out_before_all_were_read = false;
+
+ protected:
+  int_type underflow() override {
+    if (rows_ == rows_max_) return traits_type::eof();
+    if (rows_ == rows_max_ - 1) rows_came_out_before_all_were_read = out_.str().size() > 100;
+    line_ = rows_++ == 0 ? "load_n,slip_ratio,slip_angle_deg\n" : "64.7,0.2,4\n";
+    setg(line_.data(), line_.data(), line_.data() + line_.size());
+    return traits_type::to_int_type(line_.front());
+  }
+
+ private:
+  std::ostringstream& out_;
+  long rows_max_;
+  long rows_ = 0;
+  std::string line_;
+};
+
+TEST(WheelRows, ComeOutOneByOneWhileTheTableIsRead) {
+  std::ostringstream csv;
+  EndlessTable table(csv, 2000);
+  std::istream conditions(&table);
+  const WheelRowsResult result =
+      compute_wheel_rows(conditions, "c.csv", simulant(), {.csv = &csv}, {});
+  EXPECT_EQ(result.rows, 1999);
+  EXPECT_TRUE(table.rows_came_out_before_all_were_read);
+}
+
+TEST(WheelRows, AStopLeavesWholeRowsAndSaysSo) {
+  std::stop_source stop;
+  stop.request_stop();
+  std::istringstream conditions("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n");
+  std::ostringstream json;
+  const WheelRowsResult result =
+      compute_wheel_rows(conditions, "c.csv", simulant(), {.json = &json}, stop.get_token());
+  EXPECT_TRUE(result.interrupted);
+  const auto parsed = nlohmann::json::parse(json.str());
+  EXPECT_EQ(parsed["interrupted"], true);
+  EXPECT_TRUE(parsed["rows"].empty());
+}
+
+TEST(WheelRows, JsonSaysWhatTheTableSays) {
+  std::istringstream conditions("load_n,slip_ratio,slip_angle_deg,id\n64.7,0,0,a\n1e7,0,0,\n");
+  std::ostringstream json;
+  compute_wheel_rows(conditions, "c.csv", simulant(), {.json = &json}, {});
+  const auto rows = nlohmann::json::parse(json.str())["rows"];
+  ASSERT_EQ(rows.size(), 2);
+  EXPECT_EQ(rows[0]["fx_n"], simulant().forces(64.7, motion_at(0, 0)).fx_n);
+  EXPECT_EQ(rows[0]["id"], "a");
+  EXPECT_TRUE(rows[1]["fx_n"].is_null());
+  EXPECT_EQ(rows[1]["status"], "sinks_to_axle");
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,329 @@
+#include "maps/raster_files.h"
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "maps/terrain_summary.h"
+#include "temporary_folder.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+const std::string kMars = "+proj=eqc +R=3396190 +units=m";
+
+std::string data_folder() {
+  const char* folder = std::getenv("REGOPLAN_DATA");
+  return folder != nullptr ? folder : "../shared/data";
+}
+
+struct Tiff {
+  GDALDataType type = GDT_Float32;
+  std::array<double, 6> transform{100, 1, 0, 200, 0, -1};
+  std::string crs = {};
+  std::vector<double> cells{1, 2, 3, 4};  // 2 x 2
+  std::optional<double> nodata = {};
+  double scale = 1;
+  double offset = 0;
+  std::string unit = {};
+};
+
+std::string wkt(const std::string& crs) {
+  OGRSpatialReference reference;
+  reference.SetFromUserInput(crs.c_str());
+  char* text = nullptr;
+  reference.exportToWkt(&text);
+  std::string result = text;
+  CPLFree(text);
+  return result;
+}
+
+std::string write(const TemporaryFolder& folder, const Tiff& tiff,
+                  const std::string& name = "in.tif") {
+  GDALAllRegister();
+  std::string file = folder.file(name);
+  GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+      file.c_str(), 2, 2, 1, tiff.type, nullptr));
+  std::array<double, 6> transform = tiff.transform;
+  dataset->SetGeoTransform(transform.data());
+  if (!tiff.crs.empty()) dataset->SetProjection(wkt(tiff.crs).c_str());
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  if (tiff.nodata) band.SetNoDataValue(*tiff.nodata);
+  if (tiff.scale != 1) band.SetScale(tiff.scale);
+  if (tiff.offset != 0) band.SetOffset(tiff.offset);
+  if (!tiff.unit.empty()) band.SetUnitType(tiff.unit.c_str());
+  std::vector<double> cells = tiff.cells;
+  EXPECT_EQ(band.RasterIO(GF_Write, 0, 0, 2, 2, cells.data(), 2, 2, GDT_Float64, 0, 0, nullptr),
+            CE_None);
+  return file;
+}
+
+template <typename Action>
+testing::AssertionResult refuses(Action action, const std::vector<std::string>& words) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    for (const std::string& word : words) {
+      if (message.find(word) == std::string::npos) {
+        return testing::AssertionFailure() << message << "\n  does not say: " << word;
+      }
+    }
+    if (message.find('\n') != std::string::npos) {
+      return testing::AssertionFailure() << message << "\n  is more than one line";
+    }
+    return testing::AssertionSuccess();
+  }
+  return testing::AssertionFailure() << "no error";
+}
+
+TEST(RasterFiles, WhatIsWrittenReadsBackExactly) {
+  const TemporaryFolder folder;
+  ElevationRaster elevation{{.columns = 3,
+                             .rows = 2,
+                             .west_m = 8142406.25,
+                             .north_m = -276455.5,
+                             .cell_width_m = 0.5,
+                             .cell_height_m = 0.25,
+                             .crs_wkt = wkt(kMars)},
+                            {1.1F, -2.5F, 3e-7F, 0, std::nanf(""), 12345.678F}};
+  write_elevation(elevation, folder.file("dem.tif"));
+  const ElevationRaster heights = read_elevation(folder.file("dem.tif"));
+  for (std::size_t i = 0; i < heights.height_m.size(); ++i) {
+    if (i == 4) continue;
+    EXPECT_EQ(heights.height_m[i], elevation.height_m[i]);
+  }
+  EXPECT_TRUE(std::isnan(heights.height_m.at(4)));
+  EXPECT_FALSE(heights.frame.crs_wkt.empty());
+  GridFrame frame = heights.frame;
+  frame.crs_wkt = elevation.frame.crs_wkt;
+  EXPECT_EQ(frame, elevation.frame);
+
+  ClassRaster classes{elevation.frame, {1, -2, INT32_MAX, 0, ClassRaster::kNoData, 255}};
+  classes.frame.crs_wkt.clear();
+  write_classes(classes, folder.file("classes.tif"));
+  const ClassRaster codes = read_classes(folder.file("classes.tif"));
+  EXPECT_EQ(codes.code, classes.code);
+  EXPECT_EQ(codes.frame, classes.frame);
+  EXPECT_EQ(folder.size(), 2) << "no side files, no unfinished files";
+}
+
+TEST(RasterFiles, WritingFailsWholeWithOneLine) {
+  const TemporaryFolder folder;
+  const ElevationRaster elevation{
+      {.columns = 1, .rows = 1, .west_m = 0, .north_m = 0, .cell_width_m = 1, .cell_height_m = 1},
+      {1}};
+  EXPECT_TRUE(refuses([&] { write_elevation(elevation, folder.file("no/dem.tif")); },
+                      {"no/dem.tif", "does not exist"}));
+  std::filesystem::create_directory(folder.file("dem.tif"));
+  EXPECT_TRUE(refuses([&] { write_elevation(elevation, folder.file("dem.tif")); }, {"dem.tif"}));
+  EXPECT_EQ(folder.size(), 1);
+}
+
+TEST(RasterFiles, NodataOfEveryNumberTypeIsUnknown) {
+  const TemporaryFolder folder;
+  struct Case {
+    GDALDataType type;
+    double nodata;
+  };
+  for (const auto& [type, nodata] : {Case{GDT_Byte, 0},
+                                     {GDT_Int16, -32768},
+                                     {GDT_UInt16, 65535},
+                                     {GDT_Int32, -99999},
+                                     {GDT_Float32, -3.4028234663852886e38},
+                                     {GDT_Float64, -1.7976931348623157e308},
+                                     {GDT_Float32, std::nan("")}}) {
+    const std::string file =
+        write(folder, {.type = type, .cells = {1, nodata, 3, 4}, .nodata = nodata});
+    const std::vector<float> heights = read_elevation(file).height_m;
+    EXPECT_EQ(heights[0], 1);
+    EXPECT_TRUE(std::isnan(heights[1])) << GDALGetDataTypeName(type);
+    EXPECT_EQ(heights[3], 4);
+    EXPECT_EQ(read_classes(file).code, (std::vector<std::int32_t>{1, ClassRaster::kNoData, 3, 4}));
+  }
+}
+
+TEST(RasterFiles, NanCellsAreUnknownWithoutANodataValue) {
+  const TemporaryFolder folder;
+  const std::string file = write(folder, {.cells = {1, std::nan(""), 3, 4}});
+  EXPECT_TRUE(std::isnan(read_elevation(file).height_m[1]));
+  EXPECT_EQ(read_classes(file).code[1], ClassRaster::kNoData);
+  EXPECT_TRUE(refuses(
+      [&] {
+        const double nan = std::nan("");
+        read_elevation(write(folder, {.cells = {nan, nan, nan, nan}}));
+      },
+      {"in.tif", "no cell is known"}));
+}
+
+TEST(RasterFiles, UndeclaredNodataIsRefusedWithTheRemedy) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(refuses(
+      [&] {
+        read_elevation(write(folder, {.cells = {1, 2, -3.4e38, 4}}));
+      },
+      {"column 0, row 1", "gdal_translate -a_nodata"}));
+  EXPECT_TRUE(refuses(
+      [&] {
+        read_elevation(write(folder, {.cells = {1, 2, INFINITY, 4}}));
+      },
+      {"height inf m"}));
+}
+
+TEST(RasterFiles, ScaleAndOffsetOfTheBandCount) {
+  const TemporaryFolder folder;
+  const std::string file =
+      write(folder,
+            {.type = GDT_Int16, .cells = {0, 10, -5, 99}, .nodata = 99, .scale = 0.1, .offset = 7});
+  const std::vector<float> heights = read_elevation(file).height_m;
+  EXPECT_FLOAT_EQ(heights[0], 7);
+  EXPECT_FLOAT_EQ(heights[1], 8);
+  EXPECT_FLOAT_EQ(heights[2], 6.5);
+  EXPECT_TRUE(std::isnan(heights[3]));
+}
+
+TEST(RasterFiles, ClassCodesAreIntegersWhateverTypeHoldsThem) {
+  const TemporaryFolder folder;
+  const std::vector<std::int32_t> codes{1, 2, 3, 4};
+  for (const GDALDataType type : {GDT_Byte, GDT_Int16, GDT_UInt32, GDT_Float32, GDT_Float64}) {
+    EXPECT_EQ(read_classes(write(folder, {.type = type})).code, codes);
+  }
+  EXPECT_TRUE(refuses(
+      [&] {
+        read_classes(write(folder, {.cells = {1, 2.5, 3, 4}}));
+      },
+      {"class code 2.5", "column 1, row 0"}));
+  EXPECT_TRUE(refuses(
+      [&] {
+        read_classes(write(folder, {.type = GDT_UInt32, .cells = {1, 2, 3, 4e9}}));
+      },
+      {"class code 4000000000"}));
+}
+
+TEST(RasterFiles, DegreesAreRefusedNamingARemedyThatWorks) {
+  const TemporaryFolder folder;
+  for (const char* crs : {"EPSG:4326", "+proj=longlat +R=3396190"}) {
+    const std::string file = write(folder, {.transform = {137, 1e-5, 0, -4, 0, -1e-5}, .crs = crs});
+    const std::vector<std::string> words{"in.tif", "degrees", "gdalwarp -t_srs \"+proj=tmerc",
+                                         "+lat_0=-4.0000 +lon_0=137.0000"};
+    EXPECT_TRUE(refuses([&] { read_elevation(file); }, words));
+    EXPECT_TRUE(refuses([&] { read_classes(file); }, words));
+  }
+}
+
+TEST(RasterFiles, FeetAreRefused) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(refuses(
+      [&] { read_elevation(write(folder, {.crs = "+proj=tmerc +R=6371000 +units=us-ft"})); },
+      {"0.3048", "gdalwarp -t_srs"}));
+  EXPECT_TRUE(refuses([&] { read_elevation(write(folder, {.unit = "ft"})); }, {"\"ft\""}));
+  EXPECT_EQ(read_elevation(write(folder, {.unit = "metre"})).height_m[0], 1);
+}
+
+TEST(RasterFiles, RotatedAndSouthUpRastersAreRefusedWithTheRemedy) {
+  const TemporaryFolder folder;
+  for (const auto& transform :
+       {std::array<double, 6>{100, 1, 0.1, 200, 0.1, -1},
+        std::array<double, 6>{100, 0, 1, 200, 1, 0}, std::array<double, 6>{100, 1, 0, 200, 0, 1},
+        std::array<double, 6>{100, -1, 0, 200, 0, -1}}) {
+    EXPECT_TRUE(refuses([&] { read_elevation(write(folder, {.transform = transform})); },
+                        {"in.tif", "remedy: gdalwarp"}));
+  }
+}
+
+TEST(RasterFiles, WhatIsNoRasterIsRefusedByName) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(
+      refuses([&] { read_elevation(folder.file("gone.tif")); }, {"gone.tif", "no such file"}));
+  EXPECT_TRUE(refuses([&] { read_elevation(folder.write("text.tif", "hello\n")); },
+                      {"text.tif", "is not a raster"}));
+  EXPECT_TRUE(
+      refuses([&] { read_elevation(write(folder, {.type = GDT_CFloat32})); }, {"complex numbers"}));
+  const std::string whole = write(folder, {}, "whole.asc");
+  std::ifstream stream(whole, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  EXPECT_TRUE(
+      refuses([&] { read_elevation(folder.write("cut.tif", bytes.substr(0, bytes.size() / 3))); },
+              {"cut.tif"}));
+}
+
+TEST(RasterFiles, AsciiGridsReadLikeAnyOther) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("grid.asc",
+                                        "ncols 3\nnrows 2\nxllcorner -1.5\nyllcorner 10\n"
+                                        "cellsize 0.5\nNODATA_value 0\n1 2 3\n0 5 6\n");
+  const ClassRaster classes = read_classes(file);
+  EXPECT_EQ(classes.code, (std::vector<std::int32_t>{1, 2, 3, ClassRaster::kNoData, 5, 6}));
+  EXPECT_EQ(classes.frame, (GridFrame{.columns = 3,
+                                      .rows = 2,
+                                      .west_m = -1.5,
+                                      .north_m = 11,
+                                      .cell_width_m = 0.5,
+                                      .cell_height_m = 0.5}));
+  EXPECT_EQ(folder.size(), 1) << "reading leaves nothing beside the file";
+}
+
+TEST(RasterFiles, AClassRasterWithoutCrsTakesTheElevationsAndOneWithAnotherIsRefused) {
+  const TemporaryFolder folder;
+  const GridFrame mars = read_elevation(write(folder, {.crs = kMars})).frame;
+  ClassRaster classes = read_classes(write(folder, {}));
+  EXPECT_NE(adopt_crs(classes, mars, "c.tif").find("c.tif: names no CRS"), std::string::npos);
+  EXPECT_EQ(classes.frame.crs_wkt, mars.crs_wkt);
+  EXPECT_EQ(adopt_crs(classes, mars, "c.tif"), "") << "nothing to say about the same CRS";
+
+  ClassRaster spelt_otherwise = read_classes(
+      write(folder, {.crs = "+proj=eqc +a=3396190 +b=3396190 +lat_ts=0 +lon_0=0 +units=m"}));
+  EXPECT_EQ(adopt_crs(spelt_otherwise, mars, "c.tif"), "");
+
+  ClassRaster moon = read_classes(write(folder, {.crs = "+proj=eqc +R=1737400 +units=m"}));
+  EXPECT_TRUE(refuses([&] { adopt_crs(moon, mars, "c.tif"); }, {"c.tif", "CRS", "gdalwarp"}));
+
+  ClassRaster local = read_classes(write(folder, {.crs = kMars}));
+  const GridFrame nameless = read_elevation(write(folder, {})).frame;
+  EXPECT_NE(adopt_crs(local, nameless, "c.tif").find("the elevation names no CRS"),
+            std::string::npos);
+
+  ClassRaster elsewhere = read_classes(write(folder, {.transform = {900, 1, 0, 200, 0, -1}}));
+  EXPECT_TRUE(refuses([&] { adopt_crs(elsewhere, mars, "c.tif"); }, {"c.tif", "lies elsewhere"}));
+}
+
+TEST(RasterFiles, TheMarsMapReadsWithTheFactsThatItsOwnersState) {
+  const std::string folder = data_folder() + "/mars_gale_marias_pass/";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  ElevationRaster elevation = read_elevation(folder + "missionDEM.tif");
+  EXPECT_EQ(elevation.frame.columns, 348);
+  EXPECT_EQ(elevation.frame.rows, 337);
+  EXPECT_EQ(elevation.frame.west_m, 8142406);
+  EXPECT_EQ(elevation.frame.north_m, -276455);
+  ClassRaster classes = read_classes(folder + "terrain_class.asc");
+  const std::string notice = adopt_crs(classes, elevation.frame, "terrain_class.asc");
+  EXPECT_NE(notice.find("terrain_class.asc: names no CRS"), std::string::npos);
+
+  SoilCatalogue soils{
+      .soils = {{.name = "any", .source = "", .soil = {}}}, .classes = {}, .unmapped = {}};
+  for (std::int32_t code = 1; code <= 30; ++code) soils.classes.emplace_back(code, 0);
+  const TerrainSummary summary = summarize(TerrainMap(elevation, classes, soils, {}));
+  constexpr double kDegree = M_PI / 180;
+  EXPECT_EQ(summary.known_share, 1);
+  EXPECT_NEAR(summary.no_soil_share, 0.60, 0.01);
+  EXPECT_NEAR(summary.slope_p50_rad / kDegree, 6.7, 0.1);
+  EXPECT_NEAR(summary.slope_p90_rad / kDegree, 15.2, 0.1);
+  EXPECT_NEAR(summary.slope_p99_rad / kDegree, 23.5, 0.2);
+}
+
+TEST(RasterFiles, TheMarsYardReads) {
+  const std::string file = data_folder() + "/mars_yard/marsyard2021_0p094m.asc";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  const ElevationRaster elevation = read_elevation(file);
+  EXPECT_EQ(elevation.height_m.size(), 250000U);
+  EXPECT_NEAR(elevation.frame.east_m(), -23.5 + 47, 1e-9);
+  EXPECT_EQ(elevation.height_m[0], 0.017F);
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,67 @@
+#include "maps/rock_files.h"
+
+#include <gtest/gtest.h>
+
+#include "temporary_folder.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+std::string refusal(const std::string& file) {
+  try {
+    read_rocks(file);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(RockFiles, WhatIsWrittenReadsBackExactly) {
+  const TemporaryFolder folder;
+  const std::vector<Rock> rocks{{0.1, -1e7 / 3, 1e-3, 2}, {8142406.123456789, 5, 0.5, 0.25}};
+  write_rocks(rocks, folder.file("rocks.csv"));
+  EXPECT_EQ(read_rocks(folder.file("rocks.csv")), rocks);
+  write_rocks({}, folder.file("rocks.csv"));
+  EXPECT_TRUE(read_rocks(folder.file("rocks.csv")).empty());
+  EXPECT_EQ(folder.size(), 1);
+}
+
+TEST(RockFiles, ColumnsMayStandInAnyOrderWithOthersBetween) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "r.csv", "\xEF\xBB\xBFname, height_m ,\"y_m\",x_m,radius_m\r\nbig,4,3, 1 ,2\r\n\r\n");
+  EXPECT_EQ(read_rocks(file), (std::vector<Rock>{{1, 3, 2, 4}}));
+}
+
+TEST(RockFiles, ErrorsNameFileLineColumnAndValue) {
+  const TemporaryFolder folder;
+  const std::string header = "x_m,y_m,radius_m,height_m\n";
+  const auto says = [&](const std::string& text, const std::string& words) {
+    const std::string message = refusal(folder.write("r.csv", text));
+    return message.find(words) != std::string::npos
+               ? testing::AssertionSuccess()
+               : testing::AssertionFailure() << message << "\n  does not say: " << words;
+  };
+  EXPECT_TRUE(says(header + "1,2,3,4\n1,2,0,4\n", "r.csv:3: radius_m: \"0\""));
+  EXPECT_TRUE(says(header + "1,2,3,-4\n", "r.csv:2: height_m: \"-4\""));
+  EXPECT_TRUE(says(header + "1,nan,3,4\n", "r.csv:2: y_m: \"nan\""));
+  EXPECT_TRUE(says(header + "1 m,2,3,4\n", "r.csv:2: x_m: \"1 m\""));
+  EXPECT_TRUE(says(header + "1,,3,4\n", "r.csv:2: y_m: \"\""));
+  EXPECT_TRUE(says(header + "1,2,3\n", "r.csv:2: 3 columns where the header has 4"));
+  EXPECT_TRUE(says("x_m,y_m,radius_m\n1,2,3\n", "r.csv:1: column height_m stands 0 times"));
+  EXPECT_TRUE(says("x_m,y_m,radius_m,height_m,x_m\n", "r.csv:1: column x_m stands 2 times"));
+  EXPECT_TRUE(says("", "is empty"));
+  EXPECT_NE(refusal(folder.file("none.csv")).find("none.csv: cannot be read"), std::string::npos);
+}
+
+TEST(RockFiles, NothingIsLeftWhereNothingCanBeWritten) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_rocks({}, folder.file("no/such/folder.csv")), InputError);
+  std::filesystem::create_directory(folder.file("folder"));
+  EXPECT_THROW(write_rocks({}, folder.file("folder")), InputError);
+  EXPECT_EQ(folder.size(), 1);
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,199 @@
+#include "planner/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/replay.h"
+#include "planner/world.h"
+#include "terramech/input_error.h"
+#include "tests/planner/flat_problem.h"
+
+namespace regoplan {
+namespace {
+
+PlanResult planned(const PlanningProblem& problem, std::stop_token stop = {}) {
+  return plan(
+      problem, [](const PlanProgress&) {}, stop);
+}
+
+std::int64_t count(const PlanResult& result, Rejection reason) {
+  return result.rejected[static_cast<std::size_t>(reason)];
+}
+
+/// Everything of a result that must not depend on the clock.
+std::string fingerprint(const PlanResult& result) {
+  std::string text = std::string(name(result.status)) + result.reason;
+  for (const Candidate& c : result.candidates) {
+    text += c.planner + std::to_string(c.seed);
+    for (const TrajectoryPoint& p : c.points) {
+      for (const double value : {p.time_s, p.x_m, p.y_m, p.yaw_rad, p.speed_mps, p.margin}) {
+        text += std::to_string(std::bit_cast<std::uint64_t>(value)) + ",";
+      }
+    }
+    text += std::to_string(std::bit_cast<std::uint64_t>(c.margin_p05));
+  }
+  for (const auto n : result.rejected) text += std::to_string(n) + ";";
+  return text + std::to_string(result.propagations);
+}
+
+}  // namespace
+
+class EveryPlanner : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryPlanner, FindsAVerifiedPathAcrossOpenGround) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.search.planner = GetParam();
+  problem.search.iterations = GetParam() == "SST" ? 6000 : 3000;
+  const PlanResult result = planned(problem);
+  ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+  const Candidate& best = result.candidates.front();
+  EXPECT_EQ(best.rank, 1);
+  EXPECT_TRUE(best.verified.passed);
+  EXPECT_GE(best.margin_min, problem.limits.margin_min);
+  EXPECT_LT(best.verified.deviation_max_m, 0.1);
+  const TrajectoryPoint& end = best.points.back();
+  EXPECT_LE(std::hypot(end.x_m - problem.goal.x_m, end.y_m - problem.goal.y_m),
+            problem.goal.radius_m);
+  EXPECT_GT(result.propagations, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stock, EveryPlanner,
+                         testing::Values("SST", "RRT", "KPIECE1", "EST", "PDST", "auto"),
+                         [](const auto& planner) { return planner.param; });
+
+TEST(Plan, SameSeedAndIterationsGiveTheSameBitsWithAnyNumberOfThreads) {
+  PlanningProblem problem = lrv_problem(
+      one_soil_map(50, firm_regolith(),
+                   [](double x, double y) { return 0.4 * std::sin(x / 4) * std::cos(y / 5); },
+                   {{25, 25, 1, 1}, {30, 22, 1, 1}}));
+  problem.search.planner = "auto";
+  problem.search.candidates = 2;
+  const PlanResult once = planned(problem);
+  EXPECT_EQ(fingerprint(once), fingerprint(planned(problem)));
+  problem.search.threads = 1;
+  EXPECT_EQ(fingerprint(once), fingerprint(planned(problem)));
+  problem.search.seed = 8;
+  EXPECT_NE(fingerprint(once), fingerprint(planned(problem)));
+}
+
+TEST(Plan, NothingBeyondAWallOfRocksIsCalledFeasible) {
+  std::vector<Rock> wall;
+  for (int i = 0; i < 40; ++i) wall.push_back({25, 0.5 + 1.25 * i, 0.8, 2});
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall));
+  problem.search.iterations = 300;
+  const PlanResult result = planned(problem);
+  EXPECT_EQ(result.status, PlanStatus::kUndecided);
+  EXPECT_TRUE(result.candidates.empty());
+  EXPECT_GT(count(result, Rejection::kObstacle), 0);
+  EXPECT_NE(result.reason.find("obstacle"), std::string::npos) << result.reason;
+}
+
+TEST(Plan, AStartWhereTheVehicleMayNotStandIsInfeasibleWithItsCertificate) {
+  const auto steep = [](double /*x*/, double y) { return std::tan(30 * kTestDegree) * y; };
+  const PlanResult result = planned(lrv_problem(one_soil_map(50, firm_regolith(), steep)));
+  EXPECT_EQ(result.status, PlanStatus::kInfeasible);
+  ASSERT_TRUE(result.certificate);
+  EXPECT_NE(result.certificate->find("slope"), std::string::npos) << *result.certificate;
+}
+
+TEST(Plan, TheBestPathAtTwiceItsSpeedsIsRejectedForCornering) {
+  // A rock in the way makes it turn.
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, {{25, 25, 3, 2}}));
+  const PlanResult result = planned(problem);
+  ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+  ASSERT_EQ(result.what_ifs.size(), 3u);
+  const WhatIf& faster = result.what_ifs[0];
+  EXPECT_FALSE(faster.feasible);
+  EXPECT_EQ(faster.reason, Rejection::kCornering);
+  EXPECT_GT(faster.time_s, 0);
+  const WhatIf& weaker = result.what_ifs[2];
+  ASSERT_TRUE(weaker.end_shift_m);
+  EXPECT_GT(*weaker.end_shift_m, 0.2);
+}
+
+TEST(Plan, UncertainSoilLowersTheMarginThatMostDrawsKeep) {
+  UncertainSoil uncertain = firm_regolith();
+  uncertain.standard_deviation.friction_angle_rad = 4 * kTestDegree;
+  uncertain.standard_deviation.cohesion_pa = 60;
+  PlanningProblem problem = lrv_problem(one_soil_map(50, uncertain, flat));
+  problem.search.soil_draws = 40;
+  const PlanResult result = planned(problem);
+  ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+  const Candidate& best = result.candidates.front();
+  EXPECT_LT(best.margin_p05, best.margin_min);
+  EXPECT_GT(best.probability_feasible, 0.5);
+
+  const PlanResult certain = planned(lrv_problem(one_soil_map(50, firm_regolith(), flat)));
+  ASSERT_EQ(certain.status, PlanStatus::kFeasible) << certain.reason;
+  EXPECT_NEAR(certain.candidates.front().margin_p05, certain.candidates.front().margin_min, 2e-3);
+  EXPECT_EQ(certain.candidates.front().probability_feasible, 1);
+}
+
+TEST(Plan, AStopRequestEndsItWithWhatThereIs) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.search.iterations.reset();
+  problem.search.time_s = 600;
+  problem.search.candidates = 100;
+  std::stop_source stop;
+  int found = 0;
+  const PlanResult result = plan(
+      problem,
+      [&](const PlanProgress& progress) {
+        found = progress.found;
+        if (found > 0) stop.request_stop();
+      },
+      stop.get_token());
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_LT(result.planning_time_s, 60);
+  EXPECT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+}
+
+TEST(PlanningProblem, WhatCannotBeAskedNamesFieldAndRange) {
+  const PlanningProblem good = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  EXPECT_NO_THROW(validate(good));
+  const auto message = [&](const std::function<void(PlanningProblem&)>& spoil) -> std::string {
+    PlanningProblem problem = good;
+    spoil(problem);
+    try {
+      validate(problem);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto names = [&](const char* text, const std::function<void(PlanningProblem&)>& spoil) {
+    EXPECT_NE(message(spoil).find(text), std::string::npos) << message(spoil);
+  };
+  names("goal.radius_m", [](PlanningProblem& p) { p.goal.radius_m = 0; });
+  names("outside the map", [](PlanningProblem& p) { p.start.x_m = 500; });
+  names("outside the map", [](PlanningProblem& p) { p.goal.y_m = -3; });
+  names("vehicle's 5", [](PlanningProblem& p) { p.speed_max_mps = 9; });
+  names("start.speed_mps", [](PlanningProblem& p) { p.start.speed_mps = -1; });
+  names("planner.name", [](PlanningProblem& p) { p.search.planner = "A*"; });
+  names("exactly one", [](PlanningProblem& p) { p.search.time_s = 3; });
+  names("planner.candidates", [](PlanningProblem& p) { p.search.candidates = 0; });
+  names("limits.margin_min", [](PlanningProblem& p) { p.limits.margin_min = -0.1; });
+  names("limits.slip_max", [](PlanningProblem& p) { p.limits.slip_max = NAN; });
+  names("gravity_mps2", [](PlanningProblem& p) { p.gravity_mps2 = 0; });
+  names("touches a rock", [](PlanningProblem& p) {
+    p.map = one_soil_map(50, firm_regolith(), flat, {{10.5, 25, 1, 2}});
+  });
+}
+
+TEST(Replay, TheFinerReplayEndsWhereTheSearchDid) {
+  const PlanningProblem problem =
+      lrv_problem(one_soil_map(50, firm_regolith(), [](double x, double y) {
+        return 0.5 * std::sin(x / 5) * std::cos(y / 6);
+      }));
+  const World search(problem, WorldUse::kSearch, 2);
+  const World verdict(problem, WorldUse::kVerdict, 1);
+  const std::vector<ControlSegment> controls{{6.0, 2.5, 0.05}, {2.0, 2.5, -0.05}, {2.0, 2.5, 0}};
+  const ReplaySteps fine = verification_steps(verdict);
+  const Replay a = replay(search, controls, {.coarse_s = fine.coarse_s}, false);
+  const Replay b = replay(verdict, controls, fine, false);
+  EXPECT_GT(b.length_m, 10);
+  EXPECT_LT(deviation_max_m(a, b), 0.02);
+}
+
+}  // namespace regoplan

@@ -1,0 +1,103 @@
+#include "planner/world.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/planner/flat_problem.h"
+
+namespace regoplan {
+namespace {
+
+VehicleState moving(const World& world, double speed_mps, double curvature_1pm) {
+  return world.dynamics().rolling_state(25, 25, 0, speed_mps, curvature_1pm);
+}
+
+std::optional<Rejection> reason(const std::optional<RejectedState>& rejected) {
+  if (!rejected) return std::nullopt;
+  return rejected->reason;
+}
+
+}  // namespace
+
+TEST(World, ATurnThatTheSoilCanHoldIsAcceptedAndATighterOneIsRejectedForCornering) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World world(problem, WorldUse::kVerdict, 1);
+  // 3 m/s on 20 m and on 10 m: .28 and .56 of the lunar weight; the soil gives about .53
+  EXPECT_EQ(reason(world.rejected(moving(world, 3, 1 / 20.0), {})), std::nullopt);
+  EXPECT_EQ(reason(world.rejected(moving(world, 3, 1 / 10.0), {})), Rejection::kCornering);
+}
+
+TEST(World, AVehicleThatPloughsStraightOnAtFullLockIsRejectedForCornering) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World world(problem, WorldUse::kVerdict, 1);
+  VehicleState ploughing = moving(world, 3, 0);  // neither turns nor slides
+  ploughing.curvature_1pm = problem.vehicle.curvature_max_1pm;
+  EXPECT_EQ(reason(world.rejected(ploughing, {})), Rejection::kCornering);
+}
+
+TEST(World, EachLimitIsTheReasonWhenItAloneIsBroken) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World world(problem, WorldUse::kVerdict, 1);
+  const VehicleState state = moving(world, 1, 0);
+  const Limits& limits = problem.limits;
+  EXPECT_EQ(reason(world.rejected(state, {.sinkage_m = 1.01 * limits.sinkage_max_m})),
+            Rejection::kSinkage);
+  EXPECT_EQ(reason(world.rejected(state, {.slip = -1.01 * limits.slip_max})), Rejection::kSlip);
+  EXPECT_EQ(reason(world.rejected(state, {.slip_angle_rad = -1.01 * limits.slip_angle_max_rad})),
+            Rejection::kSlipAngle);
+  EXPECT_EQ(reason(world.rejected(moving(world, 3.1, 0), {})), Rejection::kBounds);
+  VehicleState outside = state;
+  outside.x_m = -1;
+  EXPECT_EQ(reason(world.rejected(outside, {})), Rejection::kBounds);
+  VehicleState at_the_edge = state;
+  at_the_edge.x_m = 0.5;  // the rear wheels stand beyond the map
+  EXPECT_EQ(reason(world.rejected(at_the_edge, {})), Rejection::kUnknownTerrain);
+}
+
+TEST(World, ASteepSlopeIsRejectedForSlopeAndASofterLimitForTraction) {
+  const auto slope = [](double x, double /*y*/) { return std::tan(28 * kTestDegree) * x; };
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), slope));
+  const World strict(problem, WorldUse::kVerdict, 1);
+  EXPECT_EQ(reason(strict.rejected(moving(strict, 1, 0), {})), Rejection::kSlope);
+  problem.limits.slope_max_rad = 40 * kTestDegree;
+  UncertainSoil weak = firm_regolith();
+  weak.mean.friction_angle_rad = 20 * kTestDegree;
+  PlanningProblem weak_problem = lrv_problem(one_soil_map(50, weak, slope));
+  weak_problem.limits.slope_max_rad = 40 * kTestDegree;
+  const World climbing(weak_problem, WorldUse::kVerdict, 1);
+  EXPECT_EQ(reason(climbing.rejected(moving(climbing, 1, 0), {})), Rejection::kTraction);
+}
+
+TEST(World, WhatASearchAcceptsTheVerdictAcceptsToo) {
+  const auto rolling = [](double x, double y) {
+    return 1.5 * std::sin(x / 6) + 1.2 * std::cos(y / 5);
+  };
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), rolling));
+  const World search(problem, WorldUse::kSearch, 2);
+  const World verdict(problem, WorldUse::kVerdict, 1);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int accepted = 0, overturned = 0;
+  for (int i = 0; i < 400; ++i) {
+    VehicleState state = search.dynamics().rolling_state(
+        25 + 20 * unit(random), 25 + 20 * unit(random), 3 * unit(random), 1.5 + 1.5 * unit(random),
+        0.15 * unit(random));
+    state.rim_acceleration_mps2 = 0.3 * unit(random);
+    if (search.rejected(state, {}, problem.limits.margin_min + 0.01)) continue;
+    ++accepted;
+    if (verdict.rejected(state, {})) ++overturned;
+  }
+  EXPECT_GT(accepted, 100);
+  EXPECT_EQ(overturned, 0);
+}
+
+TEST(World, AStepOfTheSearchStaysWithinACell) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World world(problem, WorldUse::kVerdict, 1);
+  EXPECT_LE(world.search_step_s() * problem.speed_max_mps, 0.5);
+  EXPECT_GT(world.search_step_s(), 0);
+}
+
+}  // namespace regoplan
