@@ -12,6 +12,7 @@
 #include "app/model_settings.h"
 #include "app/plan_options.h"
 #include "app/staged_files.h"
+#include "app/wheel_figures.h"
 #include "app/wheel_rows.h"
 #include "terramech/input_error.h"
 
@@ -22,11 +23,25 @@ struct WheelOptions {
   std::string conditions;
   std::string model;
   std::optional<std::filesystem::path> out;
+  std::optional<std::filesystem::path> figures;
   bool json = false;
   bool quiet = false;
 };
 
+ExitStatus write_figures(const WheelOptions& options) {
+  StagedFiles staged(*options.figures);
+  for (const RenderedFile& file : render_wheel_figures()) staged.write(file);
+  staged.commit();
+  notify(fmt::format("figures 6, 7 and 10 (.svg, .csv) are in {}", options.figures->string()),
+         options.quiet);
+  return kYes;
+}
+
 ExitStatus run_wheel(const WheelOptions& options) {
+  if (options.figures) return write_figures(options);
+  if (options.conditions.empty() || options.model.empty()) {
+    throw InputError("CONDITIONS.csv and --model FILE.yaml are needed, or --figures DIR");
+  }
   const WheelModel model(read_model_file(options.model).spec);
   if (!std::filesystem::exists(options.conditions)) {
     throw InputError(options.conditions + ": no such file");
@@ -79,13 +94,17 @@ Command add_wheel_command(CLI::App& program) {
       "Forces of one wheel for each row of a table.\n"
       "Rows keep their columns and get fx_n, fy_n, torque_nm, sinkage_m, fc_n, fb_n, status;\n"
       "where no sinkage carries the load, status says so and the other cells are empty.");
+  CLI::Option* conditions = parser->add_option("CONDITIONS.csv", options->conditions,
+                                               "with columns load_n, slip_ratio, slip_angle_deg");
+  CLI::Option* model =
+      parser->add_option("--model", options->model, "model, wheel, gravity_mps2, soil")
+          ->type_name("FILE.yaml");
   parser
-      ->add_option("CONDITIONS.csv", options->conditions,
-                   "with columns load_n, slip_ratio, slip_angle_deg")
-      ->required();
-  parser->add_option("--model", options->model, "model, wheel, gravity_mps2, soil")
-      ->type_name("FILE.yaml")
-      ->required();
+      ->add_option("--figures", options->figures,
+                   "instead: Figs. 6, 7 and 10 of the paper as SVG and CSV")
+      ->type_name("DIR")
+      ->excludes(conditions)
+      ->excludes(model);
   parser->add_option("--out", options->out, "where the table goes; default: standard output")
       ->type_name("OUT.csv");
   add_output_flags(*parser, options->json, options->quiet);

@@ -5,14 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <map>
-#include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "terramech/input_error.h"
+#include "tests/terramech/csv_rows.h"
 #include "tests/terramech/wheel_specs.h"
 
 namespace regoplan {
@@ -26,29 +23,6 @@ WheelModelSpec spec_2007() {
 }
 WheelModelSpec spec_2004() {
   return wheel_specs::yoshida2004();
-}
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<Row> read_rows(const std::string& file) {
-  std::ifstream stream(file);
-  std::string line, cell;
-  std::vector<std::string> names;
-  std::vector<Row> rows;
-  while (std::getline(stream, line)) {
-    if (line.ends_with('\r')) line.pop_back();
-    std::istringstream cells(line);
-    Row row;
-    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i) {
-      if (rows.empty() && names.size() == i) {
-        names.push_back(cell);
-      } else {
-        row[names[i]] = cell;
-      }
-    }
-    if (!row.empty()) rows.push_back(row);
-  }
-  return rows;
 }
 
 std::string golden_folder() {
@@ -66,9 +40,9 @@ TEST(WheelModel, MatchesTheGoldenTables) {
   const std::string folder = golden_folder();
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
   for (const std::string file : {"wheel.csv", "soils.csv"}) {
-    const std::vector<Row> rows = read_rows(folder + "/" + file);
+    const std::vector<csv_rows::Row> rows = csv_rows::read(folder + "/" + file);
     ASSERT_GT(rows.size(), 200u);
-    for (Row row : rows) {
+    for (csv_rows::Row row : rows) {
       WheelModelSpec spec = row["model"] == "ishigami2007" ? spec_2007() : spec_2004();
       if (row.contains("n")) {
         spec.soil.n = std::stod(row["n"]);
