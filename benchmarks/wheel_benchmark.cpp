@@ -1,63 +1,191 @@
-// Speed of the wheel model, one core.
+// Speed and accuracy of the wheel model on one core. `x_boost` is the ratio to the naive way:
+// adaptive Gauss-Kronrod quadrature and a bracketing root finder of Boost, measured in the same
+// run.
 #include <benchmark/benchmark.h>
 
+#include <chrono>
+#include <cmath>
 #include <numbers>
 #include <random>
 #include <vector>
 
+#include "terramech/force_table.h"
 #include "terramech/wheel_model.h"
+#include "tests/terramech/wheel_reference.h"
+#include "tests/terramech/wheel_specs.h"
 
 namespace regoplan {
 namespace {
 
-struct Condition {
-  double load_n;
-  WheelMotion motion;
+struct Conditions {
+  std::vector<double> loads_n;
+  std::vector<WheelMotion> motions;
 };
 
-std::vector<Condition> random_conditions() {
+/// Loads log-uniform over 10 to 250 % of nominal, motions over the trusted domain.
+Conditions random_conditions(double nominal_load_n) {
   std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> load(10, 150), slip(-0.9, 0.95), angle(-1, 1);
-  std::vector<Condition> conditions;
+  std::uniform_real_distribution<double> slip(-0.9, 0.95);
+  std::uniform_real_distribution<double> angle(-std::numbers::pi / 3, std::numbers::pi / 3);
+  std::uniform_real_distribution<double> log_load(std::log(0.1), std::log(2.5));
+  Conditions conditions;
   for (int i = 0; i < 4096; ++i) {
-    const double load_n = load(random), s = slip(random);
-    conditions.push_back({load_n, motion_at(s, angle(random))});
+    const double s = slip(random);
+    conditions.loads_n.push_back(nominal_load_n * std::exp(log_load(random)));
+    conditions.motions.push_back(motion_at(s, angle(random)));
   }
   return conditions;
 }
 
-WheelModelSpec simulant(double n) {
-  return {.variant = WheelVariant::kIshigami2007,
-          .wheel = {.radius_m = 0.09, .width_m = 0.10},
-          .soil = {.cohesion_pa = 800,
-                   .friction_angle_rad = 37.2 * std::numbers::pi / 180,
-                   .kc = 1.37e3,
-                   .kphi = 8.14e5,
-                   .n = n,
-                   .a0 = 0.40,
-                   .a1 = 0.15,
-                   .lambda = 0.9,
-                   .density_kgpm3 = 1600,
-                   .kx0_m = 0.036,
-                   .kx1_m = 0.043,
-                   .ky0_m = 0.013,
-                   .ky1_m = 0.020}};
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void direct(benchmark::State& state, WheelAccuracy accuracy, double n) {
-  const WheelModel model(simulant(n), accuracy);
-  const std::vector<Condition> conditions = random_conditions();
+/// One evaluation in the naive way, to a tolerance of 1e-6.
+double naive_seconds(const WheelModelSpec& spec, double nominal_load_n) {
+  const wheel_reference::Reference reference(spec, 1e-6);
+  const Conditions at = random_conditions(nominal_load_n);
+  constexpr std::size_t kCount = 100;
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t i = 0; i < kCount; ++i) {
+    benchmark::DoNotOptimize(
+        reference.forces(at.loads_n[i], slip_ratio(at.motions[i]), slip_angle_rad(at.motions[i])));
+  }
+  return seconds_since(start) / kCount;
+}
+
+void report(benchmark::State& state, double seconds_per_item, const WheelModelSpec& spec,
+            double nominal_load_n) {
+  state.counters["x_boost"] = naive_seconds(spec, nominal_load_n) / seconds_per_item;
+}
+
+/// Evaluates one condition after the other.
+template <class F>
+void evaluate(benchmark::State& state, const wheel_specs::NamedSpec& named, F forces) {
+  const Conditions at = random_conditions(named.nominal_load_n);
+  std::size_t i = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(forces(at.loads_n[i], at.motions[i]));
+    i = (i + 1) % at.motions.size();
+  }
+  const double seconds = seconds_since(start);
+  state.SetItemsProcessed(state.iterations());
+  report(state, seconds / static_cast<double>(state.iterations()), named.spec,
+         named.nominal_load_n);
+}
+
+ForceTable table_of(const wheel_specs::NamedSpec& named) {
+  return ForceTable({.model = named.spec, .nominal_load_n = named.nominal_load_n, .accuracy = {}});
+}
+
+void direct(benchmark::State& state, const wheel_specs::NamedSpec& named, WheelAccuracy accuracy) {
+  const WheelModel model(named.spec, accuracy);
+  evaluate(state, named,
+           [&](double load_n, const WheelMotion& motion) { return model.forces(load_n, motion); });
+}
+
+void construct(benchmark::State& state, const wheel_specs::NamedSpec& named) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(WheelModel(named.spec, WheelAccuracy::kFast));
+  }
+}
+
+void table_scalar(benchmark::State& state, const wheel_specs::NamedSpec& named) {
+  const ForceTable table = table_of(named);
+  evaluate(state, named,
+           [&](double load_n, const WheelMotion& motion) { return table.forces(load_n, motion); });
+}
+
+void table_slopes(benchmark::State& state, const wheel_specs::NamedSpec& named) {
+  const ForceTable table = table_of(named);
+  evaluate(state, named, [&](double load_n, const WheelMotion& motion) {
+    return table.forces_with_slopes(load_n, motion);
+  });
+}
+
+void table_batch(benchmark::State& state, const wheel_specs::NamedSpec& named) {
+  const ForceTable table = table_of(named);
+  const Conditions at = random_conditions(named.nominal_load_n);
+  const auto start = std::chrono::steady_clock::now();
+  for (auto _ : state) benchmark::DoNotOptimize(table.plane_forces(at.loads_n, at.motions));
+  const double items =
+      static_cast<double>(state.iterations()) * static_cast<double>(at.motions.size());
+  const double seconds = seconds_since(start);
+  state.SetItemsProcessed(static_cast<std::int64_t>(items));
+  report(state, seconds / items, named.spec, named.nominal_load_n);
+}
+
+/// Builds the table with its own check, then measures a million states and decides by FC.
+void table_build_and_check(benchmark::State& state, const wheel_specs::NamedSpec& named) {
+  for (auto _ : state) benchmark::DoNotOptimize(table_of(named));
+  const ForceTable table = table_of(named);
+  const TableError random = table.check(1000000, 0, 7);
+  const TableError corners = table.check(0, 100000, 8);
+  state.counters["kB"] = static_cast<double>(table.bytes()) / 1000;
+  state.counters["error_99.9"] = random.at_999_permille;
+  state.counters["error_worst"] = random.at_worst;
+  state.counters["corner_worst"] = corners.at_worst;
+  state.counters["load_max"] = table.load_max_n() / named.nominal_load_n;
+
+  const double angle_max = std::numbers::pi / 3;
+  std::mt19937_64 generator(3);
+  std::uniform_real_distribution<double> slip(-0.9, 0.95), angle(-angle_max, angle_max),
+      demand(-1, 1), load(0.1, 0.9);
+  constexpr int kStates = 1000000;
+  int disagree = 0, outside_bound = 0;
+  for (int i = 0; i < kStates; ++i) {
+    const double beta = angle(generator), load_n = load(generator) * table.load_max_n();
+    const WheelMotion motion = motion_at(slip(generator), beta);
+    const auto fc_n = [&](const WheelForces& forces) {
+      return forces.fx_n * std::sin(beta) + forces.fy_n * std::cos(beta);
+    };
+    const double wanted_n = demand(generator) * load_n;
+    const double by_direct = fc_n(table.direct().forces(load_n, motion));
+    const bool accept = fc_n(table.forces(load_n, motion)) >= wanted_n;
+    if (accept == (by_direct >= wanted_n)) continue;
+    ++disagree;
+    const double bound_n =
+        std::numbers::sqrt2 * table.error().at_worst * std::max(load_n, 0.1 * named.nominal_load_n);
+    outside_bound += accept && by_direct < wanted_n - bound_n;
+  }
+  state.counters["agree"] = 1 - static_cast<double>(disagree) / kStates;
+  state.counters["wrong_accepts"] = outside_bound;
+}
+
+void naive(benchmark::State& state, const wheel_specs::NamedSpec& named) {
+  const wheel_reference::Reference reference(named.spec, 1e-6);
+  const Conditions at = random_conditions(named.nominal_load_n);
   std::size_t i = 0;
   for (auto _ : state) {
-    const Condition& at = conditions[i++ % conditions.size()];
-    benchmark::DoNotOptimize(model.forces(at.load_n, at.motion));
+    benchmark::DoNotOptimize(
+        reference.forces(at.loads_n[i], slip_ratio(at.motions[i]), slip_angle_rad(at.motions[i])));
+    i = (i + 1) % at.motions.size();
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_CAPTURE(direct, fast, WheelAccuracy::kFast, 1.0);
-BENCHMARK_CAPTURE(direct, exact, WheelAccuracy::kExact, 1.0);
-BENCHMARK_CAPTURE(direct, fast_n_0p9, WheelAccuracy::kFast, 0.9);
-BENCHMARK_CAPTURE(direct, exact_n_0p9, WheelAccuracy::kExact, 0.9);
+
+[[maybe_unused]] const bool kRegistered = [] {
+  for (const wheel_specs::NamedSpec& named : wheel_specs::all()) {
+    const auto add = [&](const std::string& what, auto run) {
+      return benchmark::RegisterBenchmark((what + "/" + named.name).c_str(), run);
+    };
+    add("naive", [named](benchmark::State& state) { naive(state, named); });
+    add("direct_exact",
+        [named](benchmark::State& state) { direct(state, named, WheelAccuracy::kExact); });
+    add("direct_fast",
+        [named](benchmark::State& state) { direct(state, named, WheelAccuracy::kFast); });
+    add("construct", [named](benchmark::State& state) { construct(state, named); });
+    add("table_scalar", [named](benchmark::State& state) { table_scalar(state, named); });
+    add("table_slopes", [named](benchmark::State& state) { table_slopes(state, named); });
+    add("table_batch", [named](benchmark::State& state) { table_batch(state, named); });
+    add("table_build_and_check",
+        [named](benchmark::State& state) { table_build_and_check(state, named); })
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
 
 }  // namespace
 }  // namespace regoplan
