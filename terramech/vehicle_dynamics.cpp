@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -39,7 +40,7 @@ BodyMotion motion_of(const Eigen::Vector3d& v) {
 /// One implicit stage: velocities v with v = base + step dv/dt(v), everything else given.
 struct VehicleDynamics::Stage {
   GroundPatch patch;
-  double curvature_1pm = 0;
+  std::array<SteeredWheel, kMaxWheels> wheels;
   double rim_speed_mps = 0;
   Eigen::Vector3d base;
   double step_s = 0;
@@ -86,7 +87,7 @@ VehicleDynamics::WheelSums VehicleDynamics::wheel_sums(const BodyMotion& motion,
     sums.strain.load_min_n = std::min(sums.strain.load_min_n, load);
     if (!(load > 0)) continue;
     const WheelLaw& law = soil_laws_[static_cast<std::size_t>(stage.patch.soil[i])];
-    const SteeredWheel wheel = steered_wheel(vehicle_, mount, stage.curvature_1pm);
+    const SteeredWheel& wheel = stage.wheels[i];
     const WheelMotion at =
         wheel_motion(mount, wheel, motion, stage.rim_speed_mps * wheel.rim_speed_per_speed);
     const auto faded = [&](const WheelMotion& m) {
@@ -222,6 +223,14 @@ StepResult VehicleDynamics::try_step(const VehicleState& state, const VehicleCon
                            axes.yaw_per_turn * v[2]};
   };
 
+  const auto steered_at = [&](double curvature_1pm) {
+    std::array<SteeredWheel, kMaxWheels> wheels;
+    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+      wheels[i] = steered_wheel(vehicle_, vehicle_.wheels[i], curvature_1pm);
+    }
+    return wheels;
+  };
+
   StepResult result{.state = state, .strain = {}};
   const Eigen::Vector3d pose{state.x_m, state.y_m, state.yaw_rad};
   const Eigen::Vector3d velocity = vector_of(state.motion);
@@ -238,7 +247,7 @@ StepResult VehicleDynamics::try_step(const VehicleState& state, const VehicleCon
                              double left_base_n, const Eigen::Vector3d& guess,
                              const Eigen::Vector3d& pose_there) {
     Stage stage{.patch = ground_(pose_there[0], pose_there[1], pose_there[2]),
-                .curvature_1pm = curvature_at(at_s),
+                .wheels = steered_at(curvature_at(at_s)),
                 .rim_speed_mps = rim_at(at_s),
                 .base = base,
                 .step_s = kGamma * h,
