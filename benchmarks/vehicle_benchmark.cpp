@@ -76,7 +76,7 @@ void vehicle_step(benchmark::State& state, WheelAccuracy accuracy, double speed_
   VehicleState at = start;
   const int steps = static_cast<int>(10 / step_s);
   int i = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     if (i % steps == 0) at = start;
     const double side = i++ / (steps / 4) % 2 == 0 ? 0.05 : -0.05;
     at = dynamics.step(at, {.speed_target_mps = speed_mps, .curvature_target_1pm = side}, step_s)
@@ -94,7 +94,7 @@ void supply_solved(benchmark::State& state, WheelAccuracy accuracy) {
   const Lrv lrv(accuracy);
   const std::vector<Asked> asked = questions(lrv);
   std::size_t i = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const Asked& one = asked[i++ % asked.size()];
     const SteadyManoeuvre manoeuvre(lrv.vehicle, lrv.sharing, lrv.laws, one.curvature_1pm,
                                     lrv.weight_n);
@@ -115,7 +115,7 @@ void supply_looked_up(benchmark::State& state) {
   const SupplyTable table = table_of(lrv);
   const std::vector<Asked> asked = questions(lrv);
   std::size_t i = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const Asked& one = asked[i++ % asked.size()];
     benchmark::DoNotOptimize(table.supply(one.curvature_1pm, one.forward_n, lrv.weight_n));
   }
@@ -125,7 +125,7 @@ BENCHMARK(supply_looked_up);
 
 void supply_table_built(benchmark::State& state) {
   const Lrv lrv(WheelAccuracy::kFast);
-  for (auto _ : state) benchmark::DoNotOptimize(table_of(lrv));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(table_of(lrv));
 }
 BENCHMARK(supply_table_built)->Unit(benchmark::kMillisecond);
 

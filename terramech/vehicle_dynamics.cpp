@@ -175,6 +175,14 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
       ++halvings;
       slows = true;
       stage.velocity = (stage.velocity + velocity_before) / 2;
+      // All but at rest, the balance may lie on a jump of the forces: where a wheel that turns
+      // stops moving, it spins on the one side and counter-rotates on the other.
+      constexpr double kNearRest_mps = kStandstillSpeed_mps, kJump_mps = 1e-2 * kNearRest_mps;
+      const Eigen::Vector3d apart = stage.velocity - velocity_before;
+      if (velocity_before.cwiseProduct(in_mps).norm() < kNearRest_mps &&
+          apart.cwiseProduct(in_mps).norm() < kJump_mps) {
+        return true;
+      }
       continue;
     }
     halvings = 0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "terramech/trim.h"
 #include "tests/terramech/lunar_soil.h"
@@ -241,6 +242,29 @@ TEST(VehicleDynamics, LockedWheelsSlideWhereTheSlopeIsBeyondFriction) {
   const VehicleState later =
       rover.drive(rover.dynamics.rolling_state(0, 0, 0, 0), {0, 0}, 5, 0.1).state;
   EXPECT_LT(later.motion.vx_mps, -0.3);
+}
+
+TEST(VehicleDynamics, FindsItsBalanceThroughStopsAndReversals) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> share(-1, 1);
+  for (const char* name : {"lrv", "curiosity"}) {
+    const VehicleOnSoil on(preset_vehicle(name), firm_regolith(), home_gravity_mps2(name),
+                           WheelAccuracy::kFast);
+    const double top = on.vehicle.speed_max_mps, lock = on.vehicle.curvature_max_1pm;
+    for (int i = 0; i < 10; ++i) {
+      const Plane plane{0.2 * share(random), 0.2 * share(random)};
+      const VehicleDynamics dynamics(on.vehicle, on.soil_laws, plane, on.gravity_mps2);
+      VehicleState state =
+          dynamics.rolling_state(0, 0, 3 * share(random), 0.2 * top * share(random));
+      for (int k = 0; k < 40; ++k) {
+        const StepResult next =
+            dynamics.step(state, {top * share(random), lock * share(random)}, 0.1);
+        ASSERT_TRUE(next.converged) << name << i << ' ' << k;
+        state = next.state;
+        EXPECT_LT(speed_of(state), 1.5 * top) << name;
+      }
+    }
+  }
 }
 
 TEST(VehicleDynamics, ControlsMoveAtTheirLimitedRates) {
