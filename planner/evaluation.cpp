@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 
 #include "planner/parallel_for.h"
 #include "planner/path_margins.h"
@@ -266,18 +265,10 @@ PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
   return evaluation;
 }
 
-void rank(std::vector<PathEvaluation>& evaluations) {
+RankKey rank_key(const PathEvaluation& evaluation) {
   constexpr double kTie = 0.01;
-  const auto key = [](const PathEvaluation& e) {
-    return std::tuple(!e.feasible, -std::round(e.spread.margin.p05 / kTie), -e.margin_worst_tenth,
-                      e.duration_s, e.tracking.energy_j);
-  };
-  std::stable_sort(
-      evaluations.begin(), evaluations.end(),
-      [&](const PathEvaluation& a, const PathEvaluation& b) { return key(a) < key(b); });
-  for (std::size_t i = 0; i < evaluations.size(); ++i) {
-    evaluations[i].rank = static_cast<int>(i) + 1;
-  }
+  return {!evaluation.feasible, -std::round(evaluation.spread.margin.p05 / kTie),
+          -evaluation.margin_worst_tenth, evaluation.duration_s, evaluation.tracking.energy_j};
 }
 
 }  // namespace regoplan

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "planner/path_tracking.h"
@@ -71,8 +72,10 @@ struct PathEvaluation {
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings);
 
-/// Feasible ones first, then as candidates rank: by the 5 % quantile of the smallest margin in
-/// steps of 0.01, the mean margin over the worst tenth of the length, time, energy. Stable.
-void rank(std::vector<PathEvaluation>& evaluations);
+/// What evaluations rank by, smaller before larger: feasible ones first, then as candidates rank,
+/// by the 5 % quantile of the smallest margin in steps of 0.01, the mean margin over the worst
+/// tenth of the length, time, energy.
+using RankKey = std::tuple<bool, double, double, double, double>;
+RankKey rank_key(const PathEvaluation& evaluation);
 
 }  // namespace regoplan
