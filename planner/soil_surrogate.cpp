@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 
 namespace regoplan {
@@ -48,18 +50,6 @@ SoilNumbers uncertain_numbers(const PlanningProblem& problem,
   return numbers;
 }
 
-std::vector<Eigen::Index> columns_under(const PlanningProblem& problem, const SoilNumbers& numbers,
-                                        const VehicleState& state) {
-  const SoilNumbers here = uncertain_numbers(problem, {state});
-  std::vector<Eigen::Index> columns;
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    if (std::find(here.begin(), here.end(), numbers[k]) != here.end()) {
-      columns.push_back(static_cast<Eigen::Index>(k));
-    }
-  }
-  return columns;
-}
-
 Eigen::MatrixXd standard_deviations(const std::vector<MapSoil>& soils, const SoilNumbers& numbers,
                                     const std::vector<SoilDraw>& draws) {
   Eigen::MatrixXd deviations(static_cast<Eigen::Index>(draws.size()),
@@ -76,33 +66,118 @@ Eigen::MatrixXd standard_deviations(const std::vector<MapSoil>& soils, const Soi
   return deviations;
 }
 
-std::size_t training_draws(std::size_t numbers) {
-  const std::size_t terms = 1 + numbers + numbers * (numbers + 1) / 2;
-  return std::min<std::size_t>(30 + terms + terms / 2, 170);
+std::vector<WheelModel> models_of(const PlanningProblem& problem, const SoilDraw& soils) {
+  std::vector<WheelModel> models;
+  for (const Soil& soil : soils) {
+    models.emplace_back(WheelModelSpec{.variant = problem.wheel_variant,
+                                       .wheel = problem.vehicle.wheel,
+                                       .soil = soil,
+                                       .gravity_mps2 = problem.gravity_mps2},
+                        WheelAccuracy::kFast);
+  }
+  return models;
 }
 
-SoilSurrogate::SoilSurrogate(const Eigen::MatrixXd& deviations,
-                             const std::vector<std::vector<PathMargins>>& judged, std::size_t draws,
-                             std::vector<Columns> columns)
-    : columns_(std::move(columns)) {
-  constexpr double kPull = 0.3;
-  const auto rows = static_cast<Eigen::Index>(draws);
-  for (std::size_t place = 0; place < columns_.size(); ++place) {
-    const Eigen::MatrixXd here = deviations(Eigen::all, columns_[place]);
-    Eigen::MatrixXd terms(rows, terms_of(here.row(0)).size()), values(rows, 3);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const PathMargins& margins = judged[static_cast<std::size_t>(i)][place];
-      terms.row(i) = terms_of(here.row(i));
-      values.row(i) << margins.cornering, margins.tip_over, margins.traction;
+PlaceProbe::PlaceProbe(const PlanningProblem& problem, const VehicleState& state)
+    : vehicle_(problem.vehicle) {
+  SoilDraw means;
+  for (const MapSoil& soil : problem.map.soils()) means.push_back(soil.soil.mean);
+  const std::vector<WheelModel> models = models_of(problem, means);
+  const GroundFinder ground(problem.map, vehicle_);
+  const GroundPatch patch = ground.at(state.x_m, state.y_m, state.yaw_rad);
+  std::vector<WheelLaw> laws;
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    laws.emplace_back(models[static_cast<std::size_t>(patch.soil.at(i))]);
+  }
+  const VehicleDynamics dynamics(
+      vehicle_, laws, [&patch](double, double, double) { return patch; }, problem.gravity_mps2);
+  const SupplyQuestion question = question_of(dynamics, state, patch);
+  const SteadyManoeuvre manoeuvre(vehicle_, dynamics.sharing(), laws, question.curvature_1pm,
+                                  question.normal_n, question.reverse);
+  const auto add = [&](Eigen::Index number, const Trim& trim) {
+    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+      const TrimmedWheel& wheel = trim.wheels[i];
+      if (!(wheel.load_n > 0)) continue;
+      wheels_.push_back(
+          {.trim = number,
+           .mount = i,
+           .soil = static_cast<std::size_t>(patch.soil.at(i)),
+           .steered = steered_wheel(vehicle_, vehicle_.wheels[i], trim.steer_curvature_1pm),
+           .load_n = wheel.load_n,
+           .motion = motion_at(wheel.slip, wheel.slip_angle_rad)});
     }
-    coefficients_.push_back(ridge(terms, values, kPull));
+  };
+  const TrimLimits limits = trim_limits(problem);
+  constexpr double kBeyondReach = 20;
+  const double normal = question.normal_n;
+  const auto along = [&](double forward_n, double left_n) {
+    return ForceLine{.from = {.forward_n = question.force.forward_n, .left_n = 0},
+                     .per_unit = {.forward_n = forward_n, .left_n = left_n}};
+  };
+  const auto start = manoeuvre.solve_from_rolling(along(0, normal));
+  if (!start) return;
+  const ForceLine lines[] = {along(0, normal), along(0, -normal),
+                             along(question.reverse ? -normal : normal, 0)};
+  for (Eigen::Index k = 0; k < kTrims; ++k) {
+    const BranchEnd end = follow_branch(manoeuvre, *start, lines[k], kBeyondReach, limits);
+    add(k, manoeuvre.trim(end.point, lines[k]));
   }
 }
 
-PathMargins SoilSurrogate::smallest(const Eigen::RowVectorXd& deviations) const {
+PlaceProbe::Features PlaceProbe::features(const std::vector<WheelModel>& models) const {
+  std::array<BodyForce, kTrims> sums{};
+  Features features = Features::Zero();
+  for (const Wheel& wheel : wheels_) {
+    const WheelForces forces = models[wheel.soil].forces(wheel.load_n, wheel.motion);
+    const bool sunk = !has_forces(forces.status);
+    const double sinkage = sunk ? vehicle_.wheel.radius_m : forces.sinkage_m;
+    double& deepest = features[kOfTrim * wheel.trim + 3];
+    deepest = std::max(deepest, sinkage);
+    if (!sunk) {
+      sums.at(static_cast<std::size_t>(wheel.trim))
+          .add(vehicle_.wheels[wheel.mount], wheel.steered, forces);
+    }
+  }
+  for (Eigen::Index k = 0; k < kTrims; ++k) {
+    const BodyForce& sum = sums.at(static_cast<std::size_t>(k));
+    features.segment<3>(kOfTrim * k) << sum.forward_n, sum.left_n, sum.yaw_nm;
+  }
+  return features;
+}
+
+SoilSurrogate::SoilSurrogate(const std::vector<std::vector<PlaceProbe::Features>>& features,
+                             const std::vector<std::vector<PathMargins>>& judged,
+                             std::size_t draws) {
+  constexpr double kPull = 0.3;
+  const auto rows = static_cast<Eigen::Index>(draws);
+  for (std::size_t k = 0; k < features.size(); ++k) {
+    Eigen::Matrix<double, Eigen::Dynamic, PlaceProbe::kFeatures> here(rows, PlaceProbe::kFeatures);
+    for (Eigen::Index i = 0; i < rows; ++i) here.row(i) = features[k][static_cast<std::size_t>(i)];
+    Place place{.mean = here.colwise().mean(), .scale = {}, .coefficients = {}};
+    const auto apart = (here.rowwise() - place.mean).array().square().colwise().mean().sqrt();
+    // What does not vary tells nothing.
+    constexpr double kNothing = 1e-9;
+    place.scale = apart.unaryExpr([](double one) { return one > kNothing ? 1 / one : 0; });
+    const auto standardised = [&](Eigen::Index i) -> Eigen::RowVectorXd {
+      return (here.row(i) - place.mean).cwiseProduct(place.scale);
+    };
+    Eigen::MatrixXd terms(rows, terms_of(standardised(0)).size()), values(rows, 3);
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const PathMargins& margins = judged[static_cast<std::size_t>(i)][k];
+      terms.row(i) = terms_of(standardised(i));
+      values.row(i) << margins.cornering, margins.tip_over, margins.traction;
+    }
+    place.coefficients = ridge(terms, values, kPull);
+    places_.push_back(std::move(place));
+  }
+}
+
+PathMargins SoilSurrogate::smallest(const std::vector<PlaceProbe::Features>& features) const {
   PathMargins smallest;
-  for (std::size_t place = 0; place < columns_.size(); ++place) {
-    const Eigen::RowVector3d said = terms_of(deviations(columns_[place])) * coefficients_[place];
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Place& place = places_[k];
+    const Eigen::RowVector3d said =
+        terms_of((features[k] - place.mean).cwiseProduct(place.scale)) * place.coefficients;
     smallest = {.cornering = std::min(smallest.cornering, said[0]),
                 .tip_over = std::min(smallest.tip_over, said[1]),
                 .traction = std::min(smallest.traction, said[2])};

@@ -21,36 +21,58 @@ using SoilNumbers = std::vector<SoilNumber>;
 SoilNumbers uncertain_numbers(const PlanningProblem& problem,
                               const std::vector<VehicleState>& states);
 
-/// Which of `numbers` belong to the soils under the wheels of a state.
-std::vector<Eigen::Index> columns_under(const PlanningProblem& problem, const SoilNumbers& numbers,
-                                        const VehicleState& state);
-
 /// What was drawn, one row a draw and one column a number: differences from the mean over the
 /// standard deviation.
 Eigen::MatrixXd standard_deviations(const std::vector<MapSoil>& soils, const SoilNumbers& numbers,
                                     const std::vector<SoilDraw>& draws);
 
-/// How many draws a surrogate over so many numbers is made from.
-std::size_t training_draws(std::size_t numbers);
+/// The wheel's forces on each soil of one draw, by the wheel model at its fast accuracy.
+std::vector<WheelModel> models_of(const PlanningProblem& problem, const SoilDraw& soils);
 
-/// Margins of the places of a path as quadratic polynomials of the numbers of the soils under the
-/// wheels there, all products included, by least squares with a slight pull toward 0.
-class SoilSurrogate {
+/// What a place of a path says of a draw of the soils, cheaply: what the wheels' forces sum to, and
+/// how deep they sink, in the states that they have at the mean soils where the supply ends to
+/// either side and where traction is largest. Margins follow these nearly linearly, whatever the
+/// number of uncertain soil numbers.
+class PlaceProbe {
  public:
-  using Columns = std::vector<Eigen::Index>;
+  PlaceProbe(const PlanningProblem& problem, const VehicleState& state);
 
-  /// \param judged the margins of every place, for each of the first `draws` draws
-  /// \param columns of `deviations` that each place depends on
-  SoilSurrogate(const Eigen::MatrixXd& deviations,
-                const std::vector<std::vector<PathMargins>>& judged, std::size_t draws,
-                std::vector<Columns> columns);
-
-  /// The smallest margins over the places.
-  PathMargins smallest(const Eigen::RowVectorXd& deviations) const;
+  static constexpr Eigen::Index kTrims = 3, kOfTrim = 4, kFeatures = kTrims * kOfTrim;
+  using Features = Eigen::Matrix<double, 1, kFeatures>;
+  Features features(const std::vector<WheelModel>& models) const;
 
  private:
-  std::vector<Columns> columns_;               ///< of each place
-  std::vector<Eigen::MatrixXd> coefficients_;  ///< of each place, [term][kind]
+  struct Wheel {
+    Eigen::Index trim = 0;
+    std::size_t mount = 0, soil = 0;
+    SteeredWheel steered;
+    double load_n = 0;
+    WheelMotion motion;
+  };
+  const Vehicle& vehicle_;
+  std::vector<Wheel> wheels_;
+};
+
+/// Margins of the places of a path as quadratic polynomials of their features, by least squares
+/// with a slight pull toward 0.
+class SoilSurrogate {
+ public:
+  /// \param features [place][draw] \param judged [draw][place]; of the draws it is made from
+  SoilSurrogate(const std::vector<std::vector<PlaceProbe::Features>>& features,
+                const std::vector<std::vector<PathMargins>>& judged, std::size_t draws);
+
+  /// The smallest margins over the places. \param features of each
+  PathMargins smallest(const std::vector<PlaceProbe::Features>& features) const;
+
+  /// How many draws it takes.
+  static constexpr int kTrainingDraws = 140;
+
+ private:
+  struct Place {
+    PlaceProbe::Features mean, scale;
+    Eigen::MatrixXd coefficients;  ///< [term][kind]
+  };
+  std::vector<Place> places_;
 };
 
 /// A linear regression on standardised numbers.

@@ -136,14 +136,7 @@ SoilDraw soil_draw(const std::vector<MapSoil>& soils, std::uint64_t seed, int nu
 std::vector<PathMargins> margins_on(const PlanningProblem& problem,
                                     const std::vector<VehicleState>& states,
                                     const SoilDraw& soils) {
-  std::vector<WheelModel> models;
-  for (const Soil& soil : soils) {
-    models.emplace_back(WheelModelSpec{.variant = problem.wheel_variant,
-                                       .wheel = problem.vehicle.wheel,
-                                       .soil = soil,
-                                       .gravity_mps2 = problem.gravity_mps2},
-                        WheelAccuracy::kFast);
-  }
+  const std::vector<WheelModel> models = models_of(problem, soils);
   const std::vector<WheelLaw> laws(models.begin(), models.end());
   const GroundFinder ground(problem.map, problem.vehicle);
   const VehicleDynamics dynamics(
@@ -220,13 +213,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   const Eigen::MatrixXd deviations = standard_deviations(problem.map.soils(), numbers, soils);
 
   // The first draws by the wheel model: those the surrogate is made from, and those that check it.
-  std::vector<SoilSurrogate::Columns> columns;
-  std::size_t most_numbers = 0;
-  for (const VehicleState& state : decisive) {
-    columns.push_back(columns_under(problem, numbers, state));
-    most_numbers = std::max(most_numbers, columns.back().size());
-  }
-  const int learned = std::min(draws, static_cast<int>(training_draws(most_numbers)));
+  const int learned = std::min(draws, SoilSurrogate::kTrainingDraws);
   constexpr int kChecked = 30;
   const int checked = std::min(draws - learned, kChecked);
   const auto direct = static_cast<std::size_t>(learned + checked);
@@ -251,10 +238,22 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   spread.draws = draws;
   spread.direct_draws = static_cast<int>(direct);
   if (static_cast<int>(direct) < draws) {
-    const SoilSurrogate surrogate(deviations, judged, static_cast<std::size_t>(learned), columns);
+    std::vector<PlaceProbe> probes;
+    for (const VehicleState& state : decisive) probes.emplace_back(problem, state);
+    std::vector features(decisive.size(), std::vector<PlaceProbe::Features>(margins.size()));
+    parallel_for(margins.size(), threads, [&](std::size_t i) {
+      const std::vector<WheelModel> models = models_of(problem, soils[i]);
+      for (std::size_t k = 0; k < probes.size(); ++k) features[k][i] = probes[k].features(models);
+    });
+    const SoilSurrogate surrogate(features, judged, static_cast<std::size_t>(learned));
+    const auto say = [&](std::size_t i) {
+      std::vector<PlaceProbe::Features> of_places;
+      for (const auto& of_place : features) of_places.push_back(of_place[i]);
+      return surrogate.smallest(of_places);
+    };
     PathMargins& error = spread.surrogate_error;
     for (std::size_t i = static_cast<std::size_t>(learned); i < direct; ++i) {
-      const PathMargins said = surrogate.smallest(deviations.row(static_cast<Eigen::Index>(i)));
+      const PathMargins said = say(i);
       error.cornering = std::max(error.cornering, said.cornering - margins[i].cornering);
       error.tip_over = std::max(error.tip_over, said.tip_over - margins[i].tip_over);
       error.traction = std::max(error.traction, said.traction - margins[i].traction);
@@ -262,13 +261,12 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
     constexpr double kTrusted = 0.03;
     if (std::max({error.cornering, error.tip_over, error.traction}) <= kTrusted) {
       for (std::size_t i = direct; i < margins.size(); ++i) {
-        const PathMargins said = surrogate.smallest(deviations.row(static_cast<Eigen::Index>(i)));
+        const PathMargins said = say(i);
         margins[i] = {.cornering = std::max(-1.0, said.cornering - error.cornering),
                       .tip_over = std::max(-1.0, said.tip_over - error.tip_over),
                       .traction = std::max(-1.0, said.traction - error.traction)};
       }
     } else {
-      error = {.cornering = 0, .tip_over = 0, .traction = 0};
       const auto all = static_cast<std::size_t>(std::min(draws, kDirectDrawsMax));
       margins.resize(std::max(all, direct));
       parallel_for(margins.size() - direct, threads, [&](std::size_t k) {

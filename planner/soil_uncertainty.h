@@ -70,7 +70,8 @@ struct SoilSpread {
   int draws = 0;         ///< 0 where every soil number is known
   int direct_draws = 0;  ///< of them judged by the wheel model itself; the others by a surrogate
   /// How much the surrogate promised too much at worst, in draws that it was not made from, against
-  /// the wheel model at more places of the path. It is taken off what the surrogate says.
+  /// the wheel model at more places of the path. Taken off what the surrogate says; where it is too
+  /// large for that, every draw is the wheel model's.
   PathMargins surrogate_error{.cornering = 0, .tip_over = 0, .traction = 0};
   int places = 0;  ///< of the path that were judged in each draw
   Quantiles cornering, tip_over, traction, margin;
