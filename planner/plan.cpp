@@ -88,9 +88,12 @@ class RunSchedule {
 std::optional<std::string> start_certificate(const World& verdict) {
   const auto rejection = verdict.rejected(verdict.start(), {});
   if (!rejection) return std::nullopt;
-  return fmt::format(
-      "the vehicle may not stand at its start: {} {:.4g} against {:.4g} at ({:.2f}, {:.2f})",
-      name(rejection->reason), rejection->value, rejection->limit, rejection->x_m, rejection->y_m);
+  const std::string numbers =
+      std::isfinite(rejection->value)
+          ? fmt::format(" ({:.4g} against {:.4g})", rejection->value, rejection->limit)
+          : "";
+  return fmt::format("the vehicle may not stand at its start: {}{} at ({:.2f}, {:.2f})",
+                     name(rejection->reason), numbers, rejection->x_m, rejection->y_m);
 }
 
 std::string reason_of(const PlanResult& result, int found) {

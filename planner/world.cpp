@@ -126,7 +126,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   };
   const Limits& limits = problem_.limits;
   constexpr double kRounding = 1e-3;  // in which a speed counts as held
-  if (!problem_.map.inside(state.x_m, state.y_m)) return because(Rejection::kBounds, 0, 0);
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  if (!problem_.map.inside(state.x_m, state.y_m))
+    return because(Rejection::kBounds, kNoNumber, kNoNumber);
   // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
   const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
   const double speed_reserve = use_ == WorldUse::kSearch ? 0.995 : 1 + kRounding;
@@ -134,9 +136,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
     return because(Rejection::kBounds, speed, problem_.speed_max_mps);
   }
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
-  if (!patch.known) return because(Rejection::kUnknownTerrain, 0, 0);
+  if (!patch.known) return because(Rejection::kUnknownTerrain, kNoNumber, kNoNumber);
   if (obstacles_.hit(state.x_m, state.y_m, state.yaw_rad, patch)) {
-    return because(Rejection::kObstacle, 0, 0);
+    return because(Rejection::kObstacle, kNoNumber, kNoNumber);
   }
   const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
   const double tilt = patch.tilt_rad();
