@@ -24,7 +24,7 @@ struct TableAccuracy {
 struct ForceTableSpec {
   WheelModelSpec model;
   double nominal_load_n = 0;  ///< the table covers 2 to 300 % of it, as far as they are carried
-  TableAccuracy accuracy;
+  TableAccuracy accuracy = {};
 };
 
 /// What a check of a table against the direct model measured.
