@@ -122,7 +122,8 @@ std::vector<Definition> definitions() {
        }},
       {{"grousers",
         "passive_pressure",
-        "thrust b (gamma hg^2 Kp/2 + 2 c hg sqrt(Kp)) (1 - exp(-2 s/s1)), digging hg s/2",
+        "thrust m b (gamma hg^2 Kp/2 + 2 c hg sqrt(Kp)) (1 - exp(-5 s)) a lug in the soil, digging "
+        "hg s/2",
         "Bekker 1969; Iizuka & Kubota 2011",
         {{"lug_height_m", .004, .02, .01},
          {"mobilised", .3, 1, .8},
@@ -132,6 +133,7 @@ std::vector<Definition> definitions() {
          e.lug_height_m = p[0];
          e.lug_share = p[1] * (1 - std::exp(-5 * driving(at)));
          e.lug_ripple = p[2];
+         e.lugs = p[3];
          e.lug_phase_rad = p[3] * at.conditions.wheel_angle_rad;
          e.sinkage_added_m += p[0] * driving(at) / 2;
          return e;

@@ -51,6 +51,7 @@ struct Effects {
   double lug_height_m = 0;      ///< passive pressure on a lug
   double lug_share = 0;         ///< of the lugs' pressure that is mobilised
   double lug_ripple = 0;        ///< of their thrust over a lug's passage
+  double lugs = 0;              ///< around the wheel
   double lug_phase_rad = 0;
   double tilt_x = 0, tilt_y = 0;  ///< share of the load along x and y
   double drag_torque_nm = 0;

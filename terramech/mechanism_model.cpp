@@ -39,8 +39,8 @@ double sinkage_of(double theta_f, double r) {
   return 2 * r * std::pow(std::sin(theta_f / 2), 2);
 }
 
-/// The contact under a wheel whose sinkage may differ across its width and whose soil may change
-/// with depth.
+/// The contact under a wheel whose soil may change with depth, whose shear may follow another law,
+/// and whose rut may be deeper on one side.
 class ModifiedContact {
  public:
   ModifiedContact(const Effects& effects, const Ground& ground, const Ratios& ratios)
@@ -48,45 +48,37 @@ class ModifiedContact {
 
   /// Whether it is the base model's contact on another soil.
   bool is_plain() const {
-    return effects_.shear == ShearLaw::kSeparate && effects_.rut_tilt_rad == 0 &&
-           effects_.layer_depth_m == 0;
+    return effects_.shear == ShearLaw::kSeparate && effects_.layer_depth_m == 0;
   }
 
-  /// Sums over the strips at the sinkage of the wheel's middle.
-  struct Sums {
-    Integrals plane;
-    double fu_cohesion_n = 0, fu_stress_n = 0, bulldozing_n = 0;
-    Resultant roll_nm;  ///< Fz of the strips times their offset, cohesion and stress apart
-    double roll_cohesion_nm = 0, roll_stress_nm = 0;
+  /// The wheel's middle at an entry angle.
+  wheel_contact::LawIntegrals at(double theta_f) const {
+    return strip(sinkage_of(theta_f, ground_.wheel.radius_m)).integrals;
+  }
+
+  struct Sideways {
+    double force_n = 0;  ///< |Fy|
+    double roll_nm = 0;  ///< of the vertical force, positive: more on the inner side
   };
 
-  Sums at(double theta_f) const {
+  /// Side force and roll moment from strips across the width, the inner ones (towards the centre of
+  /// the turn) deeper; together they carry the load.
+  Sideways sideways(double theta_f, double q, double load_n) const {
     const double r = ground_.wheel.radius_m, b = ground_.wheel.width_m;
     const double h = sinkage_of(theta_f, r);
     const std::size_t strips = effects_.rut_tilt_rad == 0 ? 1 : kStrips;
     const double share = 1.0 / static_cast<double>(strips);
-    Sums sums;
+    double fz = 0, fu = 0, fs = 0, roll = 0;
     for (std::size_t i = 0; i < strips; ++i) {
-      // inner side: towards the centre of the turn, deeper
       const double inner = b * ((static_cast<double>(i) + 0.5) * share - 0.5);
-      const double depth = std::clamp(h + inner * std::tan(effects_.rut_tilt_rad), 1e-9 * r, r);
-      Ground ground = ground_;
-      if (effects_.layer_depth_m > 0) {
-        const double deep = 1 - std::exp(-std::pow(depth / effects_.layer_depth_m, 2));
-        ground.stress_scale_pa *= 1 + (effects_.layer_stiffness - 1) * deep;
-      }
-      const Contact contact = wheel_contact::contact_at(ground, theta_of(depth, r), ratios_.slip);
-      const auto law = wheel_contact::integrate_with_law(ground, contact, ratios_, effects_.shear,
-                                                         effects_.residual);
-      sums.plane.cohesion = sums.plane.cohesion + share * law.plane.cohesion;
-      sums.plane.stress = sums.plane.stress + share * law.plane.stress;
-      sums.fu_cohesion_n += share * law.fu_cohesion_n;
-      sums.fu_stress_n += share * law.fu_stress_n;
-      sums.bulldozing_n += share * wheel_contact::bulldozing_force_n(ground, contact, ratios_);
-      sums.roll_cohesion_nm += share * inner * law.plane.cohesion.fz_n;
-      sums.roll_stress_nm += share * inner * law.plane.stress.fz_n;
+      const Strip at = strip(std::clamp(h + inner * std::tan(effects_.rut_tilt_rad), 1e-9 * r, r));
+      const double strip_fz = share * at.integrals.plane.at(q).fz_n;
+      fz += strip_fz;
+      roll += strip_fz * inner;
+      fu += share * (at.integrals.fu_cohesion_n + q * at.integrals.fu_stress_n);
+      fs += share * wheel_contact::bulldozing_force_n(ground_, at.contact, ratios_);
     }
-    return sums;
+    return {.force_n = fu + fs, .roll_nm = roll * load_n / fz};
   }
 
   double fz_n(double theta_f) const { return at(theta_f).plane.at(1).fz_n; }
@@ -127,6 +119,25 @@ class ModifiedContact {
 
  private:
   static constexpr std::size_t kStrips = 7;
+
+  struct Strip {
+    Contact contact;
+    wheel_contact::LawIntegrals integrals;
+  };
+
+  /// The full width at one depth.
+  Strip strip(double depth_m) const {
+    Ground ground = ground_;
+    if (effects_.layer_depth_m > 0) {
+      const double deep = 1 - std::exp(-std::pow(depth_m / effects_.layer_depth_m, 2));
+      ground.stress_scale_pa *= 1 + (effects_.layer_stiffness - 1) * deep;
+    }
+    const Contact contact =
+        wheel_contact::contact_at(ground, theta_of(depth_m, ground.wheel.radius_m), ratios_.slip);
+    return {contact, wheel_contact::integrate_with_law(ground, contact, ratios_, effects_.shear,
+                                                       effects_.residual)};
+  }
+
   const Effects& effects_;
   const Ground& ground_;
   const Ratios& ratios_;
@@ -138,7 +149,7 @@ struct Additions {
 };
 
 Additions additions(const Effects& effects, const Ground& ground, const WheelState& state,
-                    double sinkage_m, double gravity_mps2) {
+                    const Contact& contact, double sinkage_m, double gravity_mps2) {
   const Soil& soil = ground.soil;
   const double r = ground.wheel.radius_m, b = ground.wheel.width_m, h = sinkage_m;
   const double gamma = soil.density_kgpm3 * gravity_mps2;
@@ -150,7 +161,9 @@ Additions additions(const Effects& effects, const Ground& ground, const WheelSta
   Additions sum;
   sum.fx_n -= effects.front_bulldozing * passive_n(h);
   sum.fx_n -= effects.inertia * soil.density_kgpm3 * state.speed_mps * state.speed_mps * b * h;
-  const double lugs_n = effects.lug_share * passive_n(effects.lug_height_m) *
+  const double lugs_in_soil = std::max(
+      1.0, effects.lugs * (contact.theta_f_rad - contact.theta_r_rad) / (2 * std::numbers::pi));
+  const double lugs_n = lugs_in_soil * effects.lug_share * passive_n(effects.lug_height_m) *
                         (1 + effects.lug_ripple * std::cos(effects.lug_phase_rad));
   sum.fx_n += lugs_n;
   sum.torque_nm += lugs_n * r;
@@ -217,43 +230,35 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   if (h != h0) theta_f = theta_of(h, r);
 
   const Contact contact = wheel_contact::contact_at(ground, *theta_f, ratios.slip);
-  Resultant resultant;
+  const Integrals plane = modified.is_plain()
+                              ? wheel_contact::integrate(ground, contact, ratios, model.accuracy_)
+                              : modified.at(*theta_f).plane;
+  const double q = imposed ? (effects.load_n - plane.cohesion.fz_n) / plane.stress.fz_n : 1.0;
+  if (!(q >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
+  const Resultant resultant = plane.at(q);
   double side_n = 0, roll_nm = 0;
-  const auto scale = [&](const Integrals& plane) {
-    return imposed ? (effects.load_n - plane.cohesion.fz_n) / plane.stress.fz_n : 1.0;
-  };
-  if (modified.is_plain()) {
-    const Integrals plane = wheel_contact::integrate(ground, contact, ratios, model.accuracy_);
-    const double q = scale(plane);
-    if (!(q >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
-    resultant = plane.at(q);
+  if (modified.is_plain() && effects.rut_tilt_rad == 0) {
     side_n = wheel_contact::side_force_n(ground, contact, ratios, q, model.accuracy_);
   } else {
-    const ModifiedContact::Sums sums = modified.at(*theta_f);
-    const double q = scale(sums.plane);
-    if (!(q >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
-    resultant = sums.plane.at(q);
-    side_n = sums.fu_cohesion_n + q * sums.fu_stress_n + sums.bulldozing_n;
-    // inner is right (-y) for a motion to the left; the moment about x of a push up at -y is < 0
-    roll_nm = -forward.y_sign * (sums.roll_cohesion_nm + q * sums.roll_stress_nm);
+    const auto sideways = modified.sideways(*theta_f, q, effects.load_n);
+    side_n = sideways.force_n;
+    // inner is right (-y) for a motion to the left: the moment about x is negative
+    roll_nm = -forward.y_sign * sideways.roll_nm;
   }
 
-  const Additions added = additions(effects, ground, state, h, spec.gravity_mps2);
+  const Additions added = additions(effects, ground, state, contact, h, spec.gravity_mps2);
   const double rut_m = ground.wheel.width_m / 2 * std::tan(effects.rut_tilt_rad);
-  WheelStatus status = told.status;
-  WheelChannels channels{
-      .forces = {.fx_n = forward.x_sign * (resultant.fx_n + added.fx_n) +
-                         effects.tilt_x * effects.load_n,
-                 .fy_n = forward.y_sign * side_n - effects.tilt_y * effects.load_n,
-                 .torque_nm = forward.x_sign * (resultant.torque_nm + added.torque_nm),
-                 .sinkage_m = h,
-                 .theta_f_rad = contact.theta_f_rad,
-                 .theta_r_rad = contact.theta_r_rad,
-                 .status = status},
-      .rut_left_m = std::max(h - forward.y_sign * rut_m, 0.0),
-      .rut_right_m = std::max(h + forward.y_sign * rut_m, 0.0),
-      .roll_moment_nm = roll_nm};
-  return channels;
+  return {.forces = {.fx_n = forward.x_sign * (resultant.fx_n + added.fx_n) +
+                             effects.tilt_x * effects.load_n,
+                     .fy_n = forward.y_sign * side_n - effects.tilt_y * effects.load_n,
+                     .torque_nm = forward.x_sign * (resultant.torque_nm + added.torque_nm),
+                     .sinkage_m = h,
+                     .theta_f_rad = contact.theta_f_rad,
+                     .theta_r_rad = contact.theta_r_rad,
+                     .status = told.status},
+          .rut_left_m = std::max(h - forward.y_sign * rut_m, 0.0),
+          .rut_right_m = std::max(h + forward.y_sign * rut_m, 0.0),
+          .roll_moment_nm = roll_nm};
 }
 
 }  // namespace regoplan
