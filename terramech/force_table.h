@@ -92,6 +92,9 @@ class ForceTable {
   /// Forces in the plane with their slopes; outside the table by differences of the direct model.
   SlopedForces forces_with_slopes(double load_n, const WheelMotion& motion) const;
 
+  /// The forces in the plane alone, the fastest answer to one state.
+  PlaneForces plane_forces(double load_n, const WheelMotion& motion) const;
+
   /// Many states at once. Not carried: zero forces, as in WheelForces.
   /// \throws InputError for arrays of different length
   std::vector<PlaneForces> plane_forces(std::span<const double> loads_n,
