@@ -84,10 +84,8 @@ VerifiedPath verify(const World& verdict, const World& searched, const FoundPath
   candidate.verified.passed = replayed.reached_goal && !replayed.rejection;
   candidate.verified.deviation_max_m =
       deviation_max_m(replayed, replay(searched, path.controls, coarse, false));
-  if (!candidate.verified.passed) {
-    candidate.verified.reason = why_overturned(replayed);
-    return verified;
-  }
+  if (!candidate.verified.passed) candidate.verified.reason = why_overturned(replayed);
+  if (candidate.points.empty()) return verified;
   candidate.margin_min = smallest_margin(candidate.points);
   candidate.verified.margin_min = candidate.margin_min;
   candidate.margin_worst_tenth = margin_of_worst_tenth(candidate.points);

@@ -30,7 +30,8 @@ class RunSchedule {
     const int wanted = kRunsPerCandidate * search_.candidates;
     SearchRun run{.planner = planner_of(number_),
                   .seed = seed_of(number_),
-                  .margin_min = margin_min_ + reserve_of(number_)};
+                  .margin_min = margin_min_ + reserve_of(number_),
+                  .variety = variety_of(number_)};
     if (search_.iterations) {
       if (number_ >= wanted) return std::nullopt;
       run.iterations = search_.iterations;
@@ -69,6 +70,12 @@ class RunSchedule {
   static double reserve_of(int number) {
     static const std::vector<double> kReserves{0.10, 0.01, 0.15, 0.05};
     return kReserves[static_cast<std::size_t>(number) % kReserves.size()];
+  }
+
+  /// Ways that differ: the first run follows the cheapest, others what chance makes cheapest.
+  static double variety_of(int number) {
+    constexpr double kMost = 3;
+    return number == 0 ? 0 : kMost * (1 + number % 2) / 2;
   }
 
   const Search& search_;

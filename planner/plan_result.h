@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,7 +65,9 @@ struct Verification {
 };
 
 struct Candidate {
-  int rank = 0;  ///< from 1
+  static constexpr double kNotDrawn = std::numeric_limits<double>::quiet_NaN();
+
+  int rank = 0;  ///< from 1; 0 of a path that was not ranked
   std::string planner;
   std::uint64_t seed = 0;
   std::vector<ControlSegment> controls;
@@ -73,9 +76,9 @@ struct Candidate {
   double duration_s = 0;
   double energy_j = 0;
   double margin_min = 0;
-  double margin_p05 = 0;            ///< 5 % quantile of margin_min over the soil draws
-  double margin_worst_tenth = 0;    ///< mean over the worst 10 % of the length
-  double probability_feasible = 0;  ///< share of the soil draws in which every limit holds
+  double margin_p05 = kNotDrawn;            ///< 5 % quantile of margin_min over the soil draws
+  double margin_worst_tenth = 0;            ///< mean over the worst 10 % of the length
+  double probability_feasible = kNotDrawn;  ///< share of the draws in which every limit holds
   LimitingPlace limiting;
   Verification verified;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace regoplan {
 namespace {
@@ -13,6 +14,13 @@ PlanningProblem on_weaker_soils(const PlanningProblem& problem, double factor) {
   PlanningProblem weaker = problem;
   weaker.map = problem.map.with_soils(std::move(soils));
   return weaker;
+}
+
+/// At twice the speeds the speed limit is not the question.
+PlanningProblem without_speed_limit(const PlanningProblem& problem) {
+  PlanningProblem faster = problem;
+  faster.speed_max_mps = std::numeric_limits<double>::infinity();
+  return faster;
 }
 
 /// Judges the margins of the same moments after a change to each.
@@ -82,6 +90,8 @@ std::vector<WhatIf> what_ifs(const World& world, const Replay& verified,
                              const std::vector<ControlSegment>& controls) {
   const PlanningProblem weaker_problem = on_weaker_soils(world.problem(), 0.5);
   const World weaker(weaker_problem, WorldUse::kVerdict, 1);
+  const PlanningProblem faster_problem = without_speed_limit(world.problem());
+  const World faster(faster_problem, WorldUse::kVerdict, 1);
   const auto twice_as_fast = [](VehicleState state) {
     state.motion.vx_mps *= 2;
     state.motion.vy_mps *= 2;
@@ -90,7 +100,7 @@ std::vector<WhatIf> what_ifs(const World& world, const Replay& verified,
     return state;
   };
   const auto as_it_is = [](VehicleState state) { return state; };
-  return {same_path("the same path at twice its speeds", world, verified, twice_as_fast),
+  return {same_path("the same path at twice its speeds", faster, verified, twice_as_fast),
           same_path("the same path and speeds on soils with cohesion and tan(phi) halved", weaker,
                     verified, as_it_is),
           same_controls("the same controls on soils with cohesion and tan(phi) halved", weaker,

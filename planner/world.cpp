@@ -8,16 +8,36 @@
 namespace regoplan {
 namespace {
 
-std::vector<WheelModel> models_of(const PlanningProblem& problem, WorldUse use) {
+WheelModelSpec model_spec(const PlanningProblem& problem, const MapSoil& soil) {
+  return {.variant = problem.wheel_variant,
+          .wheel = problem.vehicle.wheel,
+          .soil = soil.soil.mean,
+          .gravity_mps2 = problem.gravity_mps2};
+}
+
+std::vector<WheelModel> models_of(const PlanningProblem& problem) {
   std::vector<WheelModel> models;
-  for (const MapSoil& soil : problem.map.soils()) {
-    models.emplace_back(WheelModelSpec{.variant = problem.wheel_variant,
-                                       .wheel = problem.vehicle.wheel,
-                                       .soil = soil.soil.mean,
-                                       .gravity_mps2 = problem.gravity_mps2},
-                        use == WorldUse::kSearch ? WheelAccuracy::kFast : WheelAccuracy::kExact);
-  }
+  for (const MapSoil& soil : problem.map.soils()) models.emplace_back(model_spec(problem, soil));
   return models;
+}
+
+std::vector<ForceTable> tables_of(const PlanningProblem& problem) {
+  const double nominal_load_n = problem.vehicle.mass_kg * problem.gravity_mps2 /
+                                static_cast<double>(problem.vehicle.wheels.size());
+  // Far below what the supply's bound and the reserves of a search leave; no verdict rests on it.
+  constexpr TableAccuracy kAccuracy{.at_999_permille = 5e-3, .at_worst = 2e-2};
+  std::vector<ForceTable> tables;
+  for (const MapSoil& soil : problem.map.soils()) {
+    tables.push_back(ForceTable::cached({.model = model_spec(problem, soil),
+                                         .nominal_load_n = nominal_load_n,
+                                         .accuracy = kAccuracy}));
+  }
+  return tables;
+}
+
+template <class Source>
+std::vector<WheelLaw> views_of(const std::vector<Source>& sources) {
+  return {sources.begin(), sources.end()};
 }
 
 double largest_by_magnitude(const Vehicle& vehicle, double curvature_1pm) {
@@ -42,8 +62,9 @@ TrimLimits trim_limits(const PlanningProblem& problem) {
 World::World(const PlanningProblem& problem, WorldUse use, int threads)
     : problem_(problem),
       use_(use),
-      models_(models_of(problem, use)),
-      laws_(models_.begin(), models_.end()),
+      models_(use == WorldUse::kVerdict ? models_of(problem) : std::vector<WheelModel>{}),
+      force_tables_(use == WorldUse::kSearch ? tables_of(problem) : std::vector<ForceTable>{}),
+      laws_(use == WorldUse::kSearch ? views_of(force_tables_) : views_of(models_)),
       ground_(problem.map, problem.vehicle),
       dynamics_(
           problem.vehicle, laws_,
@@ -53,9 +74,9 @@ World::World(const PlanningProblem& problem, WorldUse use, int threads)
       obstacles_(problem.map, problem.vehicle, use == WorldUse::kSearch ? kSearchClearance_m : 0) {
   if (use != WorldUse::kSearch) return;
   for (const WheelLaw& law : laws_) {
-    tables_.emplace_back(problem.vehicle, law, trim_limits(problem),
-                         problem.vehicle.mass_kg * problem.gravity_mps2,
-                         problem.limits.slope_max_rad, threads);
+    supply_tables_.emplace_back(problem.vehicle, law, trim_limits(problem),
+                                problem.vehicle.mass_kg * problem.gravity_mps2,
+                                problem.limits.slope_max_rad, threads);
   }
 }
 
@@ -82,9 +103,9 @@ double World::search_step_s() const {
 
 StateMargins World::margins(const VehicleState& state, const GroundPatch& patch) const {
   const SupplyQuestion question = question_of(dynamics_, state, patch);
-  const bool tabled = !tables_.empty() && !question.reverse;
+  const bool tabled = !supply_tables_.empty() && !question.reverse;
   const SupplyAnswer answer =
-      tabled ? TabledSupply(tables_).answer(question, problem_.vehicle.wheels.size())
+      tabled ? TabledSupply(supply_tables_).answer(question, problem_.vehicle.wheels.size())
              : SolvedSupply(problem_.vehicle, dynamics_.sharing(), laws_, trim_limits(problem_))
                    .answer(question);
   return margins_of(dynamics_, polygon_, question, answer);
@@ -108,7 +129,8 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   if (!problem_.map.inside(state.x_m, state.y_m)) return because(Rejection::kBounds, 0, 0);
   // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
   const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
-  if (speed > problem_.speed_max_mps * (1 + kRounding)) {
+  const double speed_reserve = use_ == WorldUse::kSearch ? 0.995 : 1 + kRounding;
+  if (speed > problem_.speed_max_mps * speed_reserve) {
     return because(Rejection::kBounds, speed, problem_.speed_max_mps);
   }
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);

@@ -7,6 +7,7 @@
 #include "planner/obstacles.h"
 #include "planner/plan_result.h"
 #include "planner/planning_problem.h"
+#include "terramech/force_table.h"
 #include "terramech/state_margins.h"
 #include "terramech/vehicle_dynamics.h"
 #include "terramech/wheel_model.h"
@@ -15,7 +16,7 @@ namespace regoplan {
 
 /// How a world answers: fast, as searches need it, or as exactly as a verdict needs it.
 enum class WorldUse {
-  kSearch,  ///< fast wheel model, tabled supply, obstacles enlarged, limits kept with reserve
+  kSearch,  ///< tabled wheel forces and supply, obstacles enlarged, limits kept with reserve
   kVerdict  ///< exact wheel model, every manoeuvre solved, limits as they are
 };
 
@@ -68,13 +69,14 @@ class World {
 
   const PlanningProblem& problem_;
   WorldUse use_;
-  std::vector<WheelModel> models_;  ///< by soil
-  std::vector<WheelLaw> laws_;      ///< views of them
+  std::vector<WheelModel> models_;        ///< by soil; verdict only
+  std::vector<ForceTable> force_tables_;  ///< by soil; search only
+  std::vector<WheelLaw> laws_;            ///< by soil, views of what there is
   GroundFinder ground_;
   VehicleDynamics dynamics_;
   SupportPolygon polygon_;
   Obstacles obstacles_;
-  std::vector<SupplyTable> tables_;  ///< by soil; search only
+  std::vector<SupplyTable> supply_tables_;  ///< by soil; search only
 };
 
 /// The limits of a problem as trims know them.

@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace regoplan {
 namespace {
 
 using Point = SteadyManoeuvre::Point;
-
-/// A point of the branch with the slopes near it.
-struct BranchPoint {
-  Point at;
-  SteadyManoeuvre::Slopes slopes;
-};
 
 /// Unit tangent of the branch, oriented like `along`.
 std::optional<Point> tangent_of(const SteadyManoeuvre::Slopes& slopes, const Point& along) {
@@ -26,21 +21,21 @@ std::optional<Point> tangent_of(const SteadyManoeuvre::Slopes& slopes, const Poi
   return tangent / length;
 }
 
-/// The trim on the plane through `predicted` across the tangent, by Newton's method; the slopes are
-/// taken anew only when it slows down.
-std::optional<BranchPoint> correct(const SteadyManoeuvre& manoeuvre, const Point& predicted,
-                                   const Point& tangent, const ForceLine& line) {
+/// The trim on the plane through `predicted` across the tangent, by Newton's method; the slopes,
+/// those of a trim nearby at first, are taken anew only when it slows down.
+std::optional<Point> correct(const SteadyManoeuvre& manoeuvre, const Point& predicted,
+                             const Point& tangent, const ForceLine& line,
+                             std::optional<SteadyManoeuvre::Slopes> slopes) {
   constexpr double kConverged = 3e-7, kAccepted = 1e-4;
   Point at = predicted;
-  std::optional<SteadyManoeuvre::Slopes> slopes;
-  double error_before = 0;
+  double error_before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 12; ++iteration) {
     const auto residual = manoeuvre.residual(at, line);
     if (!residual) return std::nullopt;
     const double error = residual->cwiseAbs().maxCoeff();
-    if (slopes && error < kConverged) return BranchPoint{at, *slopes};
-    const bool slows = slopes && error > 0.2 * error_before;
-    if (slows && iteration > 3 && error < kAccepted) return BranchPoint{at, *slopes};
+    if (iteration > 0 && error < kConverged) return at;
+    const bool slows = error > 0.2 * error_before;
+    if (slows && iteration > 3 && error < kAccepted) return at;
     if (slows && iteration > 6) return std::nullopt;
     if (!slopes || slows) slopes = manoeuvre.slopes(at, line, *residual);
     if (!slopes) return std::nullopt;
@@ -59,22 +54,21 @@ std::optional<BranchPoint> correct(const SteadyManoeuvre& manoeuvre, const Point
 class Walk {
  public:
   Walk(const SteadyManoeuvre& manoeuvre, const Point& start, const ForceLine& line)
-      : manoeuvre_(manoeuvre), line_(line), at_(start), before_(start) {
-    const auto residual = manoeuvre.residual(start, line);
-    const auto slopes = residual ? manoeuvre.slopes(start, line, *residual) : std::nullopt;
-    if (slopes) tangent_ = tangent_of(*slopes, Point{0, 0, 0, 1}).value_or(Point::Zero());
-  }
+      : manoeuvre_(manoeuvre),
+        line_(line),
+        at_(start),
+        before_(start),
+        slopes_(slopes_at(start)),
+        slopes_before_(slopes_) {}
 
-  bool can_start() const { return tangent_ != Point::Zero() && tangent_[3] > 0; }
   const Point& at() const { return at_; }
   const Point& before() const { return before_; }
   bool folded() const { return tangent_[3] <= 0; }
 
   /// The branch at arc length `arc` beyond where it stood before the last step.
   std::optional<Point> between(double arc) const {
-    const auto point = correct(manoeuvre_, before_ + arc * tangent_before_, tangent_before_, line_);
-    if (!point) return std::nullopt;
-    return point->at;
+    return correct(manoeuvre_, before_ + arc * tangent_before_, tangent_before_, line_,
+                   slopes_before_);
   }
   double last_arc() const { return last_arc_; }
 
@@ -82,14 +76,17 @@ class Walk {
   bool step() {
     constexpr double kLongest = 0.4, kShortest = 1e-4;
     while (arc_ > kShortest) {
-      const auto next = correct(manoeuvre_, at_ + arc_ * tangent_, tangent_, line_);
-      const auto tangent = next ? tangent_of(next->slopes, tangent_) : std::nullopt;
-      if (tangent && tangent->dot(tangent_) > 0.8) {
+      const auto next = correct(manoeuvre_, at_ + arc_ * tangent_, tangent_, line_, slopes_);
+      const auto slopes = next ? slopes_at(*next) : std::nullopt;
+      const auto tangent = slopes ? tangent_of(*slopes, tangent_) : std::nullopt;
+      if (tangent && tangent->dot(tangent_) > least_turn()) {
         before_ = at_;
         tangent_before_ = tangent_;
+        slopes_before_ = slopes_;
         last_arc_ = arc_;
-        at_ = next->at;
+        at_ = *next;
         tangent_ = *tangent;
+        slopes_ = slopes;
         arc_ = std::min(arc_ * 1.6, kLongest);
         return true;
       }
@@ -99,19 +96,37 @@ class Walk {
   }
 
  private:
+  std::optional<SteadyManoeuvre::Slopes> slopes_at(const Point& at) const {
+    const auto residual = manoeuvre_.residual(at, line_);
+    return residual ? manoeuvre_.slopes(at, line_, *residual) : std::nullopt;
+  }
+
+  /// Cosine of the sharpest turn of a step. The branch has a kink where a wheel's side slip changes
+  /// sign (its forces depend on |beta|): however short a step, it turns there.
+  double least_turn() const {
+    constexpr double kAcrossKink = 0.02;
+    const bool sets_out = last_arc_ == 0;
+    return sets_out || arc_ < kAcrossKink ? 0 : 0.8;
+  }
+
   const SteadyManoeuvre& manoeuvre_;
   const ForceLine& line_;
   Point at_, before_;
-  Point tangent_ = Point::Zero(), tangent_before_ = Point::Zero();
-  double arc_ = 0.2;
+  // The first step goes straight along p: it often starts at a kink, where the slopes are those of
+  // one side only.
+  Point tangent_ = Point{0, 0, 0, 1}, tangent_before_ = tangent_;
+  std::optional<SteadyManoeuvre::Slopes> slopes_, slopes_before_;
+  double arc_ = 0.05;
   double last_arc_ = 0;
 };
 
-double fold_between(const Walk& walk) {
-  // The top of p between the last two points, by golden section on the arc length.
+/// The top of p between the last two points, by golden section on the arc length.
+Point fold_within_step(const Walk& walk) {
   constexpr double kGolden = 0.6180339887498949;
+  Point top = walk.before()[3] > walk.at()[3] ? walk.before() : walk.at();
   const auto p_at = [&](double arc) {
     const auto point = walk.between(arc);
+    if (point && (*point)[3] > top[3]) top = *point;
     return point ? (*point)[3] : -1e300;
   };
   double low = 0, high = walk.last_arc();
@@ -132,7 +147,7 @@ double fold_between(const Walk& walk) {
       p_b = p_at(b);
     }
   }
-  return std::max({p_a, p_b, walk.before()[3], walk.at()[3]});
+  return top;
 }
 
 constexpr int kLongestWalk = 200;  // steps
@@ -140,7 +155,7 @@ constexpr int kLongestWalk = 200;  // steps
 /// Goes on to the fold, limits aside.
 std::optional<double> fold_of(Walk walk) {
   for (int i = 0; i < kLongestWalk; ++i) {
-    if (walk.folded()) return fold_between(walk);
+    if (walk.folded()) return fold_within_step(walk)[3];
     if (!walk.step()) return walk.at()[3];
   }
   return std::nullopt;
@@ -234,7 +249,6 @@ BranchEnd follow_branch(const SteadyManoeuvre& manoeuvre, const Point& start, co
   LimitUse use = use_at(start);
   if (use.used >= 1) return ended_at(start, use);
   Walk walk(manoeuvre, start, line);
-  if (!walk.can_start()) return ended_at(start, {.limit = BranchLimit::kFold});
   for (int i = 0; i < kLongestWalk; ++i) {
     const double used_before = use.used;
     if (!walk.step()) {  // a wheel lifts or sinks: the limit it is nearest to
@@ -243,6 +257,16 @@ BranchEnd follow_branch(const SteadyManoeuvre& manoeuvre, const Point& start, co
       return end;
     }
     use = use_at(walk.at());
+    if (walk.folded()) {
+      const Point top = fold_within_step(walk);
+      const LimitUse use_at_top = use_at(top);
+      if (use_at_top.used < 1) {  // the fold comes before any limit
+        if (top[3] >= target_p) return target_near(walk.before());
+        BranchEnd end = ended_at(top, {.limit = BranchLimit::kFold, .wheel = use_at_top.wheel});
+        end.fold_p = end.p;
+        return end;
+      }
+    }
     if (use.used >= 1) {
       const Point at =
           limit_within_step(walk, used_before, [&](const Point& p) { return use_at(p).used; });
@@ -252,12 +276,6 @@ BranchEnd follow_branch(const SteadyManoeuvre& manoeuvre, const Point& start, co
       return end;
     }
     if (walk.at()[3] >= target_p) return target_near(walk.at());
-    if (walk.folded()) {
-      BranchEnd end = ended_at(walk.at(), {.limit = BranchLimit::kFold, .wheel = use.wheel});
-      end.p = fold_between(walk);
-      end.fold_p = end.p;
-      return end;
-    }
   }
   return ended_at(walk.at(), {.limit = BranchLimit::kFold});
 }

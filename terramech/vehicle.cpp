@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "terramech/ground_patch.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -64,7 +65,9 @@ bool origin_within_contacts(const std::vector<WheelMount>& wheels) {
 }
 
 void validate_wheels(const std::vector<WheelMount>& wheels) {
-  if (wheels.size() < 3) throw ValueError("wheels", double(wheels.size()), "at least 3 wheels");
+  if (wheels.size() < 3 || wheels.size() > kMaxWheels) {
+    throw ValueError("wheels", double(wheels.size()), fmt::format("3 to {} wheels", kMaxWheels));
+  }
   for (const WheelMount& wheel : wheels) {
     if (wheel.name.empty()) throw InputError("wheels: a wheel has no name");
     require_between(fmt::format("wheels.{}.x_m", wheel.name), wheel.x_m, -kLongest_m, kLongest_m);

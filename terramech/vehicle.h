@@ -73,8 +73,8 @@ struct Vehicle {
 };
 
 /// Checks every field, and what only fields together decide:
-/// - at least three wheels with names of their own, not all on a line, the centre of gravity within
-///   the polygon of their contacts, one of them driven;
+/// - three to `kMaxWheels` wheels with names of their own, not all on a line, the centre of gravity
+///   within the polygon of their contacts, one of them driven;
 /// - each steered wheel off the line of turn centres, its angle at `curvature_max_1pm`, either
 ///   side, at least 1 deg within `steer_angle_max_rad` (trim needs room to steer against slip);
 /// - rocker-bogie: six wheels in three axles, each pivot between what it carries;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -20,6 +21,12 @@ double approach(double value, double target, double rate_max, double duration_s)
   return std::abs(target - value) <= step ? target : value + std::copysign(step, target - value);
 }
 
+/// What makes forces vanish with the speed that they oppose. A locked wheel shears the soil fully
+/// along either axis of its own, whichever way it slides: without this its forces would jump.
+double fade(double speed_mps) {
+  return speed_mps / (speed_mps + VehicleDynamics::kStandstillSpeed_mps);
+}
+
 Eigen::Vector3d vector_of(const BodyMotion& motion) {
   return {motion.vx_mps, motion.vy_mps, motion.yaw_rate_rad_s};
 }
@@ -33,7 +40,7 @@ BodyMotion motion_of(const Eigen::Vector3d& v) {
 /// One implicit stage: velocities v with v = base + step dv/dt(v), everything else given.
 struct VehicleDynamics::Stage {
   GroundPatch patch;
-  double curvature_1pm = 0;
+  std::array<SteeredWheel, kMaxWheels> wheels;
   double rim_speed_mps = 0;
   Eigen::Vector3d base;
   double step_s = 0;
@@ -80,16 +87,15 @@ VehicleDynamics::WheelSums VehicleDynamics::wheel_sums(const BodyMotion& motion,
     sums.strain.load_min_n = std::min(sums.strain.load_min_n, load);
     if (!(load > 0)) continue;
     const WheelLaw& law = soil_laws_[static_cast<std::size_t>(stage.patch.soil[i])];
-    const SteeredWheel wheel = steered_wheel(vehicle_, mount, stage.curvature_1pm);
+    const SteeredWheel& wheel = stage.wheels[i];
     const WheelMotion at =
         wheel_motion(mount, wheel, motion, stage.rim_speed_mps * wheel.rim_speed_per_speed);
     const auto faded = [&](const WheelMotion& m) {
       WheelForces forces = law.forces(load, m);
-      const double speed = std::hypot(m.vx_mps, m.vy_mps, m.rim_speed_mps);
-      const double fade = speed / (speed + kStandstillSpeed_mps);
-      forces.fx_n *= fade;
-      forces.fy_n *= fade;
-      forces.torque_nm *= fade;
+      const double fade_x = fade(std::hypot(m.vx_mps, m.rim_speed_mps));
+      forces.fx_n *= fade_x;
+      forces.fy_n *= fade(std::hypot(m.vy_mps, m.rim_speed_mps));
+      forces.torque_nm *= fade_x;
       return forces;
     };
     const WheelForces forces = faded(at);
@@ -136,9 +142,12 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
   const Eigen::Vector3d per_force{1 / m, 1 / m, 1 / inertia};
   const double h = stage.step_s;
   const double lag = h / (h + kTransferTime_s);
-  double error_before = 0;
+  const Eigen::Vector3d in_mps{1, 1, std::sqrt(inertia / m)};
+  double error_before = 0, missing_before = 0;
   bool slows = false;
-  for (int iteration = 0; iteration < 25; ++iteration) {
+  Eigen::Vector3d velocity_before = stage.velocity;
+  int halvings = 0;
+  for (int iteration = 0; iteration < 40; ++iteration) {
     // The slopes are dear: taken anew only where the old ones slow the convergence down.
     const bool with_slopes = !stage.newton || slows;
     const Eigen::Vector3d& v = stage.velocity;
@@ -160,6 +169,25 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
     stage.drive_power_w = sums.drive_power_w;
 
     const Eigen::Vector3d missing = stage.base + h * stage.acceleration - v;
+    const double missing_mps = missing.cwiseProduct(in_mps).norm();
+    if (iteration > 0 && missing_mps > missing_before && halvings < 10) {
+      // Sliding friction saturates: a whole step may only change the direction of the slide.
+      ++halvings;
+      slows = true;
+      stage.velocity = (stage.velocity + velocity_before) / 2;
+      // All but at rest, the balance may lie on a jump of the forces: where a wheel that turns
+      // stops moving, it spins on the one side and counter-rotates on the other.
+      constexpr double kNearRest_mps = kStandstillSpeed_mps, kJump_mps = 1e-2 * kNearRest_mps;
+      const Eigen::Vector3d apart = stage.velocity - velocity_before;
+      if (velocity_before.cwiseProduct(in_mps).norm() < kNearRest_mps &&
+          apart.cwiseProduct(in_mps).norm() < kJump_mps) {
+        return true;
+      }
+      continue;
+    }
+    halvings = 0;
+    missing_before = missing_mps;
+    velocity_before = v;
     if (with_slopes) {
       Eigen::Matrix3d jacobian = per_force.asDiagonal() * sums.slopes;
       jacobian(0, 1) += v[2];
@@ -203,6 +231,14 @@ StepResult VehicleDynamics::try_step(const VehicleState& state, const VehicleCon
                            axes.yaw_per_turn * v[2]};
   };
 
+  const auto steered_at = [&](double curvature_1pm) {
+    std::array<SteeredWheel, kMaxWheels> wheels;
+    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+      wheels[i] = steered_wheel(vehicle_, vehicle_.wheels[i], curvature_1pm);
+    }
+    return wheels;
+  };
+
   StepResult result{.state = state, .strain = {}};
   const Eigen::Vector3d pose{state.x_m, state.y_m, state.yaw_rad};
   const Eigen::Vector3d velocity = vector_of(state.motion);
@@ -219,7 +255,7 @@ StepResult VehicleDynamics::try_step(const VehicleState& state, const VehicleCon
                              double left_base_n, const Eigen::Vector3d& guess,
                              const Eigen::Vector3d& pose_there) {
     Stage stage{.patch = ground_(pose_there[0], pose_there[1], pose_there[2]),
-                .curvature_1pm = curvature_at(at_s),
+                .wheels = steered_at(curvature_at(at_s)),
                 .rim_speed_mps = rim_at(at_s),
                 .base = base,
                 .step_s = kGamma * h,
@@ -256,7 +292,7 @@ StepResult VehicleDynamics::try_step(const VehicleState& state, const VehicleCon
       drift(PatchAxes(first.patch, gravity_mps2_), first.velocity, pose_first[2]);
 
   const double rest = (1 - kGamma) / kGamma;  // (1 - gamma) h K1 = rest (stage value - start)
-  const Eigen::Vector3d base = velocity + (1 - kGamma) * h * first.acceleration;
+  const Eigen::Vector3d base = velocity + rest * (first.velocity - velocity);
   const double forward_base =
       state.transfer_forward_n + rest * (first.transfer_forward_n - state.transfer_forward_n);
   const double left_base =

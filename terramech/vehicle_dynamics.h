@@ -59,8 +59,8 @@ struct StepResult {
 /// method (Alexander 1977; gamma = 1 - 1/sqrt 2), because the lateral equations grow stiff as
 /// 1/speed. Load transfer follows the wheels' forces with a delay of `kTransferTime_s`. Below about
 /// 1 mm/s the forces fade with the speed (`kStandstillSpeed_mps`): a vehicle with locked wheels
-/// creeps no faster than that where friction would hold it. Deterministic; const and safe from many
-/// threads where the ground is.
+/// creeps where friction would hold it, slower than that where it takes less than half of the
+/// friction there is. Deterministic; const and safe from many threads where the ground is.
 class VehicleDynamics {
  public:
   using Ground = std::function<GroundPatch(double x_m, double y_m, double yaw_rad)>;

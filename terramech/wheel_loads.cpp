@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 namespace regoplan {
@@ -24,42 +23,26 @@ UnitLoads equal_springs(const Vehicle& vehicle) {
 }
 
 /// Six wheels, three a side: the rocker carries the front wheel and, at its other end, the bogie.
+/// Neither turns under load, and the two rockers share the body's pitch moment equally.
 UnitLoads rocker_bogie(const Vehicle& vehicle) {
-  std::array<std::vector<std::size_t>, 2> sides;  // left, right
-  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    sides[vehicle.wheels[i].y_m > 0 ? 0 : 1].push_back(i);
-  }
-  assert(sides[0].size() == 3 && sides[1].size() == 3 && vehicle.rocker_bogie);
-  const double pivot = vehicle.rocker_bogie->rocker_pivot_x_m;
-  const double bogie = vehicle.rocker_bogie->bogie_pivot_x_m;
-  const double y_left = vehicle.wheels[sides[0][0]].y_m;
-  const double y_right = vehicle.wheels[sides[1][0]].y_m;
+  assert(vehicle.wheels.size() == 6 && vehicle.rocker_bogie);
+  std::vector<double> axles;
+  for (const WheelMount& wheel : vehicle.wheels) axles.push_back(wheel.x_m);
+  std::sort(axles.begin(), axles.end());
+  const double between_front_and_middle = (axles[3] + axles[4]) / 2;
 
-  UnitLoads unit = UnitLoads::Zero(6, 3);
-  for (int column = 0; column < 3; ++column) {
-    const double normal = column == 0, moment_x = column == 1, moment_y = column == 2;
-    for (int side = 0; side < 2; ++side) {
-      std::vector<std::size_t>& wheels = sides[static_cast<std::size_t>(side)];
-      std::sort(wheels.begin(), wheels.end(), [&](std::size_t a, std::size_t b) {
-        return vehicle.wheels[a].x_m > vehicle.wheels[b].x_m;
-      });
-      const double own = side == 0 ? y_left : y_right;
-      const double other = side == 0 ? y_right : y_left;
-      const double carried = (moment_y - other * normal) / (own - other);
-      const double turned = (moment_x - pivot * normal) / 2;  // half by the differential
-      const double front = vehicle.wheels[wheels[0]].x_m;
-      const double middle = vehicle.wheels[wheels[1]].x_m;
-      const double rear = vehicle.wheels[wheels[2]].x_m;
-      const double on_front = (turned - carried * (bogie - pivot)) / (front - bogie);
-      const double on_bogie = carried - on_front;
-      unit(static_cast<Eigen::Index>(wheels[0]), column) = on_front;
-      unit(static_cast<Eigen::Index>(wheels[1]), column) =
-          on_bogie * (bogie - rear) / (middle - rear);
-      unit(static_cast<Eigen::Index>(wheels[2]), column) =
-          on_bogie * (middle - bogie) / (middle - rear);
+  // Rows: sum N, sum N x, sum N y; left bogie, right bogie, difference of the rockers.
+  Eigen::Matrix<double, 6, 6> balance = Eigen::Matrix<double, 6, 6>::Zero();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const WheelMount& wheel = vehicle.wheels[static_cast<std::size_t>(i)];
+    const bool left = wheel.y_m > 0;
+    balance.col(i).head<3>() << 1, wheel.x_m, wheel.y_m;
+    if (wheel.x_m < between_front_and_middle) {
+      balance(left ? 3 : 4, i) = wheel.x_m - vehicle.rocker_bogie->bogie_pivot_x_m;
     }
+    balance(5, i) = (left ? 1 : -1) * (wheel.x_m - vehicle.rocker_bogie->rocker_pivot_x_m);
   }
-  return unit;
+  return balance.inverse().leftCols<3>();
 }
 
 }  // namespace

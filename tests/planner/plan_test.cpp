@@ -68,6 +68,7 @@ TEST(Plan, SameSeedAndIterationsGiveTheSameBitsWithAnyNumberOfThreads) {
                    [](double x, double y) { return 0.4 * std::sin(x / 4) * std::cos(y / 5); },
                    {{25, 25, 1, 1}, {30, 22, 1, 1}}));
   problem.search.planner = "auto";
+  problem.search.iterations = 400;
   problem.search.candidates = 2;
   const PlanResult once = planned(problem);
   EXPECT_EQ(fingerprint(once), fingerprint(planned(problem)));

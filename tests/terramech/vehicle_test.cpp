@@ -203,6 +203,11 @@ TEST(ValidateVehicle, NamesTheFieldThatCannotBe) {
       {"flat", "lrv", [](Vehicle& v) { v.cg_height_m = 0; }, "cg_height_m: 0"},
       {"no wheel radius", "lrv", [](Vehicle& v) { v.wheel.radius_m = 0; }, "wheel.radius_m: 0"},
       {"two wheels", "lrv", [](Vehicle& v) { v.wheels.resize(2); }, "wheels: 2"},
+      {"nine wheels", "lrv",
+       [](Vehicle& v) {
+         for (char extra = 'a'; extra <= 'e'; ++extra) v.wheels.push_back({{extra}, 0.5, 0.5});
+       },
+       "wheels: 9"},
       {"wheel nowhere", "lrv", [=](Vehicle& v) { v.wheels[1].y_m = nan; },
        "wheels.front_right.y_m: nan"},
       {"nameless wheel", "lrv", [](Vehicle& v) { v.wheels[1].name.clear(); }, "no name"},

@@ -1,0 +1,133 @@
+// Speed of the vehicle's mechanics: a step of its motion, supply solved and looked up, one core.
+#include <benchmark/benchmark.h>
+
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "terramech/state_margins.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kMoon_mps2 = 1.62;
+
+/// An LRV on firm lunar regolith.
+struct Lrv {
+  Vehicle vehicle = preset_vehicle("lrv");
+  WheelModel model;
+  std::vector<WheelLaw> laws;
+  LoadSharing sharing{vehicle};
+  double weight_n = vehicle.mass_kg * kMoon_mps2;
+  TrimLimits limits{.slip_angle_max_rad = vehicle.slip_angle_max_rad,
+                    .slip_max = vehicle.slip_max,
+                    .sinkage_max_m = vehicle.sinkage_max_m,
+                    .steer_angle_max_rad = vehicle.steer_angle_max_rad};
+
+  explicit Lrv(WheelAccuracy accuracy)
+      : model({.variant = WheelVariant::kIshigami2007,
+               .wheel = vehicle.wheel,
+               .soil = {.cohesion_pa = 170,
+                        .friction_angle_rad = 36 * std::numbers::pi / 180,
+                        .kc = 1400,
+                        .kphi = 8.2e5,
+                        .n = 1,
+                        .a0 = 0.40,
+                        .a1 = 0.15,
+                        .lambda = 0.90,
+                        .density_kgpm3 = 1500,
+                        .kx0_m = 0.018,
+                        .kx1_m = 0.043,
+                        .ky0_m = 0.013,
+                        .ky1_m = 0.020},
+               .gravity_mps2 = kMoon_mps2},
+              accuracy),
+        laws(vehicle.wheels.size(), WheelLaw(model)) {}
+};
+
+/// Curvatures and forward forces as searches ask for.
+struct Asked {
+  double curvature_1pm = 0;
+  double forward_n = 0;
+};
+std::vector<Asked> questions(const Lrv& lrv) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> share(-1, 1);
+  std::vector<Asked> asked(256);
+  for (Asked& one : asked) {
+    one.curvature_1pm = lrv.vehicle.curvature_max_1pm * share(random);
+    one.forward_n = 0.3 * lrv.weight_n * share(random);
+  }
+  return asked;
+}
+
+/// A slalom on a slope, started anew every 10 s.
+void vehicle_step(benchmark::State& state, WheelAccuracy accuracy, double speed_mps,
+                  double step_s) {
+  const Lrv lrv(accuracy);
+  const VehicleDynamics dynamics(
+      lrv.vehicle, lrv.laws,
+      [](double, double, double) {
+        return GroundPatch{
+            .known = true, .z_m = 0, .slope_forward = 0.05, .slope_left = 0.05, .soil = {}};
+      },
+      kMoon_mps2);
+  const VehicleState start = dynamics.rolling_state(0, 0, 0, speed_mps);
+  VehicleState at = start;
+  const int steps = static_cast<int>(10 / step_s);
+  int i = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    if (i % steps == 0) at = start;
+    const double side = i++ / (steps / 4) % 2 == 0 ? 0.05 : -0.05;
+    at = dynamics.step(at, {.speed_target_mps = speed_mps, .curvature_target_1pm = side}, step_s)
+             .state;
+    benchmark::DoNotOptimize(at);
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK_CAPTURE(vehicle_step, fast_3_mps, WheelAccuracy::kFast, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, exact_3_mps, WheelAccuracy::kExact, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, exact_3_mps_fine, WheelAccuracy::kExact, 3, 0.01);
+BENCHMARK_CAPTURE(vehicle_step, fast_0p05_mps, WheelAccuracy::kFast, 0.05, 0.5);
+
+void supply_solved(benchmark::State& state, WheelAccuracy accuracy) {
+  const Lrv lrv(accuracy);
+  const std::vector<Asked> asked = questions(lrv);
+  std::size_t i = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const Asked& one = asked[i++ % asked.size()];
+    const SteadyManoeuvre manoeuvre(lrv.vehicle, lrv.sharing, lrv.laws, one.curvature_1pm,
+                                    lrv.weight_n);
+    benchmark::DoNotOptimize(cornering_supply(manoeuvre, one.forward_n, lrv.limits));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK_CAPTURE(supply_solved, fast, WheelAccuracy::kFast);
+BENCHMARK_CAPTURE(supply_solved, exact, WheelAccuracy::kExact);
+
+SupplyTable table_of(const Lrv& lrv) {
+  constexpr double kTiltMax_rad = 25 * std::numbers::pi / 180;
+  return {lrv.vehicle, WheelLaw(lrv.model), lrv.limits, lrv.weight_n, kTiltMax_rad, 1};
+}
+
+void supply_looked_up(benchmark::State& state) {
+  const Lrv lrv(WheelAccuracy::kFast);
+  const SupplyTable table = table_of(lrv);
+  const std::vector<Asked> asked = questions(lrv);
+  std::size_t i = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const Asked& one = asked[i++ % asked.size()];
+    benchmark::DoNotOptimize(table.supply(one.curvature_1pm, one.forward_n, lrv.weight_n));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(supply_looked_up);
+
+void supply_table_built(benchmark::State& state) {
+  const Lrv lrv(WheelAccuracy::kFast);
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(table_of(lrv));
+}
+BENCHMARK(supply_table_built)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace regoplan

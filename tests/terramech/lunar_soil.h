@@ -1,0 +1,131 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "terramech/ground_patch.h"
+#include "terramech/supply.h"
+#include "terramech/vehicle.h"
+#include "terramech/wheel_law.h"
+
+namespace regoplan {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+inline constexpr double kMoon_mps2 = 1.62;
+inline constexpr double kEarth_mps2 = 9.80665;
+
+/// Regolith between craters, as the Apollo roving vehicles drove on (scenarios/demo/soils.yaml).
+inline Soil firm_regolith() {
+  return {.cohesion_pa = 170,
+          .friction_angle_rad = 36 * kDegree,
+          .kc = 1400,
+          .kphi = 8.2e5,
+          .n = 1,
+          .a0 = 0.40,
+          .a1 = 0.15,
+          .lambda = 0.90,
+          .density_kgpm3 = 1500,
+          .kx0_m = 0.018,
+          .kx1_m = 0.043,
+          .ky0_m = 0.013,
+          .ky1_m = 0.020};
+}
+
+/// The weakest soil of the demo.
+inline Soil soft_patch() {
+  return {.cohesion_pa = 50,
+          .friction_angle_rad = 28 * kDegree,
+          .kc = 400,
+          .kphi = 1.2e5,
+          .n = 1,
+          .a0 = 0.40,
+          .a1 = 0.15,
+          .lambda = 0.90,
+          .density_kgpm3 = 1250,
+          .kx0_m = 0.032,
+          .kx1_m = 0.043,
+          .ky0_m = 0.025,
+          .ky1_m = 0.020};
+}
+
+/// The gravity that a preset was built for.
+inline double home_gravity_mps2(const std::string& preset) {
+  return preset == "lrv" ? kMoon_mps2 : preset == "curiosity" ? 3.72 : kEarth_mps2;
+}
+
+inline TrimLimits limits_of(const Vehicle& vehicle) {
+  return {.slip_angle_max_rad = vehicle.slip_angle_max_rad,
+          .slip_max = vehicle.slip_max,
+          .sinkage_max_m = vehicle.sinkage_max_m,
+          .steer_angle_max_rad = vehicle.steer_angle_max_rad};
+}
+
+/// A vehicle on ground of one soil. Neither copied nor moved: laws point into it.
+struct VehicleOnSoil {
+  Vehicle vehicle;
+  double gravity_mps2;
+  WheelModel model;
+  std::vector<WheelLaw> soil_laws{WheelLaw(model)};
+  std::vector<WheelLaw> wheel_laws;
+  LoadSharing sharing;
+
+  VehicleOnSoil(const Vehicle& on, const Soil& soil, double gravity,
+                WheelAccuracy accuracy = WheelAccuracy::kExact)
+      : vehicle(on),
+        gravity_mps2(gravity),
+        model({.variant = WheelVariant::kIshigami2007,
+               .wheel = on.wheel,
+               .soil = soil,
+               .gravity_mps2 = gravity},
+              accuracy),
+        wheel_laws(on.wheels.size(), WheelLaw(model)),
+        sharing(vehicle) {}
+  explicit VehicleOnSoil(const std::string& preset, const Soil& soil = firm_regolith())
+      : VehicleOnSoil(preset_vehicle(preset), soil, home_gravity_mps2(preset)) {}
+  VehicleOnSoil(const VehicleOnSoil&) = delete;
+  VehicleOnSoil& operator=(const VehicleOnSoil&) = delete;
+
+  double weight_n() const { return vehicle.mass_kg * gravity_mps2; }
+  SteadyManoeuvre manoeuvre(double curvature_1pm, bool reverse = false) const {
+    return {vehicle, sharing, wheel_laws, curvature_1pm, weight_n(), reverse};
+  }
+  SupplyResult supply(double curvature_1pm, double forward_n = 0, bool find_folds = false) const {
+    return cornering_supply(manoeuvre(curvature_1pm), forward_n, limits_of(vehicle), find_folds);
+  }
+};
+
+/// Ground of soil 0 with the given slopes in the vehicle's heading.
+inline GroundPatch patch_with(double slope_forward, double slope_left) {
+  return {.known = true,
+          .z_m = 0,
+          .slope_forward = slope_forward,
+          .slope_left = slope_left,
+          .soil = {}};
+}
+
+/// A plane in the map frame, z = slope_x x + slope_y y, of soil 0.
+struct Plane {
+  double slope_x = 0;
+  double slope_y = 0;
+  GroundPatch operator()(double x_m, double y_m, double yaw_rad) const {
+    const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+    GroundPatch patch = patch_with(c * slope_x + s * slope_y, c * slope_y - s * slope_x);
+    patch.z_m = slope_x * x_m + slope_y * y_m;
+    return patch;
+  }
+};
+
+/// A vehicle on three wheels, one ahead.
+inline Vehicle tricycle() {
+  Vehicle vehicle = preset_vehicle("lrv");
+  vehicle.name = "tricycle";
+  vehicle.wheels = {
+      {"front", 1.4, 0, true}, {"rear_left", -0.7, 0.9, false}, {"rear_right", -0.7, -0.9, false}};
+  vehicle.turn_centre_x_m = -0.7;
+  vehicle.curvature_max_1pm = 0.35;
+  return vehicle;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,233 @@
+#include "terramech/state_margins.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/terramech/lunar_soil.h"
+
+namespace regoplan {
+namespace {
+
+/// A vehicle that moves on a plane of one soil.
+struct Driving {
+  VehicleOnSoil on;
+  VehicleDynamics dynamics;
+  SupportPolygon polygon;
+  SolvedSupply supply;
+
+  explicit Driving(const std::string& preset, const Plane& plane = {},
+                   const Soil& soil = firm_regolith())
+      : on(preset, soil),
+        dynamics(on.vehicle, on.soil_laws, plane, on.gravity_mps2),
+        polygon(on.vehicle),
+        supply(on.vehicle, on.sharing, on.soil_laws, limits_of(on.vehicle)) {}
+
+  SupplyQuestion question(const VehicleState& state, const GroundPatch& patch) const {
+    return question_of(dynamics, state, patch);
+  }
+  StateMargins margins(const VehicleState& state) const {
+    const GroundPatch patch = dynamics.ground(state.x_m, state.y_m, state.yaw_rad);
+    const SupplyQuestion asked = question(state, patch);
+    return margins_of(dynamics, polygon, asked, supply.answer(asked));
+  }
+};
+
+TEST(Demand, OfAFlatTurnIsCentripetal) {
+  const Driving lrv("lrv");
+  const double m = lrv.on.vehicle.mass_kg;
+  const GroundPatch flat = patch_with(0, 0);
+  for (const double k : {0.1, -0.1}) {
+    const SupplyQuestion asked = lrv.question(lrv.dynamics.rolling_state(0, 0, 0.3, 3, k), flat);
+    EXPECT_NEAR(asked.force.left_n, m * 9 * k, 1e-9);
+    EXPECT_NEAR(asked.force.forward_n, 0, 1e-9);
+    EXPECT_NEAR(asked.normal_n, m * kMoon_mps2, 1e-9);
+    EXPECT_EQ(asked.curvature_1pm, k);
+  }
+}
+
+TEST(Demand, OfRadiiTenAndTwentyAtThreeMetresASecondIsThatOfTheTable) {
+  const Driving lrv("lrv");
+  const GroundPatch flat = patch_with(0, 0);
+  const auto share = [&](double radius_m) {
+    return lrv.question(lrv.dynamics.rolling_state(0, 0, 0, 3, 1 / radius_m), flat).force.left_n /
+           lrv.on.weight_n();
+  };
+  EXPECT_NEAR(share(10), 0.56, 0.005);
+  EXPECT_NEAR(share(20), 0.28, 0.005);
+}
+
+TEST(Demand, StraightAcrossASlopeHoldsTheVehicleUphill) {
+  const Driving lrv("lrv");
+  const double angle = 15 * kDegree, weight = lrv.on.weight_n();
+  const VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 1);
+  const SupplyQuestion left_high = lrv.question(state, patch_with(0, std::tan(angle)));
+  EXPECT_NEAR(left_high.force.left_n, weight * std::sin(angle), 1e-9);
+  EXPECT_NEAR(left_high.normal_n, weight * std::cos(angle), 1e-9);
+  const SupplyQuestion right_high = lrv.question(state, patch_with(0, -std::tan(angle)));
+  EXPECT_NEAR(right_high.force.left_n, -weight * std::sin(angle), 1e-9);
+}
+
+TEST(Demand, OfATurnOnASideSlopeIsSigned) {
+  const Driving lrv("lrv");
+  const double angle = 15 * kDegree, m = lrv.on.vehicle.mass_kg, g = kMoon_mps2;
+  const GroundPatch left_high = patch_with(0, std::tan(angle));
+  const auto demand = [&](double k) {
+    return lrv.question(lrv.dynamics.rolling_state(0, 0, 0, 3, k), left_high).force.left_n;
+  };
+  EXPECT_NEAR(demand(0.05), m * (9 * 0.05 + g * std::sin(angle)), 1e-9);    // uphill: both add
+  EXPECT_NEAR(demand(-0.05), m * (-9 * 0.05 + g * std::sin(angle)), 1e-9);  // gravity turns it
+}
+
+TEST(Demand, OfATurnWithBodySlipIsTakenAcrossThePath) {
+  // The turn centre of Curiosity lies off its origin: the path leaves the heading by an angle, and
+  // uphill becomes partly sideways.
+  const Driving rover("curiosity");
+  const double k = 0.5, angle = 10 * kDegree, g = rover.on.gravity_mps2, m = 899;
+  const double off = std::asin(k * 0.089);
+  const SupplyQuestion asked = rover.question(rover.dynamics.rolling_state(0, 0, 0, 0.04, k),
+                                              patch_with(std::tan(angle), 0));
+  EXPECT_NEAR(asked.force.left_n, m * (0.0016 * k - g * std::sin(angle) * std::sin(off)), 1e-9);
+  EXPECT_NEAR(asked.force.forward_n, m * g * std::sin(angle) * std::cos(off), 1e-9);
+}
+
+TEST(Demand, ForwardIsCommandedAccelerationAndSlope) {
+  const Driving lrv("lrv");
+  const double angle = 12 * kDegree, m = lrv.on.vehicle.mass_kg;
+  VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 1);
+  state.rim_acceleration_mps2 = 0.2;
+  const SupplyQuestion up = lrv.question(state, patch_with(std::tan(angle), 0));
+  EXPECT_NEAR(up.force.forward_n, m * (0.2 + kMoon_mps2 * std::sin(angle)), 1e-9);
+  const SupplyQuestion down = lrv.question(state, patch_with(-std::tan(angle), 0));
+  EXPECT_NEAR(down.force.forward_n, m * (0.2 - kMoon_mps2 * std::sin(angle)), 1e-9);
+}
+
+TEST(Demand, OfReverseTurnsLeansToTheCommandedSideToo) {
+  const Driving lrv("lrv");
+  const SupplyQuestion asked =
+      lrv.question(lrv.dynamics.rolling_state(0, 0, 0, -2, 0.1), patch_with(0, 0));
+  EXPECT_TRUE(asked.reverse);
+  EXPECT_NEAR(asked.force.left_n, lrv.on.vehicle.mass_kg * 4 * 0.1, 1e-9);
+}
+
+TEST(StateMargins, StabilityIsTheSmallestOfTheThree) {
+  StateMargins margins;
+  margins.tip_over = 0.5;
+  EXPECT_FALSE(margins.stability());
+  margins.cornering = 0.3;
+  EXPECT_FALSE(margins.stability());
+  margins.traction = 0.4;
+  EXPECT_EQ(margins.stability(), 0.3);
+  margins.traction = 0.1;
+  EXPECT_EQ(margins.stability(), 0.1);
+  margins.tip_over = -0.2;
+  EXPECT_EQ(margins.stability(), -0.2);
+}
+
+TEST(StateMargins, AreThoseOfTheSteadyManoeuvre) {
+  const Driving lrv("lrv");
+  const VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 3, 1.0 / 20);
+  const StateMargins margins = lrv.margins(state);
+  const Supply supply = *lrv.on.supply(1.0 / 20).supply;
+  const double demand = 700 * 9.0 / 20, weight = lrv.on.weight_n();
+  EXPECT_NEAR(*margins.cornering,
+              std::min(supply.left.force_n - demand, demand - supply.right.force_n) / weight, 1e-9);
+  EXPECT_NEAR(margins.tip_over, 1 - demand * 0.8 / (weight * 0.9145), 1e-9);
+  EXPECT_NEAR(*margins.traction,
+              *largest_traction_n(lrv.on.manoeuvre(1.0 / 20), {.left_n = demand},
+                                  limits_of(lrv.on.vehicle)) /
+                  weight,
+              1e-9);
+}
+
+TEST(StateMargins, TipOverVanishesAtTheStaticAngleOfASideSlope) {
+  const Driving lrv("lrv");
+  const VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 0);
+  for (const double side : {-1.0, 1.0}) {
+    const GroundPatch patch = patch_with(0, side * 0.9145 / 0.8);
+    const StateMargins margins =
+        margins_of(lrv.dynamics, lrv.polygon, lrv.question(state, patch), {});
+    EXPECT_NEAR(margins.tip_over, 0, 1e-12);
+  }
+}
+
+TEST(StateMargins, OnASideSlopeTurningUphillIsWorseThanDownhill) {
+  const Driving lrv("lrv", Plane{0, std::tan(15 * kDegree)});
+  const StateMargins uphill = lrv.margins(lrv.dynamics.rolling_state(0, 0, 0, 2, 0.05));
+  const StateMargins downhill = lrv.margins(lrv.dynamics.rolling_state(0, 0, 0, 2, -0.05));
+  ASSERT_TRUE(uphill.stability() && downhill.stability());
+  EXPECT_LT(*uphill.cornering, *downhill.cornering - 0.2);
+  EXPECT_LT(uphill.tip_over, downhill.tip_over);
+}
+
+/// Direction of travel on the map.
+double path_angle_rad(const VehicleState& state) {
+  return state.yaw_rad + std::atan2(state.motion.vy_mps, state.motion.vx_mps);
+}
+
+TEST(StateMargins, AVehicleThatPloughsStraightOnAtFullLockIsRejectedForCornering) {
+  const Driving lrv("lrv", {}, soft_patch());
+  const double lock = lrv.on.vehicle.curvature_max_1pm, step_s = 0.05;
+  VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 4);
+  int ploughs = 0;
+  for (int i = 0; i < 60; ++i) {
+    const StepResult next =
+        lrv.dynamics.step(state, {.speed_target_mps = 4, .curvature_target_1pm = lock}, step_s);
+    ASSERT_TRUE(next.converged);
+    const double turned =
+        std::remainder(path_angle_rad(next.state) - path_angle_rad(state), 2 * std::numbers::pi);
+    state = next.state;
+    const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+    const double realised_1pm = turned / (speed * step_s);
+    if (state.curvature_1pm < 0.1 || realised_1pm > 0.5 * state.curvature_1pm) continue;
+    ++ploughs;
+    const StateMargins margins = lrv.margins(state);
+    ASSERT_TRUE(margins.cornering) << i;
+    EXPECT_LT(*margins.cornering, 0) << i;
+    // By the path it takes it would be accepted: what it gets is by Newton's law what it has.
+    const double realised_n = lrv.on.vehicle.mass_kg * speed * speed * realised_1pm;
+    EXPECT_LT(realised_n, 0.6 * lrv.on.weight_n()) << i;
+  }
+  EXPECT_GT(ploughs, 20);
+}
+
+TEST(StateMargins, WithoutSupplyThereIsNoStability) {
+  const Driving lrv("lrv", Plane{std::tan(40 * kDegree), 0});
+  const StateMargins margins = lrv.margins(lrv.dynamics.rolling_state(0, 0, 0, 1));
+  EXPECT_FALSE(margins.supply);
+  EXPECT_EQ(margins.no_supply, NoSupply::kTraction);
+  EXPECT_FALSE(margins.cornering || margins.traction || margins.stability());
+}
+
+TEST(StateMargins, DoNotDependOnWhichWayTheMapLies) {
+  const Driving one("lrv", Plane{0.1, 0.2});
+  const StateMargins east = one.margins(one.dynamics.rolling_state(0, 0, 0, 2, 0.05));
+  const Driving other("lrv", Plane{-0.2, 0.1});  // turned left by 90 deg
+  const StateMargins north =
+      other.margins(other.dynamics.rolling_state(0, 0, 90 * kDegree, 2, 0.05));
+  EXPECT_NEAR(*east.stability(), *north.stability(), 1e-9);
+}
+
+TEST(SolvedSupply, TakesEachWheelsOwnSoil) {
+  const VehicleOnSoil firm("lrv"), soft("lrv", soft_patch());
+  const std::vector<WheelLaw> laws{WheelLaw(firm.model), WheelLaw(soft.model)};
+  const SolvedSupply supply(firm.vehicle, firm.sharing, laws, limits_of(firm.vehicle));
+  const auto left_n = [&](std::array<std::int16_t, kMaxWheels> soil) {
+    GroundPatch patch = patch_with(0, 0);
+    patch.soil = soil;
+    return supply
+        .answer({.curvature_1pm = 0, .force = {}, .normal_n = firm.weight_n(), .patch = &patch})
+        .supply.value()
+        .left_n;
+  };
+  const double all_firm = left_n({0, 0, 0, 0}), all_soft = left_n({1, 1, 1, 1});
+  EXPECT_NEAR(all_firm, firm.supply(0).supply->left.force_n, 1e-9);
+  EXPECT_NEAR(all_soft, soft.supply(0).supply->left.force_n, 1e-9);
+  const double front_soft = left_n({1, 1, 0, 0});
+  EXPECT_LT(front_soft, all_firm);
+  EXPECT_GT(front_soft, all_soft);
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,191 @@
+#include "terramech/supply.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "terramech/margins.h"
+#include "tests/terramech/lunar_soil.h"
+
+namespace regoplan {
+namespace {
+
+TEST(CorneringSupply, OfAnLrvOnLunarSoilIsAboutHalfItsWeightAtTheTestedSlipAngle) {
+  const VehicleOnSoil on("lrv");
+  const SupplyResult result = on.supply(0.05, 0, true);
+  ASSERT_TRUE(result.supply);
+  const SupplyEnd& left = result.supply->left;
+  EXPECT_NEAR(left.force_n / on.weight_n(), 0.53, 0.03);
+  EXPECT_EQ(left.limit, BranchLimit::kSlipAngle);
+  // The fold is reported and is no supply: it takes slip angles of 36 deg.
+  ASSERT_TRUE(left.fold_n);
+  EXPECT_GT(*left.fold_n, 1.2 * left.force_n);
+}
+
+TEST(CorneringSupply, RejectsTenMetresAtThreeMetresASecondAndAcceptsTwenty) {
+  const VehicleOnSoil on("lrv");
+  for (const double side : {-1.0, 1.0}) {
+    const auto margin = [&](double radius_m) {
+      const double k = side / radius_m;
+      const SupplyResult result = on.supply(k);
+      EXPECT_TRUE(result.supply);
+      return cornering_margin(cornering_demand_n(on.vehicle.mass_kg, 3, k, 0),
+                              result.supply->right.force_n, result.supply->left.force_n,
+                              on.weight_n());
+    };
+    EXPECT_LT(margin(10), 0);
+    EXPECT_GT(margin(20), 0.2);
+  }
+}
+
+TEST(CorneringSupply, MirrorsWithTheTurn) {
+  for (const std::string& name : preset_vehicle_names()) {
+    const VehicleOnSoil on(name);
+    for (const double share : {0.0, 0.2, 0.6, 1.0}) {
+      for (const double forward : {-0.2, 0.0, 0.2}) {
+        const double k = share * on.vehicle.curvature_max_1pm;
+        const SupplyResult one = on.supply(k, forward * on.weight_n());
+        const SupplyResult other = on.supply(-k, forward * on.weight_n());
+        ASSERT_EQ(one.supply.has_value(), other.supply.has_value()) << name << k << forward;
+        if (!one.supply) continue;  // an LRV that brakes at full lock
+        const double close = 2e-4 * on.weight_n();
+        EXPECT_NEAR(one.supply->left.force_n, -other.supply->right.force_n, close) << name << k;
+        EXPECT_NEAR(one.supply->right.force_n, -other.supply->left.force_n, close) << name << k;
+        EXPECT_EQ(one.supply->left.limit, other.supply->right.limit) << name << k;
+      }
+    }
+  }
+}
+
+TEST(CorneringSupply, ShrinksWithEveryNarrowerSlipAngleLimit) {
+  const VehicleOnSoil on("lrv");
+  double left_before = 1e9, right_before = -1e9;
+  for (const double limit_deg : {30.0, 20.0, 16.0, 10.0, 5.0}) {
+    TrimLimits limits = limits_of(on.vehicle);
+    limits.slip_angle_max_rad = limit_deg * kDegree;
+    const SupplyResult result = cornering_supply(on.manoeuvre(0.1), 0, limits);
+    ASSERT_TRUE(result.supply) << limit_deg;
+    EXPECT_LT(result.supply->left.force_n, left_before) << limit_deg;
+    EXPECT_GT(result.supply->right.force_n, right_before) << limit_deg;
+    left_before = result.supply->left.force_n;
+    right_before = result.supply->right.force_n;
+  }
+}
+
+TEST(CorneringSupply, IsLessOnWeakerSoil) {
+  const VehicleOnSoil firm("lrv"), soft("lrv", soft_patch());
+  for (const double k : {0.0, 0.2, 0.5}) {
+    const SupplyResult on_firm = firm.supply(k), on_soft = soft.supply(k);
+    ASSERT_TRUE(on_firm.supply && on_soft.supply);
+    EXPECT_LT(on_soft.supply->left.force_n, 0.9 * on_firm.supply->left.force_n);
+    EXPECT_GT(on_soft.supply->right.force_n, 0.9 * on_firm.supply->right.force_n);
+  }
+}
+
+TEST(CorneringSupply, IsNoneForWantOfTractionOnASlopeTooSteepToClimb) {
+  const VehicleOnSoil on("lrv");
+  const double slope = 40 * kDegree;
+  const SteadyManoeuvre manoeuvre(on.vehicle, on.sharing, on.wheel_laws, 0,
+                                  on.weight_n() * std::cos(slope));
+  const SupplyResult result =
+      cornering_supply(manoeuvre, on.weight_n() * std::sin(slope), limits_of(on.vehicle));
+  EXPECT_FALSE(result.supply);
+  EXPECT_EQ(result.reason, NoSupply::kTraction);
+}
+
+TEST(CorneringSupply, IsNoneForWantOfTractionWhereTheVehicleSinks) {
+  const VehicleOnSoil on("tohoku", soft_patch());  // Earth weight on lunar dust
+  const SupplyResult result = on.supply(0);
+  EXPECT_FALSE(result.supply);
+  EXPECT_EQ(result.reason, NoSupply::kTraction);
+}
+
+TEST(CorneringSupply, IsNoneForWantOfYawBalanceWhereFixedWheelsMustTurnTightly) {
+  Vehicle vehicle = preset_vehicle("curiosity");
+  vehicle.slip_angle_max_rad = 3 * kDegree;  // what the middle wheels have in such a turn
+  const VehicleOnSoil on(vehicle, firm_regolith(), 3.72);
+  ASSERT_TRUE(on.supply(0).supply);
+  vehicle.turn_centre_x_m = -0.5;
+  const VehicleOnSoil off(vehicle, firm_regolith(), 3.72);
+  const SupplyResult result = off.supply(0.5);
+  EXPECT_FALSE(result.supply);
+  EXPECT_EQ(result.reason, NoSupply::kYaw);
+}
+
+TEST(CorneringSupply, TheSteeringRangeBindsNearFullLock) {
+  // Braking straightens a turn; steering against it needs more lock than there is.
+  const VehicleOnSoil on("lrv");
+  const double k = on.vehicle.curvature_max_1pm;
+  const SupplyResult gently = on.supply(k, -0.13 * on.weight_n());
+  ASSERT_TRUE(gently.supply);
+  EXPECT_EQ(gently.supply->left.limit, BranchLimit::kSteering);
+  EXPECT_LT(gently.supply->left.force_n, 0.5 * on.supply(k).supply->left.force_n);
+  const SupplyResult hard = on.supply(k, -0.2 * on.weight_n());
+  EXPECT_FALSE(hard.supply);
+  EXPECT_EQ(hard.reason, NoSupply::kYaw);
+}
+
+TEST(CorneringSupply, HoldsAtAnyWeightThatSharesTheLoadsAlike) {
+  // Twice the mass at half the gravity is the same weight on the same wheels; only the soil's own
+  // weight in the bulldozing force tells.
+  Vehicle heavy = preset_vehicle("lrv");
+  heavy.mass_kg *= 2;
+  const VehicleOnSoil on("lrv"), other(heavy, firm_regolith(), kMoon_mps2 / 2);
+  const double one = on.supply(0.1).supply->left.force_n;
+  EXPECT_NEAR(other.supply(0.1).supply->left.force_n, one, 0.03 * one);
+}
+
+TEST(LargestTraction, IsWhatTheSupplyBranchesEndAt) {
+  // A force pair on the edge of the lateral supply is on the edge of traction as well where the
+  // same limit ends both.
+  const VehicleOnSoil on("lrv");
+  const double w = on.weight_n();
+  const auto free = largest_traction_n(on.manoeuvre(0), {}, limits_of(on.vehicle));
+  ASSERT_TRUE(free);
+  EXPECT_TRUE(on.supply(0, *free - 0.01 * w).supply);
+  EXPECT_FALSE(on.supply(0, *free + 0.01 * w).supply);
+}
+
+TEST(LargestTraction, FallsAsLateralForceIsHeld) {
+  const VehicleOnSoil on("lrv");
+  const double w = on.weight_n();
+  double before = 1e9;
+  for (const double left : {0.0, 0.1, 0.2, 0.3, 0.4, 0.5}) {
+    const auto traction =
+        largest_traction_n(on.manoeuvre(0.1), {.left_n = left * w}, limits_of(on.vehicle));
+    ASSERT_TRUE(traction) << left;
+    EXPECT_LT(*traction, before) << left;
+    before = *traction;
+  }
+}
+
+TEST(LargestTraction, DoesNotDependOnWhereItsBranchStarts) {
+  const VehicleOnSoil on("lrv");
+  const double w = on.weight_n();
+  const auto from = [&](double forward) {
+    return largest_traction_n(on.manoeuvre(0.1), {.forward_n = forward * w, .left_n = 0.2 * w},
+                              limits_of(on.vehicle))
+        .value_or(NAN);
+  };
+  EXPECT_NEAR(from(0.1), from(0), 2e-3 * w);
+  EXPECT_NEAR(from(0.3), from(0), 2e-3 * w);
+  EXPECT_NEAR(from(-0.2), from(0), 2e-3 * w);
+}
+
+TEST(LargestTraction, IsNoneWhereTheLateralForceIsNotSupplied) {
+  const VehicleOnSoil on("lrv");
+  EXPECT_FALSE(largest_traction_n(on.manoeuvre(0.1), {.left_n = 0.6 * on.weight_n()},
+                                  limits_of(on.vehicle)));
+}
+
+TEST(LargestTraction, IsTheSameBackwardsForAVehicleThatIsItsOwnMirrorImage) {
+  const VehicleOnSoil on("lrv");
+  const auto ahead = largest_traction_n(on.manoeuvre(0.2), {.left_n = 300}, limits_of(on.vehicle));
+  const auto back =
+      largest_traction_n(on.manoeuvre(0.2, true), {.left_n = 300}, limits_of(on.vehicle), true);
+  ASSERT_TRUE(ahead && back);
+  EXPECT_NEAR(*ahead, *back, 1e-3 * on.weight_n());
+}
+
+}  // namespace
+}  // namespace regoplan
