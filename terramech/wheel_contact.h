@@ -20,7 +20,7 @@ struct Ground {
   Soil soil;
   double tan_phi = 0;
   double sqrt_lambda = 0;
-  double stress_scale_pa = 0;  ///< r^n (kc/b + kphi), eq. (5)
+  double stress_scale_pa = 0;       ///< r^n (kc/b + kphi), eq. (5)
   double bulldoze_cohesion_pa = 0;  ///< D1 c with D1 = cot Xc + tan(Xc + phi), eq. (16)
   double bulldoze_weight = 0;       ///< D1 D2 rho g / 2, eq. (16), N/m^3
 
