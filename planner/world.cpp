@@ -8,16 +8,10 @@
 namespace regoplan {
 namespace {
 
-WheelModelSpec model_spec(const PlanningProblem& problem, const MapSoil& soil) {
-  return {.variant = problem.wheel_variant,
-          .wheel = problem.vehicle.wheel,
-          .soil = soil.soil.mean,
-          .gravity_mps2 = problem.gravity_mps2};
-}
-
 std::vector<WheelModel> models_of(const PlanningProblem& problem) {
   std::vector<WheelModel> models;
-  for (const MapSoil& soil : problem.map.soils()) models.emplace_back(model_spec(problem, soil));
+  for (const MapSoil& soil : problem.map.soils())
+    models.emplace_back(wheel_model_spec(problem, soil.soil.mean));
   return models;
 }
 
@@ -28,7 +22,7 @@ std::vector<ForceTable> tables_of(const PlanningProblem& problem) {
   constexpr TableAccuracy kAccuracy{.at_999_permille = 5e-3, .at_worst = 2e-2};
   std::vector<ForceTable> tables;
   for (const MapSoil& soil : problem.map.soils()) {
-    tables.push_back(ForceTable::cached({.model = model_spec(problem, soil),
+    tables.push_back(ForceTable::cached({.model = wheel_model_spec(problem, soil.soil.mean),
                                          .nominal_load_n = nominal_load_n,
                                          .accuracy = kAccuracy}));
   }
