@@ -416,7 +416,9 @@ const std::vector<MechanismForm>& mechanism_forms() {
 
 const MechanismForm& form_of(const Mechanism& mechanism) {
   const MechanismForm& form = mechanism_forms()[index_of(mechanism)];
-  for (const auto& [name, value] : mechanism.parameters) {
+  for (const auto& parameter : mechanism.parameters) {
+    const std::string& name = parameter.first;
+    const double value = parameter.second;
     const bool known = std::ranges::any_of(
         form.parameters, [&](const MechanismParameter& p) { return p.name == name; });
     if (!known) {
