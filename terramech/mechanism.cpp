@@ -140,8 +140,8 @@ std::vector<Definition> definitions() {
        }},
       {{"grousers",
         "effective_radius",
-        "shear acts at r + x hg (more limit), digging hg s/2",
-        "Ishigami 2008; Ding et al. 2010",
+        "c, tan(phi) times 1 + 4 x (hg/r) (1 - exp(-5 s)), digging hg s/2",
+        "proxy; lugs as a larger shear radius",
         {{"lug_height_m", .004, .02, .01}, {"share", .3, 1, .7}}},
        [](E e, P p, S at) {
          e.limit *= 1 + p[1] * p[0] / e.wheel.radius_m * 4 * (1 - std::exp(-5 * driving(at)));
