@@ -140,8 +140,8 @@ std::vector<Definition> definitions() {
        }},
       {{"grousers",
         "effective_radius",
-        "shear acts at r + x hg (more limit), digging hg s/2",
-        "Ishigami 2008; Ding et al. 2010",
+        "c, tan(phi) times 1 + 4 x (hg/r) (1 - exp(-5 s)), digging hg s/2",
+        "proxy; lugs as a larger shear radius",
         {{"lug_height_m", .004, .02, .01}, {"share", .3, 1, .7}}},
        [](E e, P p, S at) {
          e.limit *= 1 + p[1] * p[0] / e.wheel.radius_m * 4 * (1 - std::exp(-5 * driving(at)));
@@ -416,7 +416,9 @@ const std::vector<MechanismForm>& mechanism_forms() {
 
 const MechanismForm& form_of(const Mechanism& mechanism) {
   const MechanismForm& form = mechanism_forms()[index_of(mechanism)];
-  for (const auto& [name, value] : mechanism.parameters) {
+  for (const auto& parameter : mechanism.parameters) {
+    const std::string& name = parameter.first;
+    const double value = parameter.second;
     const bool known = std::ranges::any_of(
         form.parameters, [&](const MechanismParameter& p) { return p.name == name; });
     if (!known) {

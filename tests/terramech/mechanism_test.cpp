@@ -190,7 +190,7 @@ TEST(Mechanism, EveryFormIsFiniteAndSymmetricOverTheDomain) {
   }
 }
 
-TEST(Mechanism, NoMechanismIsTheBaseModelToTheLastBit) {
+TEST(Mechanism, WithoutMechanismsTheChannelsAreTheBaseModel) {
   for (const auto& named : wheel_specs::all()) {
     const WheelModel model(named.spec);
     const WheelMotion motion = motion_at(0.3, 0.2);
