@@ -48,6 +48,7 @@ ChartSettings chart_settings(const Options& options) {
     settings.vehicle = problem.vehicle;
     settings.soils = problem.map.soils();
     settings.wheel_variant = problem.wheel_variant;
+    settings.mechanisms = problem.mechanisms;
     settings.gravity_mps2 = problem.gravity_mps2;
     settings.limits = problem.limits;
   }

@@ -21,7 +21,8 @@ class Plane {
         model_({.variant = settings.wheel_variant,
                 .wheel = settings.vehicle.wheel,
                 .soil = settings.soils[soil].soil.mean,
-                .gravity_mps2 = settings.gravity_mps2},
+                .gravity_mps2 = settings.gravity_mps2,
+                .mechanisms = settings.mechanisms},
                WheelAccuracy::kFast),
         laws_{WheelLaw(model_)},
         dynamics_(

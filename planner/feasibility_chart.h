@@ -13,6 +13,7 @@ struct ChartSettings {
   Vehicle vehicle;
   std::vector<MapSoil> soils;  ///< their means count
   WheelVariant wheel_variant = WheelVariant::kIshigami2007;
+  std::vector<Mechanism> mechanisms = {};  ///< of the wheel model, on every soil
   double gravity_mps2 = 9.80665;
   Limits limits;
   std::vector<double> speeds_mps;

@@ -69,11 +69,7 @@ Eigen::MatrixXd standard_deviations(const std::vector<MapSoil>& soils, const Soi
 std::vector<WheelModel> models_of(const PlanningProblem& problem, const SoilDraw& soils) {
   std::vector<WheelModel> models;
   for (const Soil& soil : soils) {
-    models.emplace_back(WheelModelSpec{.variant = problem.wheel_variant,
-                                       .wheel = problem.vehicle.wheel,
-                                       .soil = soil,
-                                       .gravity_mps2 = problem.gravity_mps2},
-                        WheelAccuracy::kFast);
+    models.emplace_back(wheel_model_spec(problem, soil), WheelAccuracy::kFast);
   }
   return models;
 }
