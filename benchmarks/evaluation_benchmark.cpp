@@ -55,20 +55,16 @@ struct WindingPath {
                               .name = "winding",
                               .vehicle = lrv,
                               .soil = soil,
-                              .speed_mps = 2.5,
+                              .speed_mps = 2,
                               .slope_rad = 3 * kDegree,
-                              .amplitude_m = 3,
+                              .amplitude_m = 2,
                               .wavelength_m = 27,
-                              .waves = 6};
+                              .waves = 5.5};
+    const ElevationRaster ground{
+        .frame = {.columns = 1, .rows = 1, .cell_width_m = 1, .cell_height_m = 1, .crs_wkt = {}},
+        .height_m = {0}};
     const PlanningProblem base{
-        .map = TerrainMap({.frame = {.columns = 2,
-                                     .rows = 2,
-                                     .west_m = 0,
-                                     .north_m = 2,
-                                     .cell_width_m = 1,
-                                     .cell_height_m = 1},
-                           .height_m = std::vector<float>(4, 0.0F)},
-                          std::nullopt, {.soils = {soil}, .classes = {}, .unmapped = 0}, {}),
+        .map = {ground, std::nullopt, {.soils = {soil}, .classes = {}, .unmapped = 0}, {}},
         .vehicle = lrv,
         .gravity_mps2 = 1.62,
         .limits = limits};

@@ -88,11 +88,11 @@ std::vector<PathPoint> points_of(const Manoeuvre& m) {
       require_above_0("amplitude_m", m.amplitude_m);
       require_above_0("wavelength_m", m.wavelength_m);
       require_above_0("waves", m.waves);
-      // Half a wave to swing in and out.
-      const double length = (m.waves + 1) * m.wavelength_m;
+      // A wave to swing in and one to swing out.
+      const double length = (m.waves + 2) * m.wavelength_m;
       return points_over_x(length, [&](double x) {
         const double fade =
-            smooth_step(2 * x / m.wavelength_m) * smooth_step(2 * (length - x) / m.wavelength_m);
+            smooth_step(x / m.wavelength_m) * smooth_step((length - x) / m.wavelength_m);
         return side * m.amplitude_m * fade * std::sin(2 * std::numbers::pi * x / m.wavelength_m);
       });
     }
@@ -133,7 +133,8 @@ TerrainMap plane_under(const Manoeuvre& m, const std::vector<PathPoint>& points)
                         .west_m = west->x_m - around_m - kCell_m,
                         .north_m = north->y_m + around_m + kCell_m,
                         .cell_width_m = kCell_m,
-                        .cell_height_m = kCell_m};
+                        .cell_height_m = kCell_m,
+                        .crs_wkt = {}};
   ElevationRaster elevation{.frame = frame, .height_m = {}};
   const double steep = std::tan(m.slope_rad);
   const double c = std::cos(m.slope_heading_rad), s = std::sin(m.slope_heading_rad);

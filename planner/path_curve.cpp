@@ -115,17 +115,22 @@ double PathCurve::speed(std::size_t interval, double chord_m) const {
   return std::hypot(d.dx, d.dy);
 }
 
-/// Gauss's rule with five points: the chord length is nearly the arc length.
+/// Gauss's rule with five points.
 double PathCurve::arc_within(std::size_t interval, double from_m, double to_m) const {
   constexpr std::array<double, 5> kAt{0, -0.5384693101056831, 0.5384693101056831,
                                       -0.9061798459386640, 0.9061798459386640};
   constexpr std::array<double, 5> kWeight{0.5688888888888889, 0.4786286704993665,
                                           0.4786286704993665, 0.2369268850561891,
                                           0.2369268850561891};
-  const double half = (to_m - from_m) / 2, middle = (to_m + from_m) / 2;
+  // Few points far apart make a curve that is far from its chord: in pieces.
+  constexpr int kPieces = 4;
+  const double half = (to_m - from_m) / (2 * kPieces);
   double sum = 0;
-  for (std::size_t i = 0; i < kAt.size(); ++i) {
-    sum += kWeight[i] * speed(interval, middle + half * kAt[i]);
+  for (int piece = 0; piece < kPieces; ++piece) {
+    const double middle = from_m + (2 * piece + 1) * half;
+    for (std::size_t i = 0; i < kAt.size(); ++i) {
+      sum += kWeight.at(i) * speed(interval, middle + half * kAt.at(i));
+    }
   }
   return half * sum;
 }
