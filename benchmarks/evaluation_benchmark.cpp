@@ -60,9 +60,10 @@ struct WindingPath {
                               .amplitude_m = 2,
                               .wavelength_m = 27,
                               .waves = 5.5};
-    const ElevationRaster ground{
-        .frame = {.columns = 1, .rows = 1, .cell_width_m = 1, .cell_height_m = 1, .crs_wkt = {}},
-        .height_m = {0}};
+    ElevationRaster ground;
+    ground.frame.columns = ground.frame.rows = 1;
+    ground.frame.cell_width_m = ground.frame.cell_height_m = 1;
+    ground.height_m = {0};
     const PlanningProblem base{
         .map = {ground, std::nullopt, {.soils = {soil}, .classes = {}, .unmapped = 0}, {}},
         .vehicle = lrv,
