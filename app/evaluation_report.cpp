@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "app/plan_report_data.h"
 #include "app/report_assets.h"
@@ -48,6 +49,11 @@ std::string cell(std::string_view text, bool number = false) {
   return fmt::format("<td{}>{}</td>", number ? " class=\"number\"" : "", html_escaped(text));
 }
 
+/// A cell of a sentence.
+std::string wide_cell(std::string_view text) {
+  return fmt::format("<td style=\"min-width:16em\">{}</td>", html_escaped(text));
+}
+
 std::string table_row(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
   const SoilSpread& spread = e.spread;
@@ -55,14 +61,14 @@ std::string table_row(const EvaluatedPath& path) {
     return fmt::format("{:.3f} / {:.3f} / {:.3f}", q.p05, q.p50, q.p95);
   };
   return "<tr>" + cell(fmt::format("{}", e.rank), true) + cell(short_name(path)) +
-         cell(e.feasible ? "feasible" : "not feasible: " + sentence(*e.refusal)) +
-         cell(fmt::format("{:.3f}", e.margin_min), true) + cell(limiting_text(e)) +
+         (e.feasible ? cell("feasible") : wide_cell("not feasible: " + sentence(*e.refusal))) +
+         cell(fmt::format("{:.3f}", e.margin_min), true) + wide_cell(limiting_text(e)) +
          cell(quantiles(spread.cornering), true) + cell(quantiles(spread.tip_over), true) +
          cell(quantiles(spread.traction), true) +
          cell(fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100 * spread.feasible.share,
                           100 * spread.feasible.low, 100 * spread.feasible.high),
               true) +
-         cell(influence_text(spread)) +
+         wide_cell(influence_text(spread)) +
          cell(fmt::format("{:.2f} m", e.tracking.deviation_max_m), true) +
          cell(fmt::format("{:.1f} m", e.length_m), true) +
          cell(fmt::format("{:.1f} s", e.duration_s), true) +
@@ -137,6 +143,21 @@ Candidate as_candidate(const EvaluatedPath& path) {
                        .deviation_max_m = e.tracking.deviation_max_m}};
 }
 
+/// A mark where a path is refused, as pictures of plans know it; nothing where the reason is none
+/// of a state.
+std::optional<RejectedState> as_mark(const Refusal& refusal) {
+  for (int i = 0; i < kRejectionCount; ++i) {
+    const auto reason = static_cast<Rejection>(i);
+    if (name(reason) != refusal.reason) continue;
+    return RejectedState{.reason = reason,
+                         .x_m = refusal.x_m,
+                         .y_m = refusal.y_m,
+                         .value = refusal.value,
+                         .limit = refusal.limit};
+  }
+  return std::nullopt;
+}
+
 nlohmann::json picture_data(const PlanningProblem& problem, const EvaluationResult& result) {
   PlanResult picture{
       .status = result.any_feasible() ? PlanStatus::kFeasible : PlanStatus::kInfeasible,
@@ -145,6 +166,9 @@ nlohmann::json picture_data(const PlanningProblem& problem, const EvaluationResu
   for (const EvaluatedPath& path : result.paths) {
     if (!path.on_the_map) continue;
     const PathEvaluation& e = path.evaluation;
+    if (e.refusal) {
+      if (const auto mark = as_mark(*e.refusal)) picture.rejected_states.push_back(*mark);
+    }
     (e.feasible ? picture.candidates : picture.overturned).push_back(as_candidate(path));
   }
   nlohmann::json data = plan_report_data(problem, picture);

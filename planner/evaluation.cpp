@@ -196,7 +196,7 @@ std::string sentence(const Refusal& refusal) {
   std::replace(what.begin(), what.end(), '_', ' ');
   if (std::isinf(refusal.value)) {
     what += " (no steady trim)";
-  } else if (refusal.value != 0 || refusal.limit != 0) {
+  } else if (std::isfinite(refusal.value)) {
     what += fmt::format(" {:.3g}{} against {:.3g}{}", refusal.value * unit, unit_text,
                         refusal.limit * unit, unit_text);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -37,7 +38,9 @@ struct Refusal {
   std::string reason;  ///< a `Rejection`'s name, or steering, deviation, stalled, dynamics, speed
   double x_m = 0, y_m = 0;
   double s_m = 0, time_s = 0;
-  double value = 0, limit = 0;  ///< of what the reason names; radians and SI; 0 where it has none
+  double value = kNone, limit = kNone;  ///< of what the reason names; radians and SI
+
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Why, with place and numbers, in a sentence without its stop.

@@ -137,7 +137,8 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings) {
     const StateMargins margins = plane.margins(kSlow_mps, 0, at.slope_rad);
     at.cornering = margins.cornering.value_or(-1);
     at.tip_over = margins.tip_over;
-    at.traction = margins.traction.value_or(-1);
+    // Beyond the supply there is no traction either; the cornering margin tells by how much.
+    at.traction = margins.traction.value_or(std::min(at.cornering, 0.0));
   });
   return chart;
 }

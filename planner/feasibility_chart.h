@@ -32,11 +32,11 @@ struct SafeCurvature {
   std::string limit;  ///< what forbids more: cornering, tip_over, traction, slope or steering
 };
 
-/// Margins of driving straight across a slope.
+/// Margins of driving straight across a slope; what is missing counts as in `PathMargins`.
 struct SideSlope {
   int soil = 0;
   double slope_rad = 0;
-  double cornering = 0, tip_over = 0, traction = 0;  ///< -1 where there is no steady trim
+  double cornering = 0, tip_over = 0, traction = 0;
 };
 
 struct FeasibilityChart {
