@@ -210,9 +210,9 @@ REGOPLAN_VECTOR_CLONES double side_force_12_n(const Ground& ground, const Contac
                                               const Ratios& ratios, double q, double bulldozing_n) {
   return side_force_at<12>(ground, contact, ratios, q, bulldozing_n);
 }
-REGOPLAN_VECTOR_CLONES double side_force_20_n(const Ground& ground, const Contact& contact,
+REGOPLAN_VECTOR_CLONES double side_force_24_n(const Ground& ground, const Contact& contact,
                                               const Ratios& ratios, double q, double bulldozing_n) {
-  return side_force_at<20>(ground, contact, ratios, q, bulldozing_n);
+  return side_force_at<24>(ground, contact, ratios, q, bulldozing_n);
 }
 
 }  // namespace
@@ -253,10 +253,12 @@ Integrals integrate(const Ground& ground, const Contact& contact, const Ratios& 
   const bool nearly_locked = ratios.axle > kNearlyLocked || ratios.rim < 1;
   const bool shear_turns = ratios.axle > ratios.rim && ratios.axle * contact.cos_f < ratios.rim;
   if (accuracy == WheelAccuracy::kExact) {
-    return shear_turns || contact.cos_f < kAlmostSunkCosine ? integrate_40(ground, contact, ratios)
-                                                            : integrate_20(ground, contact, ratios);
+    return shear_turns || nearly_locked || contact.cos_f < kAlmostSunkCosine
+               ? integrate_40(ground, contact, ratios)
+               : integrate_20(ground, contact, ratios);
   }
-  if (shear_turns && contact.cos_f < kDeepCosine) return integrate_20(ground, contact, ratios);
+  if ((shear_turns && contact.cos_f < kDeepCosine) || contact.cos_f < kAlmostSunkCosine)
+    return integrate_20(ground, contact, ratios);
   return nearly_locked ? integrate_12(ground, contact, ratios)
                        : integrate_8(ground, contact, ratios);
 }
@@ -268,7 +270,7 @@ double side_force_n(const Ground& ground, const Contact& contact, const Ratios& 
   const double bulldozing_n = bulldozing_integral_n(ground, contact);
   return accuracy == WheelAccuracy::kFast
              ? side_force_12_n(ground, contact, ratios, stress_scale_q, bulldozing_n)
-             : side_force_20_n(ground, contact, ratios, stress_scale_q, bulldozing_n);
+             : side_force_24_n(ground, contact, ratios, stress_scale_q, bulldozing_n);
 }
 
 double bulldozing_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios) {
