@@ -2,9 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
+#include "terramech/force_table.h"
 #include "terramech/state_margins.h"
 
 namespace regoplan {
@@ -12,19 +14,23 @@ namespace {
 
 constexpr double kMoon_mps2 = 1.62;
 
+enum class Law { kDirectFast, kDirectExact, kTable };
+
 /// An LRV on firm lunar regolith.
 struct Lrv {
   Vehicle vehicle = preset_vehicle("lrv");
+  double weight_n = vehicle.mass_kg * kMoon_mps2;
   WheelModel model;
+  std::optional<ForceTable> table;
+  WheelLaw law;
   std::vector<WheelLaw> laws;
   LoadSharing sharing{vehicle};
-  double weight_n = vehicle.mass_kg * kMoon_mps2;
   TrimLimits limits{.slip_angle_max_rad = vehicle.slip_angle_max_rad,
                     .slip_max = vehicle.slip_max,
                     .sinkage_max_m = vehicle.sinkage_max_m,
                     .steer_angle_max_rad = vehicle.steer_angle_max_rad};
 
-  explicit Lrv(WheelAccuracy accuracy)
+  explicit Lrv(Law kind)
       : model({.variant = WheelVariant::kIshigami2007,
                .wheel = vehicle.wheel,
                .soil = {.cohesion_pa = 170,
@@ -41,8 +47,16 @@ struct Lrv {
                         .ky0_m = 0.013,
                         .ky1_m = 0.020},
                .gravity_mps2 = kMoon_mps2},
-              accuracy),
-        laws(vehicle.wheels.size(), WheelLaw(model)) {}
+              kind == Law::kDirectExact ? WheelAccuracy::kExact : WheelAccuracy::kFast),
+        table(kind == Law::kTable
+                  ? std::optional<ForceTable>(ForceTableSpec{
+                        .model = model.spec(),
+                        .nominal_load_n = weight_n / static_cast<double>(vehicle.wheels.size())})
+                  : std::nullopt),
+        law(table ? WheelLaw(*table) : WheelLaw(model)),
+        laws(vehicle.wheels.size(), law) {}
+  Lrv(const Lrv&) = delete;
+  Lrv& operator=(const Lrv&) = delete;
 };
 
 /// Curvatures and forward forces as searches ask for.
@@ -62,9 +76,8 @@ std::vector<Asked> questions(const Lrv& lrv) {
 }
 
 /// A slalom on a slope, started anew every 10 s.
-void vehicle_step(benchmark::State& state, WheelAccuracy accuracy, double speed_mps,
-                  double step_s) {
-  const Lrv lrv(accuracy);
+void vehicle_step(benchmark::State& state, Law law, double speed_mps, double step_s) {
+  const Lrv lrv(law);
   const VehicleDynamics dynamics(
       lrv.vehicle, lrv.laws,
       [](double, double, double) {
@@ -85,13 +98,16 @@ void vehicle_step(benchmark::State& state, WheelAccuracy accuracy, double speed_
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_CAPTURE(vehicle_step, fast_3_mps, WheelAccuracy::kFast, 3, 0.1);
-BENCHMARK_CAPTURE(vehicle_step, exact_3_mps, WheelAccuracy::kExact, 3, 0.1);
-BENCHMARK_CAPTURE(vehicle_step, exact_3_mps_fine, WheelAccuracy::kExact, 3, 0.01);
-BENCHMARK_CAPTURE(vehicle_step, fast_0p05_mps, WheelAccuracy::kFast, 0.05, 0.5);
+BENCHMARK_CAPTURE(vehicle_step, table_3_mps, Law::kTable, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, table_0p3_mps, Law::kTable, 0.3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, table_0p05_mps, Law::kTable, 0.05, 0.5);
+BENCHMARK_CAPTURE(vehicle_step, fast_3_mps, Law::kDirectFast, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, exact_3_mps, Law::kDirectExact, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, exact_3_mps_fine, Law::kDirectExact, 3, 0.01);
+BENCHMARK_CAPTURE(vehicle_step, fast_0p05_mps, Law::kDirectFast, 0.05, 0.5);
 
-void supply_solved(benchmark::State& state, WheelAccuracy accuracy) {
-  const Lrv lrv(accuracy);
+void supply_solved(benchmark::State& state, Law law) {
+  const Lrv lrv(law);
   const std::vector<Asked> asked = questions(lrv);
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) {
@@ -102,16 +118,17 @@ void supply_solved(benchmark::State& state, WheelAccuracy accuracy) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_CAPTURE(supply_solved, fast, WheelAccuracy::kFast);
-BENCHMARK_CAPTURE(supply_solved, exact, WheelAccuracy::kExact);
+BENCHMARK_CAPTURE(supply_solved, table, Law::kTable);
+BENCHMARK_CAPTURE(supply_solved, fast, Law::kDirectFast);
+BENCHMARK_CAPTURE(supply_solved, exact, Law::kDirectExact);
 
 SupplyTable table_of(const Lrv& lrv) {
   constexpr double kTiltMax_rad = 25 * std::numbers::pi / 180;
-  return {lrv.vehicle, WheelLaw(lrv.model), lrv.limits, lrv.weight_n, kTiltMax_rad, 1};
+  return {lrv.vehicle, lrv.law, lrv.limits, lrv.weight_n, kTiltMax_rad, 1};
 }
 
 void supply_looked_up(benchmark::State& state) {
-  const Lrv lrv(WheelAccuracy::kFast);
+  const Lrv lrv(Law::kDirectFast);
   const SupplyTable table = table_of(lrv);
   const std::vector<Asked> asked = questions(lrv);
   std::size_t i = 0;
@@ -124,7 +141,7 @@ void supply_looked_up(benchmark::State& state) {
 BENCHMARK(supply_looked_up);
 
 void supply_table_built(benchmark::State& state) {
-  const Lrv lrv(WheelAccuracy::kFast);
+  const Lrv lrv(Law::kDirectFast);
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(table_of(lrv));
 }
 BENCHMARK(supply_table_built)->Unit(benchmark::kMillisecond);

@@ -69,7 +69,7 @@ std::optional<SteadyManoeuvre::Residual> SteadyManoeuvre::residual(const Point& 
     const WheelMount& mount = vehicle_.wheels[i];
     const double load = sharing_.load_n(i, ground);
     if (!(load > 0)) return std::nullopt;
-    const SteeredWheel wheel = steered_wheel(vehicle_, mount, steer_curvature);
+    const SteeredWheel wheel = steered_wheel(vehicle_, mount, {.curvature_1pm = steer_curvature});
     const WheelMotion motion =
         wheel_motion(mount, wheel, body, rim_speed * wheel.rim_speed_per_speed);
     const WheelForces forces = laws_[i].forces(load, motion);
@@ -156,12 +156,13 @@ Trim SteadyManoeuvre::trim(const Point& at, const ForceLine& line) const {
             .wheels = {}};
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     const WheelMount& mount = vehicle_.wheels[i];
-    const SteeredWheel wheel = steered_wheel(vehicle_, mount, trim.steer_curvature_1pm);
+    const SteeredWheel wheel =
+        steered_wheel(vehicle_, mount, {.curvature_1pm = trim.steer_curvature_1pm});
     const WheelMotion motion = wheel_motion(
         mount, wheel, body, direction_ * trim.drive_factor * wheel.rim_speed_per_speed);
     const double load = sharing_.load_n(i, ground);
     trim.wheels.push_back({.load_n = load,
-                           .steer_rad = wheel.steer_rad,
+                           .steer_rad = wheel.steer_rad(),
                            .slip = slip_ratio(motion),
                            .slip_angle_rad = slip_angle_rad(motion),
                            .forces = laws_[i].forces(load, motion)});

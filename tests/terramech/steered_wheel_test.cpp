@@ -24,7 +24,7 @@ TEST(SteeredWheel, SlipFreeRotationHasNeitherSlipNorSlipAngle) {
       for (const double speed : {2.0, -2.0}) {
         const double k = share * vehicle.curvature_max_1pm;
         for (const WheelMount& mount : vehicle.wheels) {
-          const SteeredWheel wheel = steered_wheel(vehicle, mount, k);
+          const SteeredWheel wheel = steered_wheel(vehicle, mount, {k});
           const WheelMotion motion = wheel_motion(mount, wheel, slip_free(vehicle, k, speed),
                                                   speed * wheel.rim_speed_per_speed);
           const bool rolls_true = mount.steered || mount.x_m == vehicle.turn_centre_x_m;
@@ -42,14 +42,14 @@ TEST(SteeredWheel, TheOuterRimsTurnFasterByTheirRadius) {
   const Vehicle lrv = preset_vehicle("lrv");
   const double k = 0.2;
   for (const WheelMount& mount : lrv.wheels) {
-    EXPECT_NEAR(steered_wheel(lrv, mount, k).rim_speed_per_speed,
+    EXPECT_NEAR(steered_wheel(lrv, mount, {k}).rim_speed_per_speed,
                 std::hypot(mount.x_m, 1 / k - mount.y_m) * k, 1e-12);
   }
 }
 
 TEST(WheelMotion, IsThatOfTheRigidBodyTurnedIntoTheWheelsHeading) {
   const WheelMount mount{.name = "corner", .x_m = 1.5, .y_m = 0.5};
-  const SteeredWheel quarter_left{.steer_rad = 90 * kDegree, .cos_steer = 0, .sin_steer = 1};
+  const SteeredWheel quarter_left{.cos_steer = 0, .sin_steer = 1};
   const WheelMotion motion = wheel_motion(mount, quarter_left, {2, 3, 4}, 7);
   // At the contact the body moves (2 - 4 * 0.5, 3 + 4 * 1.5) = (0, 9): along the heading, left.
   EXPECT_NEAR(motion.vx_mps, 9, 1e-15);
@@ -79,7 +79,7 @@ TEST(BodyForce, PowerOnTheBodyIsThatOfTheWheels) {
   BodyForce sum;
   double power_w = 0;
   for (std::size_t i = 0; i < lrv.wheels.size(); ++i) {
-    const SteeredWheel wheel = steered_wheel(lrv, lrv.wheels[i], 0.4);
+    const SteeredWheel wheel = steered_wheel(lrv, lrv.wheels[i], {0.4});
     const WheelForces forces{.fx_n = 3.0 + double(i), .fy_n = 5.0 - 2.0 * double(i)};
     const WheelMotion motion = wheel_motion(lrv.wheels[i], wheel, body, 0);
     power_w += forces.fx_n * motion.vx_mps - forces.fy_n * motion.vy_mps;

@@ -282,6 +282,7 @@ TEST(ValidateVehicle, AcceptsASkidSteeredVehicle) {
                       [](Vehicle& v) {
                         for (WheelMount& wheel : v.wheels) wheel.steered = false;
                         v.steer_angle_max_rad = 0;
+                        v.steering = Steering::kSkid;
                       }),
             "");
 }
