@@ -51,7 +51,9 @@ struct Lrv {
         table(kind == Law::kTable
                   ? std::optional<ForceTable>(ForceTableSpec{
                         .model = model.spec(),
-                        .nominal_load_n = weight_n / static_cast<double>(vehicle.wheels.size())})
+                        .nominal_load_n = weight_n / static_cast<double>(vehicle.wheels.size()),
+                        // as searches use it
+                        .accuracy = {.at_999_permille = 5e-3, .at_worst = 2e-2}})
                   : std::nullopt),
         law(table ? WheelLaw(*table) : WheelLaw(model)),
         laws(vehicle.wheels.size(), law) {}

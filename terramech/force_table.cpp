@@ -254,15 +254,25 @@ struct Partials {
 [[gnu::always_inline]] inline Partials partials(const float* first, std::size_t load_stride,
                                                 std::size_t slip_stride, const Weights& load,
                                                 const Weights& slip,
-                                                const std::array<double, 4>& slope_by_t,
                                                 const std::array<double, 4>& last,
                                                 const std::array<double, 4>& slope_by_last) {
-  const Four value = contract(first, load_stride, slip_stride, load.value, slip.value);
-  return {
-      .value = dot(value, last),
-      .by_log_load = dot(contract(first, load_stride, slip_stride, load.slope, slip.value), last),
-      .by_t = dot(contract(first, load_stride, slip_stride, load.value, slope_by_t), last),
-      .by_last = dot(value, slope_by_last)};
+  Four value{}, by_load{}, by_t{};
+  for (std::size_t a = 0; a < 4; ++a) {
+    Four line{}, line_by_t{};
+    for (std::size_t b = 0; b < 4; ++b) {
+      Four row;
+      __builtin_memcpy(&row, first + a * load_stride + b * slip_stride, sizeof row);
+      line += row * static_cast<float>(slip.value[b]);
+      line_by_t += row * static_cast<float>(slip.slope[b]);
+    }
+    value += line * static_cast<float>(load.value[a]);
+    by_load += line * static_cast<float>(load.slope[a]);
+    by_t += line_by_t * static_cast<float>(load.value[a]);
+  }
+  return {.value = dot(value, last),
+          .by_log_load = dot(by_load, last),
+          .by_t = dot(by_t, last),
+          .by_last = dot(value, slope_by_last)};
 }
 
 }  // namespace
@@ -285,9 +295,9 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
                {1, v, v * v, v * v * v});
   };
   const Partials x = partials(&side.fx[row * kPowers], slips * kPowers, kPowers, load, slip,
-                              slip.slope, {1, v, v * v, v * v * v}, {0, 1, 2 * v, 3 * v * v});
+                              {1, v, v * v, v * v * v}, {0, 1, 2 * v, 3 * v * v});
   const Partials l = partials(&side.fy[row * laterals + y.first], slips * laterals, laterals, load,
-                              slip, slip.slope, y.value, y.slope);
+                              slip, y.value, y.slope);
 
   // t is the root of the share, whose slope is kept finite at slip 0
   constexpr double kTSmall = 0.02;

@@ -26,8 +26,7 @@ struct VehicleDynamics::Stage {
   Eigen::Vector3d velocity;
   Eigen::Vector3d acceleration;
   double transfer_forward_n = 0, transfer_left_n = 0;
-  WheelStrain strain;
-  double drive_power_w = 0;
+  WheelSums sums;
 };
 
 bool VehicleDynamics::solve_stage(Stage& stage) const {
@@ -63,8 +62,7 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
                                   (m * axes.gravity_normal_mps2);
     stage.transfer_forward_n = transfer_forward;
     stage.transfer_left_n = transfer_left;
-    stage.strain = sums.strain;
-    stage.drive_power_w = sums.drive_power_w;
+    stage.sums = sums;
 
     const Eigen::Vector3d missing = stage.base + h * stage.acceleration - v;
     const double missing_mps = missing.cwiseProduct(in_mps).norm();
@@ -135,8 +133,7 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
                 .acceleration = Eigen::Vector3d::Zero(),
                 .transfer_forward_n = forward_base_n,
                 .transfer_left_n = left_base_n,
-                .strain = {},
-                .drive_power_w = 0};
+                .sums = {}};
     result.on_known_ground = stage.patch.known;
     result.converged = stage.patch.known && solve_stage(stage);
     newton = stage.newton;
@@ -188,8 +185,9 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
                   .transfer_left_n = second.transfer_left_n,
                   .crab_rad = end.steering.crab_rad,
                   .turn_rate_rad_s = end.turn_rate_rad_s};
-  result.strain = second.strain;
-  result.drive_energy_j = h * ((1 - kGamma) * first.drive_power_w + kGamma * second.drive_power_w);
+  result.strain = second.sums.strain();
+  result.drive_energy_j =
+      h * ((1 - kGamma) * first.sums.drive_power_w + kGamma * second.sums.drive_power_w);
   return result;
 }
 

@@ -68,7 +68,7 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
   }
   const PatchAxes axes2(there, gravity_mps2_);
   const GroundReaction reaction2 = reaction(axes2, transfer2[0], transfer2[1]);
-  const WheelSums second = wheels_.sums(motion_of(v2), setting_end, there, reaction2);
+  WheelSums second = wheels_.sums(motion_of(v2), setting_end, there, reaction2);
   if (!second.as_commanded) return std::nullopt;
   const Eigen::Vector3d k2 =
       solve * (acceleration_of(second.force, axes2, per_force, v2) - 2 * k1 - faster);
@@ -96,7 +96,8 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
                   .transfer_forward_n = transfer_end[0],
                   .transfer_left_n = transfer_end[1],
                   .crab_rad = end.steering.crab_rad};
-  result.strain = wheels_.with_slips(second.strain, motion_end, setting_end, reaction2);
+  second.slips = wheels_.slips(motion_end, setting_end, reaction2);
+  result.strain = second.strain();
   result.drive_energy_j = h / 2 * (first.sums.drive_power_w + second.drive_power_w);
   return result;
 }

@@ -25,7 +25,7 @@ double fade_slope(double speed_mps) {
   return kStandstill / (whole * whole);
 }
 
-WheelForces faded(const WheelLaw& law, double load_n, const WheelMotion& at) {
+inline WheelForces faded(const WheelLaw& law, double load_n, const WheelMotion& at) {
   WheelForces forces = law.forces(load_n, at);
   const double fade_x = fade(length(at.vx_mps, at.rim_speed_mps));
   forces.fx_n *= fade_x;
@@ -86,30 +86,6 @@ struct Levers {
               mount.x_m * wheel.sin_steer - mount.y_m * wheel.cos_steer},
         across{-wheel.sin_steer, wheel.cos_steer,
                mount.x_m * wheel.cos_steer + mount.y_m * wheel.sin_steer} {}
-};
-
-/// Collects the largest strains; slip angles by their tangents.
-class Strains {
- public:
-  void slip_at(const WheelMotion& at) {
-    const bool moves =
-        std::max(length(at.vx_mps, at.vy_mps), std::abs(at.rim_speed_mps)) > kStandstill;
-    if (!moves) return;
-    const double slip = slip_ratio(at);
-    if (std::abs(slip) > std::abs(slip_)) slip_ = slip;
-    const double ahead = std::abs(at.vx_mps);
-    if (std::abs(at.vy_mps) * ahead_ > std::abs(aside_) * ahead) {
-      aside_ = at.vy_mps;
-      ahead_ = ahead;
-    }
-  }
-  void write_slips(WheelStrain& strain) const {
-    strain.slip = slip_;
-    strain.slip_angle_rad = std::atan2(aside_, ahead_);
-  }
-
- private:
-  double slip_ = 0, aside_ = 0, ahead_ = 1;
 };
 
 void add_contact(WheelStrain& strain, double radius_m, WheelStatus status, double sinkage_m,
@@ -200,29 +176,35 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
                               const GroundPatch& patch, const GroundReaction& reaction) const {
   const double shared = shared_torque_nm(motion, setting, patch, reaction);
   WheelSums sums;
-  sums.strain.load_min_n = reaction.normal_n;
-  Strains strains;
+  sums.contact.load_min_n = reaction.normal_n;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     const double load = sharing_.load_n(i, reaction);
-    sums.strain.load_min_n = std::min(sums.strain.load_min_n, load);
+    sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
     if (!(load > 0)) continue;
     const WheelMount& mount = vehicle_.wheels[i];
     const SteeredWheel& wheel = setting.wheels[i];
     const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
     WheelMotion at =
         wheel_motion(mount, wheel, motion, setting.rim_speed * wheel.rim_speed_per_speed);
-    const Response response = this->response(i, law, load, at, shared);
-    at.rim_speed_mps = response.rim_speed_mps;
-    sums.as_commanded = sums.as_commanded && response.as_commanded;
-    const WheelForces& forces = response.forces;
+    WheelForces forces;
+    bool as_commanded = mount.driven && vehicle_.drive_law != DriveLaw::kEqualTorque;
+    if (as_commanded) {
+      forces = faded(law, load, at);
+      as_commanded = within(vehicle_.torque_max_nm, forces.torque_nm) == forces.torque_nm;
+    }
+    if (!as_commanded) [[unlikely]] {
+      const Response response = this->response(i, law, load, at, shared);
+      forces = response.forces;
+      at.rim_speed_mps = response.rim_speed_mps;
+      sums.as_commanded = false;
+    }
     sums.force.add(mount, wheel, forces);
-    add_contact(sums.strain, vehicle_.wheel.radius_m, forces.status, forces.sinkage_m,
+    add_contact(sums.contact, vehicle_.wheel.radius_m, forces.status, forces.sinkage_m,
                 forces.torque_nm);
-    strains.slip_at(at);
+    sums.slips.add(at);
     sums.drive_power_w +=
         std::max(forces.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
   }
-  strains.write_slips(sums.strain);
   return sums;
 }
 
@@ -250,11 +232,10 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     return result;
   }
   WheelSums& sums = result.sums;
-  sums.strain.load_min_n = reaction.normal_n;
-  Strains strains;
+  sums.contact.load_min_n = reaction.normal_n;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     const double load = sharing_.load_n(i, reaction);
-    sums.strain.load_min_n = std::min(sums.strain.load_min_n, load);
+    sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
     if (!(load > 0)) continue;
     const WheelMount& mount = vehicle_.wheels[i];
     const SteeredWheel& wheel = setting.wheels[i];
@@ -310,26 +291,23 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
           (f.x_by_vx * vx + f.x_by_vy * vy + f.x_by_rim * faster - f.y * turn) * lever.along +
           (f.y_by_vx * vx + f.y_by_vy * vy + f.y_by_rim * faster + f.x * turn) * lever.across;
     }
-    add_contact(sums.strain, vehicle_.wheel.radius_m, f.status, f.sinkage_m, f.torque_nm);
-    strains.slip_at(at);
+    add_contact(sums.contact, vehicle_.wheel.radius_m, f.status, f.sinkage_m, f.torque_nm);
+    sums.slips.add(at);
     sums.drive_power_w += std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
   }
-  strains.write_slips(sums.strain);
   return result;
 }
 
-WheelStrain VehicleWheels::with_slips(WheelStrain strain, const BodyMotion& motion,
-                                      const WheelSetting& setting,
-                                      const GroundReaction& reaction) const {
-  Strains strains;
+LargestSlips VehicleWheels::slips(const BodyMotion& motion, const WheelSetting& setting,
+                                  const GroundReaction& reaction) const {
+  LargestSlips slips;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     if (!(sharing_.load_n(i, reaction) > 0)) continue;
     const SteeredWheel& wheel = setting.wheels[i];
-    strains.slip_at(wheel_motion(vehicle_.wheels[i], wheel, motion,
-                                 setting.rim_speed * wheel.rim_speed_per_speed));
+    slips.add(wheel_motion(vehicle_.wheels[i], wheel, motion,
+                           setting.rim_speed * wheel.rim_speed_per_speed));
   }
-  strains.write_slips(strain);
-  return strain;
+  return slips;
 }
 
 }  // namespace regoplan

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "terramech/ground_patch.h"
@@ -21,6 +23,33 @@ struct WheelStrain {
   double torque_max_nm = 0;   ///< largest by magnitude, signed
 };
 
+/// Collects the largest slip and slip angle, as ratios that are divided only when asked for.
+class LargestSlips {
+ public:
+  void add(const WheelMotion& at) {
+    const double rim = std::abs(at.rim_speed_mps), ahead = std::abs(at.vx_mps);
+    const double aside = std::abs(at.vy_mps);
+    if (!(std::max({rim, ahead, aside}) > kMoving_mps)) return;
+    const double faster = std::max(rim, ahead);
+    const bool against = at.rim_speed_mps * at.vx_mps < 0;
+    const double excess = against ? -faster : rim - ahead;
+    if (std::abs(excess) * slip_whole_ > std::abs(slip_part_) * faster) {
+      slip_part_ = excess;
+      slip_whole_ = faster;
+    }
+    if (aside * ahead_ > std::abs(aside_) * ahead) {
+      aside_ = at.vy_mps;
+      ahead_ = ahead;
+    }
+  }
+  double slip() const { return slip_part_ / slip_whole_; }
+  double slip_angle_rad() const { return std::atan2(aside_, ahead_); }
+
+ private:
+  static constexpr double kMoving_mps = 1e-3;  ///< slower wheels have no slip worth telling
+  double slip_part_ = 0, slip_whole_ = 1, aside_ = 0, ahead_ = 1;
+};
+
 /// What steering and motors are set to at a moment.
 struct WheelSetting {
   std::array<SteeredWheel, kMaxWheels> wheels;
@@ -30,9 +59,17 @@ struct WheelSetting {
 /// The forces of all wheels on a moving vehicle, body frame.
 struct WheelSums {
   BodyForce force;
-  WheelStrain strain;
+  WheelStrain contact;  ///< but for the slips
+  LargestSlips slips;
   double drive_power_w = 0;  ///< torque times turning rate of the wheels that drive
   bool as_commanded = true;  ///< every wheel turns at its commanded speed
+
+  WheelStrain strain() const {
+    WheelStrain strain = contact;
+    strain.slip = slips.slip();
+    strain.slip_angle_rad = slips.slip_angle_rad();
+    return strain;
+  }
 };
 
 /// With slopes.
@@ -65,9 +102,9 @@ class VehicleWheels {
                                    const WheelSetting& next, const GroundPatch& patch,
                                    const GroundReaction& reaction) const;
 
-  /// Largest slip and slip angle, from the motion alone, where rims turn at commanded speeds.
-  WheelStrain with_slips(WheelStrain strain, const BodyMotion& motion, const WheelSetting& setting,
-                         const GroundReaction& reaction) const;
+  /// Largest slips, from the motion alone, where rims turn at their commanded speeds.
+  LargestSlips slips(const BodyMotion& motion, const WheelSetting& setting,
+                     const GroundReaction& reaction) const;
 
   const LoadSharing& sharing() const { return sharing_; }
 
