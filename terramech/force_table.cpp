@@ -220,7 +220,6 @@ SlopedForces differences(const WheelModel& model, double load_n, const WheelMoti
   SlopedForces result{.fx = {.value_n = here.fx_n},
                       .fy = {.value_n = here.fy_n},
                       .torque_nm = here.torque_nm,
-                      .sinkage_m = here.sinkage_m,
                       .status = here.status};
   if (!has_forces(here.status)) return result;
   constexpr double kShare = 1e-4;
@@ -324,7 +323,6 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
   SlopedForces result{.fx = sloped(x, 0, v_by_angle * at.angle.by_b, v_by_angle * at.angle.by_c),
                       .fy = sloped(l, y_by_a, y_by_b, y_by_c),
                       .torque_nm = at.x_sign * load_n * radius_m * in_v(side.torque),
-                      .sinkage_m = radius_m * in_v(side.sinkage),
                       .status = status_at(at)};
   // Fx changes sign with the direction of travel, Fy with that of the lateral motion
   result.fx.value_n *= at.x_sign;

@@ -166,9 +166,14 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   const double left_base =
       state.transfer_left_n + rest * (first.transfer_left_n - state.transfer_left_n);
   const Eigen::Vector3d pose_end_predicted = pose + h * drift_first;
-  const Stage second = run_stage(h, base, forward_base, left_base,
+  Stage second = run_stage(h, base, forward_base, left_base,
                                  base + kGamma * h * first.acceleration, pose_end_predicted);
   if (!result.converged) return result;
+  if (!second.sums.sinkage_known) {
+    second.sums = wheels_.sums(motion_of(second.velocity), second.setting, second.patch,
+                               reaction(PatchAxes(second.patch, gravity_mps2_),
+                                        second.transfer_forward_n, second.transfer_left_n));
+  }
   const Eigen::Vector3d drift_end =
       Drift(PatchAxes(second.patch, gravity_mps2_), pose_end_predicted[2])(second.velocity);
   const Eigen::Vector3d pose_end = pose + h * ((1 - kGamma) * drift_first + kGamma * drift_end);

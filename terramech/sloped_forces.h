@@ -17,7 +17,6 @@ struct SlopedForce {
 struct SlopedForces {
   SlopedForce fx, fy;
   double torque_nm = 0;
-  double sinkage_m = 0;
   WheelStatus status = WheelStatus::kOk;
 };
 

@@ -69,7 +69,6 @@ WheelSlopes faded_slopes(const WheelLaw& law, double load_n, const WheelMotion& 
           .y_by_vy = -fy.by_vy_nspm * fade_y - bend_y * at.vy_mps,
           .y_by_rim = -fy.by_rim_speed_nspm * fade_y - bend_y * at.rim_speed_mps,
           .torque_nm = forces.torque_nm * fade_x,
-          .sinkage_m = forces.sinkage_m,
           .status = forces.status};
 }
 
@@ -232,6 +231,7 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     return result;
   }
   WheelSums& sums = result.sums;
+  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
   sums.contact.load_min_n = reaction.normal_n;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     const double load = sharing_.load_n(i, reaction);
@@ -247,6 +247,7 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     if (as_commanded && law.has_slopes()) {
       f = faded_slopes(law, load, at);
       as_commanded = within(vehicle_.torque_max_nm, f.torque_nm) == f.torque_nm;
+      sums.sinkage_known = false;
     }
     if (!as_commanded || !law.has_slopes()) {
       const Response here = response(i, law, load, at, 0);
@@ -279,9 +280,9 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     sums.force.forward_n += force[0];
     sums.force.left_n += force[1];
     sums.force.yaw_nm += force[2];
-    result.slopes +=
-        lever.along * (f.x_by_vx * lever.along + f.x_by_vy * lever.across).transpose() +
-        lever.across * (f.y_by_vx * lever.along + f.y_by_vy * lever.across).transpose();
+    const Eigen::Vector3d x_by = f.x_by_vx * lever.along + f.x_by_vy * lever.across;
+    const Eigen::Vector3d y_by = f.y_by_vx * lever.along + f.y_by_vy * lever.across;
+    for (int k = 0; k < 3; ++k) slopes.col(k) += x_by[k] * lever.along + y_by[k] * lever.across;
     if (result.smooth) {
       const SteeredWheel& to = next.wheels[i];
       const double turn = wheel.cos_steer * to.sin_steer - wheel.sin_steer * to.cos_steer;
@@ -295,6 +296,7 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     sums.slips.add(at);
     sums.drive_power_w += std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
   }
+  result.slopes = slopes;
   return result;
 }
 

@@ -63,6 +63,8 @@ struct WheelSums {
   LargestSlips slips;
   double drive_power_w = 0;  ///< torque times turning rate of the wheels that drive
   bool as_commanded = true;  ///< every wheel turns at its commanded speed
+  /// Laws that have slopes leave the sinkage out when they give them.
+  bool sinkage_known = true;
 
   WheelStrain strain() const {
     WheelStrain strain = contact;
