@@ -166,8 +166,8 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   const double left_base =
       state.transfer_left_n + rest * (first.transfer_left_n - state.transfer_left_n);
   const Eigen::Vector3d pose_end_predicted = pose + h * drift_first;
-  Stage second = run_stage(h, base, forward_base, left_base,
-                                 base + kGamma * h * first.acceleration, pose_end_predicted);
+  Stage second = run_stage(h, base, forward_base, left_base, base + kGamma * h * first.acceleration,
+                           pose_end_predicted);
   if (!result.converged) return result;
   if (!second.sums.sinkage_known) {
     second.sums = wheels_.sums(motion_of(second.velocity), second.setting, second.patch,

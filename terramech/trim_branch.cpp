@@ -175,6 +175,8 @@ std::string_view name(BranchLimit limit) {
       return "sinkage";
     case BranchLimit::kSteering:
       return "steering range";
+    case BranchLimit::kTorque:
+      return "motor torque";
     case BranchLimit::kLiftedWheel:
       return "lifted wheel";
   }
@@ -197,6 +199,7 @@ LimitUse limit_use(const Trim& trim, const TrimLimits& limits) {
     consider(std::abs(wheel.slip) / limits.slip_max, BranchLimit::kSlip, i);
     consider(wheel.forces.sinkage_m / limits.sinkage_max_m, BranchLimit::kSinkage, i);
     consider(std::abs(wheel.steer_rad) / limits.steer_angle_max_rad, BranchLimit::kSteering, i);
+    consider(std::abs(wheel.forces.torque_nm) / limits.torque_max_nm, BranchLimit::kTorque, i);
     consider(1.02 - wheel.load_n / mean_load, BranchLimit::kLiftedWheel, i);
   }
   return use;
