@@ -154,10 +154,11 @@ SteadyManoeuvre::Slopes SteadyManoeuvre::slopes_by_law(const Point& at,
   return slopes;
 }
 
-std::optional<SteadyManoeuvre::Slopes> SteadyManoeuvre::slopes(const Point& at,
-                                                               const ForceLine& line,
-                                                               const Residual& residual_at) const {
+std::optional<SteadyManoeuvre::Slopes> SteadyManoeuvre::slopes(
+    const Point& at, const ForceLine& line, std::optional<Residual> residual_at) const {
   if (rims_follow_ && laws_have_slopes_) return slopes_by_law(at, line);
+  if (!residual_at) residual_at = residual(at, line);
+  if (!residual_at) return std::nullopt;
   constexpr double kStep = 1e-3;
   Slopes slopes;
   for (int k = 0; k < 4; ++k) {
@@ -165,7 +166,7 @@ std::optional<SteadyManoeuvre::Slopes> SteadyManoeuvre::slopes(const Point& at,
     moved[k] += kStep;
     const auto there = residual(moved, line);
     if (!there) return std::nullopt;
-    slopes.col(k) = (*there - residual_at) / kStep;
+    slopes.col(k) = (*there - *residual_at) / kStep;
   }
   return slopes;
 }

@@ -79,8 +79,11 @@ class SteadyManoeuvre {
   /// Missing path force along and across, over the normal load, and yaw moment, over load and
   /// length; nothing where a wheel has no load or no forces.
   std::optional<Residual> residual(const Point& at, const ForceLine& line) const;
+  /// Slopes of the residual over the point; from the laws' own slopes where all have them and all
+  /// rims turn at commanded speeds, else by differences.
+  /// \param residual at the point, where known
   std::optional<Slopes> slopes(const Point& at, const ForceLine& line,
-                               const Residual& residual) const;
+                               std::optional<Residual> residual = {}) const;
 
   /// The trim on the line at p nearest to a guess; nothing where Newton's method finds none.
   std::optional<Point> solve(const Point& guess, const ForceLine& line) const;
