@@ -17,6 +17,7 @@ namespace regoplan {
 struct VehicleDynamics::Stage {
   GroundPatch patch;
   WheelSetting setting;
+  bool on_the_spot = false;
   Eigen::Vector3d base;
   double step_s = 0;
   std::optional<Eigen::Matrix3d> newton;  ///< inverse, of a stage nearby
@@ -71,11 +72,12 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
       ++halvings;
       slows = true;
       stage.velocity = (stage.velocity + velocity_before) / 2;
-      // All but at rest, the balance may lie on a jump of the forces: where a wheel that turns
-      // stops moving, it spins on the one side and counter-rotates on the other.
+      // All but at rest, and in a turn on the spot, the balance may lie on a jump of the forces:
+      // where a wheel that turns stops moving, it spins on the one side and counter-rotates on the
+      // other.
       constexpr double kNearRest_mps = kStandstillSpeed_mps, kJump_mps = 1e-2 * kNearRest_mps;
       const Eigen::Vector3d apart = stage.velocity - velocity_before;
-      if (velocity_before.cwiseProduct(in_mps).norm() < kNearRest_mps &&
+      if ((stage.on_the_spot || velocity_before.cwiseProduct(in_mps).norm() < kNearRest_mps) &&
           apart.cwiseProduct(in_mps).norm() < kJump_mps) {
         return true;
       }
@@ -122,8 +124,10 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   const auto run_stage = [&](double at_s, const Eigen::Vector3d& base, double forward_base_n,
                              double left_base_n, const Eigen::Vector3d& guess,
                              const Eigen::Vector3d& pose_there) {
+    const Commands commands = commands_after(state, control, at_s);
     Stage stage{.patch = ground_(pose_there[0], pose_there[1], pose_there[2]),
-                .setting = setting(commands_after(state, control, at_s)),
+                .setting = setting(commands),
+                .on_the_spot = commands.on_the_spot,
                 .base = base,
                 .step_s = kGamma * h,
                 .newton = newton,

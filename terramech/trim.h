@@ -95,7 +95,11 @@ class SteadyManoeuvre {
   /// What a point stands for.
   Trim trim(const Point& at, const ForceLine& line) const;
 
+  double steer_curvature_1pm(const Point& at) const { return steering(at).curvature_1pm; }
+
+  const Vehicle& vehicle() const { return vehicle_; }
   double normal_n() const { return normal_n_; }
+  double curvature_1pm() const { return curvature_1pm_; }
 
  private:
   BodyMotion body_motion(const Point& at) const;

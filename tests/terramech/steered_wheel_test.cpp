@@ -90,5 +90,45 @@ TEST(BodyForce, PowerOnTheBodyIsThatOfTheWheels) {
       power_w, 1e-12);
 }
 
+TEST(SteeredWheel, AllAreParallelWhenTheVehicleCrabs) {
+  const Vehicle rover = preset_vehicle("tohoku");
+  for (const WheelMount& mount : rover.wheels) {
+    const SteeredWheel wheel = steered_wheel(rover, mount, {.crab_rad = 0.4});
+    EXPECT_NEAR(wheel.steer_rad(), 0.4, 1e-15);
+    EXPECT_NEAR(wheel.rim_speed_per_speed, 1, 1e-15);
+  }
+}
+
+TEST(SteeredWheel, CrabAndCurvatureTogetherAreARotationAboutOnePoint) {
+  const Vehicle rover = preset_vehicle("tohoku");
+  const double k = 0.5, crab = 0.2;
+  for (const WheelMount& mount : rover.wheels) {
+    const SteeredWheel wheel = steered_wheel(rover, mount, {.curvature_1pm = k, .crab_rad = crab});
+    const BodyMotion body{std::cos(crab), std::sin(crab), k};
+    const WheelMotion motion = wheel_motion(mount, wheel, body, wheel.rim_speed_per_speed);
+    EXPECT_NEAR(motion.vy_mps, 0, 1e-15);
+    EXPECT_NEAR(motion.vx_mps, wheel.rim_speed_per_speed, 1e-15);
+  }
+}
+
+TEST(WheelOnTheSpot, RollsAboutTheTurnCentre) {
+  const Vehicle rover = preset_vehicle("tohoku");
+  for (const WheelMount& mount : rover.wheels) {
+    const SteeredWheel wheel = wheel_on_the_spot(rover, mount);
+    const WheelMotion motion = wheel_motion(mount, wheel, {.yaw_rate_rad_s = 1}, 0);
+    EXPECT_NEAR(motion.vy_mps, 0, 1e-15);
+    EXPECT_NEAR(motion.vx_mps, wheel.rim_speed_per_speed, 1e-15);
+    EXPECT_LE(std::abs(wheel.steer_rad()), 90 * kDegree);
+    EXPECT_EQ(wheel.rim_speed_per_speed<0, mount.y_m> 0);
+  }
+}
+
+TEST(CanTurnOnTheSpot, TakesWheelsThatReachTheAngle) {
+  EXPECT_TRUE(can_turn_on_the_spot(preset_vehicle("curiosity")));
+  EXPECT_FALSE(can_turn_on_the_spot(preset_vehicle("lrv")));
+  EXPECT_FALSE(can_turn_on_the_spot(tricycle()));
+  EXPECT_TRUE(can_turn_on_the_spot(skid_steered()));
+}
+
 }  // namespace
 }  // namespace regoplan
