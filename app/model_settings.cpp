@@ -6,11 +6,18 @@
 namespace regoplan {
 namespace {
 
-void require_no_mechanisms(const SettingsNode& node) {
-  for (const SettingsNode& mechanism : node.list()) {
-    const SettingsNode* id = mechanism.find("id");
-    throw(id ? *id : mechanism).not_allowed("an empty list; no mechanism is supported yet");
-  }
+Mechanism read_mechanism(const SettingsNode& node) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
+    Mechanism mechanism{.id = mapping.required("id").text(), .form = {}, .parameters = {}};
+    if (const SettingsNode* form = mapping.optional("form")) mechanism.form = form->text();
+    if (const SettingsNode* parameters = mapping.optional("parameters")) {
+      for (const SettingsEntry& parameter : parameters->mapping()) {
+        mechanism.parameters[parameter.key] = parameter.value.number(kAnyNumber);
+      }
+    }
+    form_of(mechanism);  // throws where an id, a form or a parameter is not known
+    return mechanism;
+  });
 }
 
 }  // namespace
@@ -32,7 +39,9 @@ ModelSettings read_model(const SettingsNode& node) {
   return read_mapping(node, [](SettingsMapping& mapping) {
     ModelSettings settings;
     if (const SettingsNode* mechanisms = mapping.optional("mechanisms")) {
-      require_no_mechanisms(*mechanisms);
+      for (const SettingsNode& mechanism : mechanisms->list()) {
+        settings.spec.mechanisms.push_back(read_mechanism(mechanism));
+      }
     }
     settings.spec.variant = mapping.required("model").choice({"ishigami2007", "yoshida2004"}) == 1
                                 ? WheelVariant::kYoshida2004

@@ -214,6 +214,7 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
                                  : std::move(read.map),
                     .vehicle = std::move(vehicle),
                     .wheel_variant = variant,
+                    .mechanisms = model ? model->spec.mechanisms : std::vector<Mechanism>{},
                     .gravity_mps2 = gravity_mps2,
                     .start = start,
                     .goal = goal,

@@ -100,7 +100,8 @@ std::string axes_svg(const Axis& x, const Axis& y, const Box& box) {
   }
   svg += fmt::format(
       R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)"
-      R"svg(<text transform="translate({},{}) rotate(-90)" text-anchor="middle">{}</text>)svg" "\n",
+      R"svg(<text transform="translate({},{}) rotate(-90)" text-anchor="middle">{}</text>)svg"
+      "\n",
       box.left + box.width / 2, box.top + box.height + 36, x.label, box.left - 44,
       box.top + box.height / 2, y.label);
   return svg;

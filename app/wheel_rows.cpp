@@ -31,6 +31,22 @@ constexpr std::array<Condition, 3> kConditions{{
     {"slip_angle_deg", {.min = -90, .max = 90}},
 }};
 
+/// Columns that a mechanism may need; each may be left out.
+struct Circumstance {
+  const char* column;
+  ValueRange allowed;
+  double WheelConditions::*member;
+  double unit;
+};
+constexpr std::array<Circumstance, 5> kCircumstances{{
+    {"speed_mps", kAtLeast0, &WheelConditions::speed_mps, 1},
+    {"position_m", kAnyNumber, &WheelConditions::position_m, 1},
+    {"time_s", kAnyNumber, &WheelConditions::time_s, 1},
+    {"heading_deg", kAnyNumber, &WheelConditions::heading_rad, kDegree},
+    {"wheel_angle_deg", kAnyNumber, &WheelConditions::wheel_angle_rad, kDegree},
+}};
+constexpr ValueRange kPasses{.min = 1, .max = 1e6};
+
 constexpr std::array<const char*, 7> kResults{"fx_n", "fy_n", "torque_nm", "sinkage_m",
                                               "fc_n", "fb_n", "status"};
 
@@ -55,10 +71,16 @@ class Table {
 
   const Cells& columns() const { return columns_; }
 
-  std::size_t column(const char* sought) const {
+  std::optional<std::size_t> find_column(const char* sought) const {
     const auto found = std::ranges::find(columns_, sought);
-    if (found == columns_.end()) throw error(fmt::format("column {} is missing", sought));
+    if (found == columns_.end()) return {};
     return static_cast<std::size_t>(found - columns_.begin());
+  }
+
+  std::size_t column(const char* sought) const {
+    const auto found = find_column(sought);
+    if (!found) throw error(fmt::format("column {} is missing", sought));
+    return *found;
   }
 
   /// The next row; nothing at the end.
@@ -105,6 +127,21 @@ class Table {
   std::int64_t line_ = 0;
   Cells columns_;
 };
+
+/// What a row says of the circumstances; only where a mechanism asks for them is it read.
+WheelConditions read_circumstances(const Table& table, const Cells& cells) {
+  WheelConditions conditions;
+  for (const Circumstance& circumstance : kCircumstances) {
+    if (const auto column = table.find_column(circumstance.column)) {
+      conditions.*circumstance.member =
+          circumstance.unit * table.number(cells, *column, circumstance.allowed);
+    }
+  }
+  if (const auto column = table.find_column("pass")) {
+    conditions.pass = static_cast<int>(table.number(cells, *column, kPasses));
+  }
+  return conditions;
+}
 
 Cells result_cells(const WheelForces& forces, double slip_angle_rad) {
   Cells cells(kResults.size());
@@ -179,7 +216,11 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     }
     const auto [load_n, slip, slip_angle_deg] = values;
     const double slip_angle_rad = slip_angle_deg * kDegree;
-    const WheelForces forces = model.forces(load_n, motion_at(slip, slip_angle_rad));
+    const WheelMotion motion = motion_at(slip, slip_angle_rad);
+    const WheelForces forces =
+        model.spec().mechanisms.empty()
+            ? model.forces(load_n, motion)
+            : model.channels(load_n, motion, read_circumstances(table, *cells)).forces;
     for (std::string& cell : result_cells(forces, slip_angle_rad)) {
       cells->push_back(std::move(cell));
     }

@@ -124,6 +124,27 @@ BENCHMARK_CAPTURE(supply_solved, table, Law::kTable);
 BENCHMARK_CAPTURE(supply_solved, fast, Law::kDirectFast);
 BENCHMARK_CAPTURE(supply_solved, exact, Law::kDirectExact);
 
+/// A curve of 100 trims: lateral force from none to what the slip angle allows, each trim from the
+/// one before.
+void supply_curve(benchmark::State& state, Law law) {
+  const Lrv lrv(law);
+  const SteadyManoeuvre manoeuvre(lrv.vehicle, lrv.sharing, lrv.laws, 0.1, lrv.weight_n);
+  const ForceLine line{.from = {}, .per_unit = {.forward_n = 0, .left_n = lrv.weight_n}};
+  for ([[maybe_unused]] auto _ : state) {
+    auto at = manoeuvre.solve_from_rolling(line);
+    constexpr int kTrims = 100;
+    for (int i = 1; i < kTrims && at; ++i) {
+      (*at)[3] = 0.5 * i / kTrims;
+      at = manoeuvre.solve(*at, line);
+      benchmark::DoNotOptimize(at);
+    }
+    if (!at) state.SkipWithError("no trim");
+  }
+}
+BENCHMARK_CAPTURE(supply_curve, table, Law::kTable)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(supply_curve, fast, Law::kDirectFast)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(supply_curve, exact, Law::kDirectExact)->Unit(benchmark::kMillisecond);
+
 SupplyTable table_of(const Lrv& lrv) {
   constexpr double kTiltMax_rad = 25 * std::numbers::pi / 180;
   return {lrv.vehicle, lrv.law, lrv.limits, lrv.weight_n, kTiltMax_rad, 1};
@@ -141,6 +162,26 @@ void supply_looked_up(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(supply_looked_up);
+
+/// Margins of a state from the supply table, as searches ask at every step.
+void margins_looked_up(benchmark::State& state) {
+  const Lrv lrv(Law::kTable);
+  const std::vector<SupplyTable> tables{table_of(lrv)};
+  const TabledSupply supply(tables);
+  const SupportPolygon polygon(lrv.vehicle);
+  const GroundPatch patch{
+      .known = true, .z_m = 0, .slope_forward = 0.05, .slope_left = 0.05, .soil = {}};
+  const VehicleDynamics dynamics(
+      lrv.vehicle, lrv.laws, [&](double, double, double) { return patch; }, kMoon_mps2);
+  VehicleState at = dynamics.rolling_state(0, 0, 0, 3, 0.02);
+  for ([[maybe_unused]] auto _ : state) {
+    at.motion.vx_mps = 5 - at.motion.vx_mps;
+    const SupplyQuestion question = question_of(dynamics, at, patch);
+    benchmark::DoNotOptimize(margins_of(dynamics, polygon, question,
+                                        supply.answer(question, lrv.vehicle.wheels.size())));
+  }
+}
+BENCHMARK(margins_looked_up);
 
 void supply_table_built(benchmark::State& state) {
   const Lrv lrv(Law::kDirectFast);

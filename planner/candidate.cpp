@@ -58,11 +58,13 @@ double margin_of_worst_tenth(const std::vector<TrajectoryPoint>& points) {
 }
 
 std::string why_overturned(const Replay& replay) {
-  if (replay.rejection) {
-    return fmt::format("{} {:.4g} against {:.4g} at ({:.2f}, {:.2f}), {:.2f} s",
-                       name(replay.rejection->reason), replay.rejection->value,
-                       replay.rejection->limit, replay.rejection->x_m, replay.rejection->y_m,
-                       replay.rejection_time_s);
+  if (const auto& rejection = replay.rejection) {
+    const std::string numbers =
+        std::isfinite(rejection->value)
+            ? fmt::format(" {:.4g} against {:.4g}", rejection->value, rejection->limit)
+            : "";
+    return fmt::format("{}{} at ({:.2f}, {:.2f}), {:.2f} s", name(rejection->reason), numbers,
+                       rejection->x_m, rejection->y_m, replay.rejection_time_s);
   }
   const VehicleState& end = replay.end;
   return fmt::format("the goal is not reached: the path ends at ({:.2f}, {:.2f})", end.x_m,

@@ -115,37 +115,57 @@ struct Obstacles::Shapes {
         high = high.cwiseMax(corner);
       }
     }
-    const double highest = map.max_height_m(low.x(), high.x(), low.y(), high.y());
-    if (highest < low.z()) return false;
-    if (std::isnan(highest)) return false;  // unknown ground is told apart by its own check
-    return touch(body, stand, mesh_below(low, high), Transform::Identity());
+    if (map.max_height_m(low.x(), high.x(), low.y(), high.y()) < low.z()) return false;
+    const CellRange cells = cells_below(low, high);
+    return reaches_underside(stand, cells) &&
+           touch(body, stand, mesh_over(cells), Transform::Identity());
   }
 
-  /// The triangles of the elevation cells under a rectangle.
-  Mesh mesh_below(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
+  /// Elevation cells whose centres span a rectangle.
+  struct CellRange {
+    int column_first = 0, column_last = 0, row_first = 0, row_last = 0;
+  };
+
+  CellRange cells_below(const Eigen::Vector3d& low, const Eigen::Vector3d& high) const {
     const GridFrame& frame = map.elevation().frame;
     const auto column_of = [&](double x) {
-      return std::clamp(static_cast<int>(std::floor((x - frame.west_m) / frame.cell_width_m - 0.5)),
-                        0, frame.columns - 1);
+      return static_cast<int>(std::floor((x - frame.west_m) / frame.cell_width_m - 0.5));
     };
     const auto row_of = [&](double y) {
-      return std::clamp(
-          static_cast<int>(std::floor((frame.north_m - y) / frame.cell_height_m - 0.5)), 0,
-          frame.rows - 1);
+      return static_cast<int>(std::floor((frame.north_m - y) / frame.cell_height_m - 0.5));
     };
-    const int c0 = column_of(low.x()), c1 = std::min(column_of(high.x()) + 1, frame.columns - 1);
-    const int r0 = row_of(high.y()), r1 = std::min(row_of(low.y()) + 1, frame.rows - 1);
-    const auto vertex = [&](int row, int column) {
-      const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.columns) +
-                        static_cast<std::size_t>(column);
-      return Eigen::Vector3d{frame.west_m + (column + 0.5) * frame.cell_width_m,
-                             frame.north_m - (row + 0.5) * frame.cell_height_m,
-                             map.elevation().height_m[cell]};
-    };
+    return {.column_first = std::clamp(column_of(low.x()), 0, frame.columns - 1),
+            .column_last = std::clamp(column_of(high.x()) + 1, 0, frame.columns - 1),
+            .row_first = std::clamp(row_of(high.y()), 0, frame.rows - 1),
+            .row_last = std::clamp(row_of(low.y()) + 1, 0, frame.rows - 1)};
+  }
+
+  Eigen::Vector3d vertex(int row, int column) const {
+    const GridFrame& frame = map.elevation().frame;
+    const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.columns) +
+                      static_cast<std::size_t>(column);
+    return {frame.west_m + (column + 0.5) * frame.cell_width_m,
+            frame.north_m - (row + 0.5) * frame.cell_height_m, map.elevation().height_m[cell]};
+  }
+
+  /// Whether any vertex rises above the plane of the body's underside; where none does, no triangle
+  /// can touch the body, and the dearer test is saved.
+  bool reaches_underside(const Transform& stand, const CellRange& cells) const {
+    const Eigen::Vector3d up = stand.linear().col(2);
+    const double underside = up.dot(stand.translation()) + body.centre.z() - body.box->side.z() / 2;
+    for (int row = cells.row_first; row <= cells.row_last; ++row) {
+      for (int column = cells.column_first; column <= cells.column_last; ++column) {
+        if (up.dot(vertex(row, column)) >= underside) return true;
+      }
+    }
+    return false;
+  }
+
+  Mesh mesh_over(const CellRange& cells) const {
     Mesh mesh;
     mesh.beginModel();
-    for (int r = r0; r < r1; ++r) {
-      for (int c = c0; c < c1; ++c) {
+    for (int r = cells.row_first; r < cells.row_last; ++r) {
+      for (int c = cells.column_first; c < cells.column_last; ++c) {
         mesh.addTriangle(vertex(r, c), vertex(r + 1, c), vertex(r, c + 1));
         mesh.addTriangle(vertex(r, c + 1), vertex(r + 1, c), vertex(r + 1, c + 1));
       }

@@ -85,14 +85,17 @@ struct Candidate {
 
 /// A place where the search met the edge of feasibility.
 struct RejectedState {
+  static constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
   Rejection reason = Rejection::kBounds;
   double x_m = 0;
   double y_m = 0;
   double yaw_rad = 0;
   double speed_mps = 0;
   double curvature_1pm = 0;
-  double value = 0;  ///< what was found (margin, slip, rad, m), where the reason has one
-  double limit = 0;  ///< what was allowed
+  double value =
+      kNoNumber;  ///< what was found (margin, slip, rad, m, m/s), where there is a number
+  double limit = kNoNumber;  ///< what was allowed
 };
 
 /// The best candidate under other circumstances: what carries its feasibility.

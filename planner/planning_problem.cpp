@@ -81,6 +81,14 @@ Limits default_limits(const Vehicle& vehicle) {
           .sinkage_max_m = vehicle.sinkage_max_m};
 }
 
+WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil) {
+  return {.variant = problem.wheel_variant,
+          .wheel = problem.vehicle.wheel,
+          .soil = soil,
+          .gravity_mps2 = problem.gravity_mps2,
+          .mechanisms = problem.mechanisms};
+}
+
 void validate(const PlanningProblem& problem) {
   validate(problem.vehicle);
   if (problem.vehicle.drive_law != DriveLaw::kKinematic) {

@@ -60,6 +60,7 @@ struct PlanningProblem {
   TerrainMap map;
   Vehicle vehicle;
   WheelVariant wheel_variant = WheelVariant::kIshigami2007;
+  std::vector<Mechanism> mechanisms = {};  ///< of the wheel model, on every soil
   double gravity_mps2 = 9.80665;
   StartState start;
   Goal goal;
@@ -67,6 +68,9 @@ struct PlanningProblem {
   Limits limits;
   Search search;
 };
+
+/// The wheel model of a problem's vehicle on a soil.
+WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil);
 
 /// \throws ValueError or InputError for what cannot be asked: start or goal outside the map or on
 /// unknown ground, start inside a rock, a limit or a budget that is not positive, ...

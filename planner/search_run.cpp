@@ -205,6 +205,8 @@ SearchOutcome search(const World& world, const SearchRun& run) {
   const PlanningProblem& problem = world.problem();
   const GridFrame& frame = problem.map.elevation().frame;
 
+  const CostToGo way(problem, run.variety, run.seed);
+
   auto states = std::make_shared<VehicleSpace>(
       frame, problem.speed_max_mps,
       VehicleSpace::Weights{.heading_m_per_rad = 1 / problem.vehicle.curvature_max_1pm,
@@ -212,19 +214,19 @@ SearchOutcome search(const World& world, const SearchRun& run) {
   auto controls = std::make_shared<VehicleControlSpace>(states, 0.1 * problem.speed_max_mps,
                                                         problem.speed_max_mps,
                                                         problem.vehicle.curvature_max_1pm);
-  controls->setControlSamplerAllocator([&world](const oc::ControlSpace* space) {
-    return std::make_shared<SteeringSampler>(space, world);
+  controls->setControlSamplerAllocator([&world, &way](const oc::ControlSpace* space) {
+    return std::make_shared<SteeringSampler>(space, world, way);
   });
   auto si = std::make_shared<oc::SpaceInformation>(states, controls);
   auto propagator = std::make_shared<DynamicsPropagator>(si.get(), world);
   auto validity = std::make_shared<WorldValidity>(si.get(), world, run);
   si->setStatePropagator(propagator);
   si->setStateValidityChecker(validity);
-  si->setDirectedControlSamplerAllocator([&world](const oc::SpaceInformation* info) {
-    return std::make_shared<PursuitSampler>(info, world);
+  si->setDirectedControlSamplerAllocator([&world, &way](const oc::SpaceInformation* info) {
+    return std::make_shared<PursuitSampler>(info, world, way);
   });
   si->setPropagationStepSize(world.search_step_s());
-  si->setMinMaxControlDuration(4, 24);
+  si->setMinMaxControlDuration(1, 24);
   si->setup();
 
   auto definition = std::make_shared<ob::ProblemDefinition>(si);

@@ -16,6 +16,7 @@ struct SearchRun {
   std::string planner;  ///< SST, RRT, KPIECE1, EST or PDST
   std::uint64_t seed = 1;
   double margin_min = 0;  ///< every state keeps at least this stability margin
+  double variety = 0;     ///< of the way that it is guided along, as `CostToGo` takes it
   std::optional<double> time_s;
   std::optional<std::int64_t> iterations;
 };

@@ -36,11 +36,7 @@ double smallest_margin(const PlanningProblem& problem, const std::vector<Vehicle
   std::mt19937_64 random(sequence);
   std::vector<WheelModel> models;
   for (const MapSoil& soil : problem.map.soils()) {
-    models.emplace_back(WheelModelSpec{.variant = problem.wheel_variant,
-                                       .wheel = problem.vehicle.wheel,
-                                       .soil = draw(soil.soil, random),
-                                       .gravity_mps2 = problem.gravity_mps2},
-                        WheelAccuracy::kFast);
+    models.emplace_back(wheel_model_spec(problem, draw(soil.soil, random)), WheelAccuracy::kFast);
   }
   const std::vector<WheelLaw> laws(models.begin(), models.end());
   const GroundFinder ground(problem.map, problem.vehicle);

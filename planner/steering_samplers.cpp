@@ -20,7 +20,7 @@ const VehicleState& vehicle(const ob::State* state) {
 
 /// Curvature whose centripetal force is a given share of the weight, within the steering.
 double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps) {
-  constexpr double kShareOfWeight = 0.5;  // about what loose soil gives at the trusted slip angles
+  constexpr double kShareOfWeight = 0.38;  // what loose soil gives, with margin to spare
   const double reach =
       kShareOfWeight * problem.gravity_mps2 / std::max(speed_mps * speed_mps, 1e-9);
   return std::min(reach, problem.vehicle.curvature_max_1pm);
@@ -39,6 +39,13 @@ VehicleControl drawn(const PlanningProblem& problem, ompl::RNG& random) {
   const double t = random.uniformReal(-1, 1);
   return {.speed_target_mps = speed,
           .curvature_target_1pm = curvature_reach_1pm(problem, speed) * t * std::abs(t)};
+}
+
+/// Where to steer for on the cheapest way: as far ahead as the vehicle needs to turn in.
+CostToGo::Place aim(const PlanningProblem& problem, const CostToGo& way, const VehicleState& state,
+                    double speed_mps, ompl::RNG& random) {
+  const double turning_radius_m = 1 / curvature_reach_1pm(problem, speed_mps);
+  return way.ahead(state.x_m, state.y_m, random.uniformReal(0.5, 1.5) * turning_radius_m);
 }
 
 VehicleControl toward(const PlanningProblem& problem, const VehicleState& state, double x_m,
@@ -61,8 +68,9 @@ double pursuit_curvature_1pm(const VehicleState& state, double x_m, double y_m,
   return std::clamp(2 * aside / distance2, -curvature_max_1pm, curvature_max_1pm);
 }
 
-SteeringSampler::SteeringSampler(const oc::ControlSpace* space, const World& world)
-    : oc::ControlSampler(space), world_(world) {}
+SteeringSampler::SteeringSampler(const oc::ControlSpace* space, const World& world,
+                                 const CostToGo& way)
+    : oc::ControlSampler(space), world_(world), way_(way) {}
 
 void SteeringSampler::sample(oc::Control* control) {
   VehicleControlSpace::set(control, drawn(world_.problem(), rng_));
@@ -72,8 +80,8 @@ void SteeringSampler::sample(oc::Control* control, const ob::State* state) {
   const PlanningProblem& problem = world_.problem();
   if (rng_.uniform01() < 0.5) return sample(control);
   const double speed = drawn_speed_mps(problem, rng_);
-  VehicleControlSpace::set(
-      control, toward(problem, vehicle(state), problem.goal.x_m, problem.goal.y_m, speed));
+  const CostToGo::Place place = aim(problem, way_, vehicle(state), speed, rng_);
+  VehicleControlSpace::set(control, toward(problem, vehicle(state), place.x_m, place.y_m, speed));
 }
 
 void SteeringSampler::sampleNext(oc::Control* control, const oc::Control* /*previous*/,
@@ -81,8 +89,9 @@ void SteeringSampler::sampleNext(oc::Control* control, const oc::Control* /*prev
   sample(control, state);
 }
 
-PursuitSampler::PursuitSampler(const oc::SpaceInformation* si, const World& world)
-    : oc::DirectedControlSampler(si), world_(world) {}
+PursuitSampler::PursuitSampler(const oc::SpaceInformation* si, const World& world,
+                               const CostToGo& way)
+    : oc::DirectedControlSampler(si), world_(world), way_(way) {}
 
 unsigned int PursuitSampler::drive(const oc::Control* control, const ob::State* source,
                                    unsigned int steps, ob::State* result) const {
@@ -105,26 +114,35 @@ unsigned int PursuitSampler::drive(const oc::Control* control, const ob::State* 
 unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* source,
                                       ob::State* target) {
   constexpr int kTries = 3;
+  constexpr unsigned int kShortestMotion = 4;  // steps, unless it arrives
+  constexpr double kGuided = 0.5;
   const PlanningProblem& problem = world_.problem();
-  const VehicleState& aim = vehicle(target);
+  const VehicleState& from = vehicle(source);
+  const CostToGo::Place place = rng_.uniform01() < kGuided
+                                    ? aim(problem, way_, from, drawn_speed_mps(problem, rng_), rng_)
+                                    : CostToGo::Place{vehicle(target).x_m, vehicle(target).y_m};
+  const double away = std::hypot(place.x_m - from.x_m, place.y_m - from.y_m);
   ob::State* reached = si_->allocState();
   ob::State* best = si_->allocState();
   oc::Control* tried = si_->allocControl();
   unsigned int best_steps = 0;
   double best_distance = 0;
   for (int i = 0; i < kTries; ++i) {
-    const VehicleControl choice = i + 1 < kTries ? toward(problem, vehicle(source), aim.x_m,
-                                                          aim.y_m, drawn_speed_mps(problem, rng_))
-                                                 : drawn(problem, rng_);
+    const bool free_try = i + 1 == kTries;
+    const VehicleControl choice =
+        free_try ? drawn(problem, rng_)
+                 : toward(problem, from, place.x_m, place.y_m, drawn_speed_mps(problem, rng_));
     VehicleControlSpace::set(tried, choice);
-    const double away = std::hypot(aim.x_m - vehicle(source).x_m, aim.y_m - vehicle(source).y_m);
     const double travel = std::max(choice.speed_target_mps, 1e-6) * si_->getPropagationStepSize();
-    const auto steps = static_cast<unsigned int>(
-        std::clamp(away / travel, static_cast<double>(si_->getMinControlDuration()),
-                   static_cast<double>(si_->getMaxControlDuration())));
+    const auto steps =
+        static_cast<unsigned int>(std::clamp(away / travel, static_cast<double>(kShortestMotion),
+                                             static_cast<double>(si_->getMaxControlDuration())));
     const unsigned int done = drive(tried, source, steps, reached);
-    if (done < si_->getMinControlDuration() && !world_.at_goal(vehicle(reached))) continue;
-    const double distance = si_->distance(reached, target);
+    const bool arrived = done > 0 && world_.at_goal(vehicle(reached));
+    if (done < kShortestMotion && !arrived) continue;
+    const double distance =
+        arrived ? 0
+                : std::hypot(vehicle(reached).x_m - place.x_m, vehicle(reached).y_m - place.y_m);
     if (best_steps == 0 || distance < best_distance) {
       best_steps = done;
       best_distance = distance;

@@ -3,6 +3,7 @@
 #include <ompl/control/ControlSampler.h>
 #include <ompl/control/DirectedControlSampler.h>
 
+#include "planner/cost_to_go.h"
 #include "planner/world.h"
 
 namespace regoplan {
@@ -12,7 +13,8 @@ namespace regoplan {
 /// state is known.
 class SteeringSampler : public ompl::control::ControlSampler {
  public:
-  SteeringSampler(const ompl::control::ControlSpace* space, const World& world);
+  SteeringSampler(const ompl::control::ControlSpace* space, const World& world,
+                  const CostToGo& way);
 
   void sample(ompl::control::Control* control) override;
   void sample(ompl::control::Control* control, const ompl::base::State* state) override;
@@ -21,13 +23,16 @@ class SteeringSampler : public ompl::control::ControlSampler {
 
  private:
   const World& world_;
+  const CostToGo& way_;
 };
 
-/// Drives from one state toward another: pure pursuit at several speeds, and some free tries; the
-/// motion that comes nearest wins. Motions end where they reach the goal, or come no nearer.
+/// Drives from one state toward another, or half of the time along the cheapest way to the goal:
+/// pure pursuit at several speeds, and some free tries; the motion that comes nearest wins. Motions
+/// end where they reach the goal, or come no nearer.
 class PursuitSampler : public ompl::control::DirectedControlSampler {
  public:
-  PursuitSampler(const ompl::control::SpaceInformation* si, const World& world);
+  PursuitSampler(const ompl::control::SpaceInformation* si, const World& world,
+                 const CostToGo& way);
 
   unsigned int sampleTo(ompl::control::Control* control, const ompl::base::State* source,
                         ompl::base::State* target) override;
@@ -40,6 +45,7 @@ class PursuitSampler : public ompl::control::DirectedControlSampler {
                      unsigned int steps, ompl::base::State* result) const;
 
   const World& world_;
+  const CostToGo& way_;
   ompl::RNG rng_;
 };
 

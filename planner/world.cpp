@@ -8,16 +8,10 @@
 namespace regoplan {
 namespace {
 
-WheelModelSpec model_spec(const PlanningProblem& problem, const MapSoil& soil) {
-  return {.variant = problem.wheel_variant,
-          .wheel = problem.vehicle.wheel,
-          .soil = soil.soil.mean,
-          .gravity_mps2 = problem.gravity_mps2};
-}
-
 std::vector<WheelModel> models_of(const PlanningProblem& problem) {
   std::vector<WheelModel> models;
-  for (const MapSoil& soil : problem.map.soils()) models.emplace_back(model_spec(problem, soil));
+  for (const MapSoil& soil : problem.map.soils())
+    models.emplace_back(wheel_model_spec(problem, soil.soil.mean));
   return models;
 }
 
@@ -28,7 +22,7 @@ std::vector<ForceTable> tables_of(const PlanningProblem& problem) {
   constexpr TableAccuracy kAccuracy{.at_999_permille = 5e-3, .at_worst = 2e-2};
   std::vector<ForceTable> tables;
   for (const MapSoil& soil : problem.map.soils()) {
-    tables.push_back(ForceTable::cached({.model = model_spec(problem, soil),
+    tables.push_back(ForceTable::cached({.model = wheel_model_spec(problem, soil.soil.mean),
                                          .nominal_load_n = nominal_load_n,
                                          .accuracy = kAccuracy}));
   }
@@ -128,7 +122,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   };
   const Limits& limits = problem_.limits;
   constexpr double kRounding = 1e-3;  // in which a speed counts as held
-  if (!problem_.map.inside(state.x_m, state.y_m)) return because(Rejection::kBounds, 0, 0);
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  if (!problem_.map.inside(state.x_m, state.y_m))
+    return because(Rejection::kBounds, kNoNumber, kNoNumber);
   // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
   const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
   const double speed_reserve = use_ == WorldUse::kSearch ? 0.995 : 1 + kRounding;
@@ -136,9 +132,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
     return because(Rejection::kBounds, speed, problem_.speed_max_mps);
   }
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
-  if (!patch.known) return because(Rejection::kUnknownTerrain, 0, 0);
+  if (!patch.known) return because(Rejection::kUnknownTerrain, kNoNumber, kNoNumber);
   if (obstacles_.hit(state.x_m, state.y_m, state.yaw_rad, patch)) {
-    return because(Rejection::kObstacle, 0, 0);
+    return because(Rejection::kObstacle, kNoNumber, kNoNumber);
   }
   const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
   const double tilt = patch.tilt_rad();

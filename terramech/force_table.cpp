@@ -9,7 +9,9 @@
 #include <random>
 
 #include "terramech/cubic_spline.h"
+#include "terramech/force_table_axes.h"
 #include "terramech/input_error.h"
+#include "terramech/vector_math.h"
 
 #if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
 #define REGOPLAN_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3")))
@@ -22,33 +24,8 @@ namespace regoplan {
 namespace {
 
 using cubic_spline::Weights;
+using namespace force_table_axes;
 using Four [[gnu::vector_size(16)]] = float;
-
-constexpr double kSlipMaxDriving = 0.97, kSlipMaxBraking = 0.92;
-constexpr double kTanMax = 1.8807264653463320;  // tan(62 deg)
-constexpr std::size_t kPowers = 4;              // of v, in which Fx is a polynomial
-
-/// Close to the slip angle, for coordinates: within a milliradian, 0 at 0, and cheaper than atan2.
-struct NearlyAngle {
-  double rad, by_b, by_c;
-};
-[[gnu::always_inline]] inline NearlyAngle nearly_angle(double b, double c) {
-  const double whole = 1 / (b + c);
-  const double h = (c - b) * whole;  // tan(angle - 45 deg)
-  const double h2 = h * h;
-  constexpr double k1 = 0.995354, k3 = -0.288679, k5 = 0.079331;
-  const double slope = k1 + h2 * (3 * k3 + h2 * (5 * k5));
-  return {.rad = (k1 + k3 + k5) + h * (k1 + h2 * (k3 + h2 * k5)),
-          .by_b = -slope * 2 * c * whole * whole,
-          .by_c = slope * 2 * b * whole * whole};
-}
-
-/// The slip axis is t = sqrt(share): close to slip 0 the forces bend on either side of it, and
-/// close to a locked wheel the shear grows within a sliver. Driving, the share is slip over its
-/// end; braking, it is (q - 1)/(q + 3) with q = Vx/(r w), over its end.
-constexpr double kBrakingBend = 3;
-constexpr double kBrakingEnd =
-    kSlipMaxBraking / (1 + kBrakingBend - kBrakingBend * kSlipMaxBraking);
 
 double slip_max(bool driving) {
   return driving ? kSlipMaxDriving : kSlipMaxBraking;
@@ -68,7 +45,9 @@ double slip_at(double t, bool driving) {
 }
 
 [[gnu::always_inline]] inline double dot(Four a, const std::array<double, 4>& b) {
-  return double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2] + double(a[3]) * b[3];
+  const Four product = a * Four{static_cast<float>(b[0]), static_cast<float>(b[1]),
+                                static_cast<float>(b[2]), static_cast<float>(b[3])};
+  return (product[0] + product[2]) + (product[1] + product[3]);
 }
 
 /// Sums of the 4 x 4 rows of four coefficients that a state reaches.
@@ -101,7 +80,7 @@ struct ForceTable::Place {
   double a = 0, b = 0, c = 0;  // |rim|, |Vx|, |Vy|
   double x_sign = 1, y_sign = 0;
   double t = 0;  // sqrt(|slip|/slip_max)
-  NearlyAngle angle{};
+  NearlyAngle<double> angle{};
   double v = 0;  // angle/(angle + kx0/kx1): how far kx has grown
   double y = 0, ky_over = 0;
   double log_load_at = 0;  // in [0, 1]
@@ -131,7 +110,8 @@ double ForceTable::lateral_scale(double angle_rad) const {
   place.v = place.angle.rad / (place.angle.rad + kx_angle_rad_);
   place.ky_over = lateral_scale(place.angle.rad);
   place.y = place.c / (place.c + place.ky_over * place.a);
-  place.log_load_at = std::clamp((std::log(load_n) - log_load_min_) * loads_per_log_, 0.0, 1.0);
+  const double log_load = vector_math::log(vector_math::Vec{} + load_n)[0];
+  place.log_load_at = std::clamp((log_load - log_load_min_) * loads_per_log_, 0.0, 1.0);
   return true;
 }
 
@@ -180,36 +160,26 @@ REGOPLAN_VECTOR_CLONES WheelForces ForceTable::forces(double load_n,
           .status = status_at(at)};
 }
 
-REGOPLAN_VECTOR_CLONES std::vector<PlaneForces> ForceTable::plane_forces(
-    std::span<const double> loads_n, std::span<const WheelMotion> motions) const {
-  if (loads_n.size() != motions.size()) {
-    throw InputError(fmt::format("{} loads for {} motions", loads_n.size(), motions.size()));
+REGOPLAN_VECTOR_CLONES PlaneForces ForceTable::plane_forces(double load_n,
+                                                            const WheelMotion& motion) const {
+  Place at;
+  if (!place(load_n, motion, at)) [[unlikely]] {
+    const WheelForces forces = direct_.forces(load_n, motion);
+    return {forces.fx_n, forces.fy_n};
   }
-  std::vector<PlaneForces> result(loads_n.size());
+  const Side& side = sides_[at.driving];
+  const Weights load = cubic_spline::weights(at.log_load_at, grid_.loads);
+  const Weights slip = cubic_spline::weights(at.t, grid_.slips);
+  const Weights y = cubic_spline::weights(at.y, grid_.laterals);
   const std::size_t slips = cubic_spline::coefficients(grid_.slips);
   const std::size_t laterals = cubic_spline::coefficients(grid_.laterals);
-  for (std::size_t i = 0; i < loads_n.size(); ++i) {
-    const double load_n = loads_n[i];
-    Place at;
-    if (!place(load_n, motions[i], at)) [[unlikely]] {
-      const WheelForces forces = direct_.forces(load_n, motions[i]);
-      result[i] = {forces.fx_n, forces.fy_n};
-      continue;
-    }
-    const Side& side = sides_[at.driving];
-    const Weights load = cubic_spline::weights(at.log_load_at, grid_.loads);
-    const Weights slip = cubic_spline::weights(at.t, grid_.slips);
-    const Weights y = cubic_spline::weights(at.y, grid_.laterals);
-    const std::size_t row = load.first * slips + slip.first;
-    const std::array<double, 4> powers{1, at.v, at.v * at.v, at.v * at.v * at.v};
-    const Four fx =
-        contract(&side.fx[row * kPowers], slips * kPowers, kPowers, load.value, slip.value);
-    const Four fy = contract(&side.fy[row * laterals + y.first], slips * laterals, laterals,
-                             load.value, slip.value);
-    result[i] = {.fx_n = at.x_sign * load_n * dot(fx, powers),
-                 .fy_n = at.y_sign * load_n * dot(fy, y.value)};
-  }
-  return result;
+  const std::size_t row = load.first * slips + slip.first;
+  const Four fx =
+      contract(&side.fx[row * kPowers], slips * kPowers, kPowers, load.value, slip.value);
+  const Four fy = contract(&side.fy[row * laterals + y.first], slips * laterals, laterals,
+                           load.value, slip.value);
+  return {.fx_n = at.x_sign * load_n * dot(fx, {1, at.v, at.v * at.v, at.v * at.v * at.v}),
+          .fy_n = at.y_sign * load_n * dot(fy, y.value)};
 }
 
 namespace {
@@ -257,16 +227,16 @@ struct Partials {
                                                 const std::array<double, 4>& slope_by_last) {
   Four value{}, by_load{}, by_t{};
   for (std::size_t a = 0; a < 4; ++a) {
-    Four line{}, line_by_t{};
+    Four line{}, slope{};
     for (std::size_t b = 0; b < 4; ++b) {
       Four row;
       __builtin_memcpy(&row, first + a * load_stride + b * slip_stride, sizeof row);
       line += row * static_cast<float>(slip.value[b]);
-      line_by_t += row * static_cast<float>(slip.slope[b]);
+      slope += row * static_cast<float>(slip.slope[b]);
     }
     value += line * static_cast<float>(load.value[a]);
     by_load += line * static_cast<float>(load.slope[a]);
-    by_t += line_by_t * static_cast<float>(load.value[a]);
+    by_t += slope * static_cast<float>(load.value[a]);
   }
   return {.value = dot(value, last),
           .by_log_load = dot(by_load, last),
@@ -336,7 +306,7 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
 }
 
 double ForceTable::v_at(double tangent) const {
-  const double angle_rad = nearly_angle(1, tangent).rad;
+  const double angle_rad = nearly_angle(1.0, tangent).rad;
   return angle_rad / (angle_rad + kx_angle_rad_);
 }
 

@@ -25,7 +25,7 @@ struct TableAccuracy {
 struct ForceTableSpec {
   WheelModelSpec model;
   double nominal_load_n = 0;  ///< the table covers 2 to 300 % of it, as far as they are carried
-  TableAccuracy accuracy;
+  TableAccuracy accuracy = {};
 };
 
 /// What a check of a table against the direct model measured.
@@ -78,6 +78,9 @@ class ForceTable {
 
   /// Forces in the plane with their slopes; outside the table by differences of the direct model.
   SlopedForces forces_with_slopes(double load_n, const WheelMotion& motion) const;
+
+  /// The forces in the plane alone, the fastest answer to one state.
+  PlaneForces plane_forces(double load_n, const WheelMotion& motion) const;
 
   /// Many states at once. Not carried: zero forces, as in WheelForces.
   /// \throws InputError for arrays of different length

@@ -55,6 +55,14 @@ std::string inputs(const ForceTableSpec& spec) {
     put(stream, spec.model.soil.*parameter.member);
   }
   put(stream, spec.model.gravity_mps2);
+  for (const Mechanism& mechanism : spec.model.mechanisms) {
+    stream << mechanism.id << ' ' << mechanism.form;
+    for (const auto& [name, value] : mechanism.parameters) {
+      stream << ' ' << name << ' ';
+      put(stream, value);
+    }
+    stream << '\n';
+  }
   put(stream, spec.nominal_load_n);
   put(stream, spec.accuracy.at_999_permille);
   put(stream, spec.accuracy.at_worst);

@@ -186,8 +186,8 @@ double bulldozing_integral_n(const Ground& ground, const Contact& at) {
   const double h2 = i[2] - 2 * c_f * i[1] + c_f * c_f * i[0];
   const double h2c = i[3] - 2 * c_f * i[2] + c_f * c_f * i[1];
   const double h3c = i[4] - 3 * c_f * i[3] + 3 * c_f * c_f * i[2] - c_f * c_f * c_f * i[1];
-  return ground.bulldoze_d1 * (ground.soil.cohesion_pa * r * r * (h1 - h2c) +
-                               ground.bulldoze_weight * r * r * r * (h2 - h3c));
+  return ground.bulldoze_cohesion_pa * r * r * (h1 - h2c) +
+         ground.bulldoze_weight * r * r * r * (h2 - h3c);
 }
 
 REGOPLAN_VECTOR_CLONES Integrals integrate_8(const Ground& ground, const Contact& contact,
@@ -210,9 +210,9 @@ REGOPLAN_VECTOR_CLONES double side_force_12_n(const Ground& ground, const Contac
                                               const Ratios& ratios, double q, double bulldozing_n) {
   return side_force_at<12>(ground, contact, ratios, q, bulldozing_n);
 }
-REGOPLAN_VECTOR_CLONES double side_force_20_n(const Ground& ground, const Contact& contact,
+REGOPLAN_VECTOR_CLONES double side_force_24_n(const Ground& ground, const Contact& contact,
                                               const Ratios& ratios, double q, double bulldozing_n) {
-  return side_force_at<20>(ground, contact, ratios, q, bulldozing_n);
+  return side_force_at<24>(ground, contact, ratios, q, bulldozing_n);
 }
 
 }  // namespace
@@ -225,9 +225,10 @@ Ground::Ground(const Wheel& wheel_, const Soil& soil_, double gravity_mps2)
   tan_phi = std::tan(phi);
   sqrt_lambda = std::sqrt(soil.lambda);
   stress_scale_pa = std::pow(wheel.radius_m, soil.n) * (soil.kc / wheel.width_m + soil.kphi);
-  bulldoze_d1 = cot_xc + std::tan(xc + phi);
+  const double d1 = cot_xc + std::tan(xc + phi);
+  bulldoze_cohesion_pa = d1 * soil.cohesion_pa;
   const double d2 = cot_xc + cot_xc * cot_xc * tan_phi;
-  bulldoze_weight = d2 * soil.density_kgpm3 * gravity_mps2 / 2;
+  bulldoze_weight = d1 * d2 * soil.density_kgpm3 * gravity_mps2 / 2;
 }
 
 Contact contact_at(const Ground& ground, double theta_f_rad, double slip) {
@@ -252,10 +253,12 @@ Integrals integrate(const Ground& ground, const Contact& contact, const Ratios& 
   const bool nearly_locked = ratios.axle > kNearlyLocked || ratios.rim < 1;
   const bool shear_turns = ratios.axle > ratios.rim && ratios.axle * contact.cos_f < ratios.rim;
   if (accuracy == WheelAccuracy::kExact) {
-    return shear_turns || contact.cos_f < kAlmostSunkCosine ? integrate_40(ground, contact, ratios)
-                                                            : integrate_20(ground, contact, ratios);
+    return shear_turns || nearly_locked || contact.cos_f < kAlmostSunkCosine
+               ? integrate_40(ground, contact, ratios)
+               : integrate_20(ground, contact, ratios);
   }
-  if (shear_turns && contact.cos_f < kDeepCosine) return integrate_20(ground, contact, ratios);
+  if ((shear_turns && contact.cos_f < kDeepCosine) || contact.cos_f < kAlmostSunkCosine)
+    return integrate_20(ground, contact, ratios);
   return nearly_locked ? integrate_12(ground, contact, ratios)
                        : integrate_8(ground, contact, ratios);
 }
@@ -267,7 +270,14 @@ double side_force_n(const Ground& ground, const Contact& contact, const Ratios& 
   const double bulldozing_n = bulldozing_integral_n(ground, contact);
   return accuracy == WheelAccuracy::kFast
              ? side_force_12_n(ground, contact, ratios, stress_scale_q, bulldozing_n)
-             : side_force_20_n(ground, contact, ratios, stress_scale_q, bulldozing_n);
+             : side_force_24_n(ground, contact, ratios, stress_scale_q, bulldozing_n);
+}
+
+double bulldozing_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios) {
+  const double ky = ground.soil.ky0_m + ground.soil.ky1_m * ratios.beta_abs_rad;
+  const double mobilisation = -std::expm1(-ground.wheel.radius_m * ratios.lateral *
+                                          (contact.theta_f_rad - contact.theta_r_rad) / ky);
+  return mobilisation * bulldozing_integral_n(ground, contact);
 }
 
 }  // namespace regoplan::wheel_contact

@@ -6,7 +6,8 @@
 namespace regoplan {
 
 /// How closely the direct model is integrated and solved: `kFast` to 1.5e-4 of the load, `kExact`
-/// to 3e-6 (WheelAccuracy tests).
+/// to 3e-6 (WheelAccuracy tests). Within a tenth of the largest load that the soil carries Fz
+/// hardly rises with the sinkage, and both may be several times that.
 enum class WheelAccuracy { kFast, kExact };
 
 }  // namespace regoplan
@@ -20,9 +21,9 @@ struct Ground {
   Soil soil;
   double tan_phi = 0;
   double sqrt_lambda = 0;
-  double stress_scale_pa = 0;  ///< r^n (kc/b + kphi), eq. (5)
-  double bulldoze_d1 = 0;      ///< D1 = cot Xc + tan(Xc + phi), eq. (16)
-  double bulldoze_weight = 0;  ///< D2 rho g / 2, eq. (16), N/m^3
+  double stress_scale_pa = 0;       ///< r^n (kc/b + kphi), eq. (5)
+  double bulldoze_cohesion_pa = 0;  ///< D1 c with D1 = cot Xc + tan(Xc + phi), eq. (16)
+  double bulldoze_weight = 0;       ///< D1 D2 rho g / 2, eq. (16), N/m^3
 
   Ground(const Wheel& wheel, const Soil& soil, double gravity_mps2);
 };
@@ -78,5 +79,8 @@ Integrals integrate(const Ground& ground, const Contact& contact, const Ratios& 
 /// |Fy| = Fu + Fs, eqs. (9)-(17), with the mobilisation factor M of the bulldozing force.
 double side_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios,
                     double stress_scale_q, WheelAccuracy accuracy);
+
+/// M Fs alone, eqs. (16)(17).
+double bulldozing_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios);
 
 }  // namespace regoplan::wheel_contact

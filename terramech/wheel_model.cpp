@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "terramech/forward_motion.h"
 #include "terramech/input_error.h"
+#include "terramech/mechanism_model.h"
 
 namespace regoplan {
 namespace {
@@ -18,58 +20,7 @@ using wheel_contact::Ratios;
 using wheel_contact::Resultant;
 using wheel_contact::SinkageSolver;
 
-constexpr double kQuarterTurn = std::numbers::pi / 2;  // theta_f where the axle is at the surface
-constexpr double kMobilised = 1e12;                    // a displacement ratio that shears fully
-
-/// A motion told as ratios of a wheel that goes forward, and what turns the forces back.
-struct ForwardMotion {
-  Ratios ratios;
-  double x_sign = 1;  ///< -1: evaluated mirrored, Fx and T change sign
-  double y_sign = 0;
-  WheelStatus status = WheelStatus::kOk;
-};
-
-ForwardMotion forward_motion(const WheelMotion& motion) {
-  ForwardMotion forward;
-  double w = motion.rim_speed_mps;
-  double vx = motion.vx_mps;
-  const double vy = std::abs(motion.vy_mps);
-  if (w == 0 && vx == 0 && vy == 0) {
-    forward.ratios = {.rim = 0, .axle = 0};
-    forward.status = WheelStatus::kStandstill;
-    return forward;
-  }
-  if (w * vx < 0) {
-    w = 0;
-    forward.status = WheelStatus::kCounterRotating;
-  }
-  if (w < 0 || (w == 0 && vx < 0)) {
-    w = -w;
-    vx = -vx;
-    forward.x_sign = -1;
-  }
-  forward.y_sign = motion.vy_mps > 0 ? 1 : motion.vy_mps < 0 ? -1 : 0;
-  Ratios& ratios = forward.ratios;
-  ratios.beta_abs_rad = std::atan2(vy, vx);
-  if (w == 0) {
-    ratios.rim = 0;
-    ratios.axle = vx > 0 ? kMobilised : 0;
-    ratios.lateral = vy > 0 ? kMobilised : 0;
-    ratios.slip = vx > 0 ? -1 : 0;
-  } else {
-    ratios.axle = std::min(vx / w, kMobilised);
-    ratios.lateral = std::min(vy / w, kMobilised);
-    ratios.slip = ratios.axle <= 1 ? 1 - ratios.axle : 1 / ratios.axle - 1;
-  }
-  constexpr double kTrustedAngle = std::numbers::pi / 3;
-  constexpr double kRounding = 1e-9;
-  if (forward.status == WheelStatus::kOk &&
-      (ratios.slip < -0.9 - kRounding || ratios.slip > 0.95 + kRounding ||
-       ratios.beta_abs_rad > kTrustedAngle + kRounding)) {
-    forward.status = WheelStatus::kUntrusted;
-  }
-  return forward;
-}
+constexpr double kQuarterTurn = std::numbers::pi / 2;
 
 WheelForces forces_at(const Ground& ground, const Contact& contact, const Resultant& resultant,
                       double stress_scale_q, const ForwardMotion& forward, WheelAccuracy accuracy) {
@@ -171,15 +122,33 @@ WheelModel::WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy)
     : spec_(checked(spec)),
       accuracy_(accuracy),
       ground_(spec.wheel, spec.soil, spec.gravity_mps2),
-      solver_(ground_) {}
+      solver_(ground_) {
+  for (const Mechanism& mechanism : spec.mechanisms) mechanisms_.push_back(bind(mechanism));
+}
 
-WheelForces WheelModel::forces(double load_n, const WheelMotion& motion) const {
+namespace {
+
+void require_valid(double load_n, const WheelMotion& motion) {
   if (!(load_n > 0 && std::isfinite(load_n))) throw ValueError("load_n", load_n, "above 0");
   for (const auto& [field, value] :
        {std::pair{"vx_mps", motion.vx_mps}, std::pair{"vy_mps", motion.vy_mps},
         std::pair{"rim_speed_mps", motion.rim_speed_mps}}) {
     if (!std::isfinite(value)) throw ValueError(field, value, "a finite number");
   }
+}
+
+}  // namespace
+
+WheelChannels WheelModel::channels(double load_n, const WheelMotion& motion,
+                                   const WheelConditions& conditions) const {
+  require_valid(load_n, motion);
+  if (conditions.pass < 1) throw ValueError("pass", conditions.pass, "1 or more");
+  return mechanism_channels(*this, load_n, motion, conditions);
+}
+
+WheelForces WheelModel::forces(double load_n, const WheelMotion& motion) const {
+  require_valid(load_n, motion);
+  if (!mechanisms_.empty()) return mechanism_channels(*this, load_n, motion, {}).forces;
   const ForwardMotion forward = forward_motion(motion);
   return spec_.variant == WheelVariant::kIshigami2007
              ? solve_sinkage(solver_, ground_, load_n, forward, accuracy_)

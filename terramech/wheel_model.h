@@ -1,7 +1,10 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
+#include "terramech/mechanism.h"
+#include "terramech/mechanism_effects.h"
 #include "terramech/sinkage_solver.h"
 #include "terramech/soil.h"
 #include "terramech/wheel.h"
@@ -70,6 +73,15 @@ struct WheelModelSpec {
   Wheel wheel;
   Soil soil;
   double gravity_mps2 = 9.80665;
+  std::vector<Mechanism> mechanisms = {};  ///< empty: the base model
+};
+
+/// All that a single wheel shows, ruts included.
+struct WheelChannels {
+  WheelForces forces;
+  double rut_left_m = 0;  ///< depth at the left edge of the wheel
+  double rut_right_m = 0;
+  double roll_moment_nm = 0;  ///< of the normal stress about the wheel's x axis
 };
 
 /// The direct wheel model, immutable.
@@ -79,17 +91,28 @@ class WheelModel {
   explicit WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy = WheelAccuracy::kExact);
 
   /// Forces on the wheel under the given vertical load.
+  /// Mechanisms act as on a first pass at the motion's own speed.
   /// \param load_n > 0 \throws ValueError for a load that is not finite and positive, or a motion
   /// that is not finite
   WheelForces forces(double load_n, const WheelMotion& motion) const;
 
+  /// With ruts, and with what the mechanisms need to know of the conditions.
+  /// \throws ValueError as `forces`, and for a pass below 1
+  WheelChannels channels(double load_n, const WheelMotion& motion,
+                         const WheelConditions& conditions = {}) const;
+
   const WheelModelSpec& spec() const { return spec_; }
 
  private:
+  friend WheelChannels mechanism_channels(const WheelModel& model, double load_n,
+                                          const WheelMotion& motion,
+                                          const WheelConditions& conditions);
+
   WheelModelSpec spec_;
   WheelAccuracy accuracy_;
   wheel_contact::Ground ground_;
   wheel_contact::SinkageSolver solver_;
+  std::vector<BoundMechanism> mechanisms_;
 };
 
 }  // namespace regoplan

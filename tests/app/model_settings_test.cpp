@@ -34,9 +34,23 @@ TEST(ModelSettings, WhatCannotBeAModelIsAnErrorWithItsLine) {
   EXPECT_EQ(error_of("ishigami2007", "bekker1956"),
             "m.yaml:1: model: bekker1956 is not valid (allowed: ishigami2007 | yoshida2004)");
   EXPECT_EQ(error_of("ishigami2007", "yoshida2004"), "m.yaml:5: soil: c0_m is missing");
-  EXPECT_EQ(error_of("mechanisms: []", "mechanisms: [{id: slip_sinkage}]"),
-            "m.yaml:19: mechanisms[0].id: slip_sinkage is not valid (allowed: an empty list; no "
-            "mechanism is supported yet)");
+  EXPECT_TRUE(error_of("mechanisms: []", "mechanisms: [{id: stickiness}]")
+                  .starts_with("m.yaml:19: mechanisms[0]"));
+  EXPECT_TRUE(error_of("mechanisms: []",
+                       "mechanisms: [{id: slip_sinkage, form: exponent, parameters: {n9: 1}}]")
+                  .starts_with("m.yaml:19: mechanisms[0]"));
+}
+
+TEST(ModelSettings, MechanismsActOnTheForcesOfTheModel) {
+  const ModelSettings base = model(kSimulantModel);
+  const ModelSettings digging =
+      model(replaced(kSimulantModel, "mechanisms: []",
+                     "mechanisms: [{id: slip_sinkage, form: exponent, parameters: {n1: 0.3}}]"));
+  ASSERT_EQ(digging.spec.mechanisms.size(), 1u);
+  EXPECT_EQ(digging.spec.mechanisms[0].parameters.at("n1"), 0.3);
+  const WheelMotion slipping = motion_at(0.5, 0);
+  EXPECT_GT(WheelModel(digging.spec).forces(60, slipping).sinkage_m,
+            1.1 * WheelModel(base.spec).forces(60, slipping).sinkage_m);
 }
 
 }  // namespace

@@ -199,6 +199,9 @@ TEST(ForceTable, ManyStatesAtOnceAreTheSameStates) {
     const WheelForces one = table.forces(loads_n[i], motions[i]);
     EXPECT_NEAR(many[i].fx_n, one.fx_n, 2e-6 * loads_n[i]);
     EXPECT_NEAR(many[i].fy_n, one.fy_n, 2e-6 * loads_n[i]);
+    const PlaneForces plane = table.plane_forces(loads_n[i], motions[i]);
+    EXPECT_NEAR(plane.fx_n, one.fx_n, 2e-6 * loads_n[i]);
+    EXPECT_NEAR(plane.fy_n, one.fy_n, 2e-6 * loads_n[i]);
   }
   loads_n.pop_back();
   EXPECT_THROW(table.plane_forces(loads_n, motions), InputError);

@@ -39,14 +39,18 @@ void expect_within(WheelAccuracy accuracy, double bound) {
   for (const auto& [name, spec, nominal_load_n] : wheel_specs::all()) {
     const WheelModel model(spec, accuracy);
     const wheel_reference::Reference reference(spec, 1e-8);
-    for (const Condition& at : conditions(nominal_load_n, 160)) {
+    for (const Condition& at : conditions(nominal_load_n, 600)) {
       const auto expected = reference.forces(at.load_n, at.slip, at.beta_rad);
       const WheelForces forces = model.forces(at.load_n, motion_at(at.slip, at.beta_rad));
       const std::string where = name + " load " + std::to_string(at.load_n) + " slip " +
                                 std::to_string(at.slip) + " angle " + std::to_string(at.beta_rad);
       ASSERT_EQ(has_forces(forces.status), expected.carried) << where;
       if (!expected.carried) continue;
-      const double allowed = bound * at.load_n;
+      // Where the soil carries hardly more, Fz turns over: the sinkage is ill-conditioned.
+      constexpr double kAlmostAll = 1.5, kIllConditioned = 5;
+      const WheelForces heavier =
+          model.forces(kAlmostAll * at.load_n, motion_at(at.slip, at.beta_rad));
+      const double allowed = bound * at.load_n * (has_forces(heavier.status) ? 1 : kIllConditioned);
       EXPECT_NEAR(forces.fx_n, expected.fx_n, allowed) << where;
       EXPECT_NEAR(forces.fy_n, expected.fy_n, allowed) << where;
       EXPECT_NEAR(forces.torque_nm, expected.torque_nm, allowed * spec.wheel.radius_m) << where;

@@ -62,7 +62,7 @@ inline WheelModelSpec with_exponent(WheelModelSpec spec, double n, double kphi, 
   return spec;
 }
 
-/// A wheel of the size of the Apollo rover's on lunar soil (Carrier 1991: Lunar Sourcebook).
+/// A wheel of about the size of the Apollo rover's on numbers typical of lunar soil.
 inline WheelModelSpec lunar_rover() {
   return {.variant = WheelVariant::kIshigami2007,
           .wheel = {.radius_m = 0.41, .width_m = 0.23},

@@ -1,0 +1,154 @@
+#include "planner/cost_to_go.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <random>
+
+namespace regoplan {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kAcrossObstacle = 30;  // times the length: rather around it
+
+/// Smooth noise from 0 to 1: random values on a coarse lattice, bilinear between.
+class SmoothVariety {
+ public:
+  SmoothVariety(double width_m, double height_m, std::uint64_t seed)
+      : columns_(static_cast<std::size_t>(width_m / kSpacing_m) + 2) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    values_.resize(columns_ * (static_cast<std::size_t>(height_m / kSpacing_m) + 2));
+    for (double& value : values_) value = unit(random);
+  }
+  double at(double x_m, double y_m) const {
+    const double u = x_m / kSpacing_m, v = y_m / kSpacing_m;
+    const auto c = static_cast<std::size_t>(u), r = static_cast<std::size_t>(v);
+    const double* cell = values_.data() + r * columns_ + c;
+    const double s = u - static_cast<double>(c), t = v - static_cast<double>(r);
+    return std::lerp(std::lerp(cell[0], cell[1], s),
+                     std::lerp(cell[columns_], cell[columns_ + 1], s), t);
+  }
+
+ private:
+  static constexpr double kSpacing_m = 20;
+  std::size_t columns_;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+CostToGo::CostToGo(const PlanningProblem& problem, double variety, std::uint64_t seed)
+    : goal_{problem.goal.x_m, problem.goal.y_m} {
+  const GridFrame& frame = problem.map.elevation().frame;
+  const double width = frame.east_m() - frame.west_m, height = frame.north_m - frame.south_m();
+  constexpr double kFinest_m = 1, kMostCells = 512;
+  west_m_ = frame.west_m;
+  south_m_ = frame.south_m();
+  cell_m_ = std::max(kFinest_m, std::max(width, height) / kMostCells);
+  columns_ = std::max(1, static_cast<int>(std::ceil(width / cell_m_)));
+  rows_ = std::max(1, static_cast<int>(std::ceil(height / cell_m_)));
+  spread(dearness(problem, variety, seed));
+}
+
+CostToGo::Cell CostToGo::cell_at(double x_m, double y_m) const {
+  return {std::clamp(static_cast<int>((x_m - west_m_) / cell_m_), 0, columns_ - 1),
+          std::clamp(static_cast<int>((y_m - south_m_) / cell_m_), 0, rows_ - 1)};
+}
+
+CostToGo::Place CostToGo::centre(const Cell& cell) const {
+  return {west_m_ + (cell.column + 0.5) * cell_m_, south_m_ + (cell.row + 0.5) * cell_m_};
+}
+
+std::vector<double> CostToGo::dearness(const PlanningProblem& problem, double variety,
+                                       std::uint64_t seed) const {
+  const TerrainMap& map = problem.map;
+  const Vehicle& vehicle = problem.vehicle;
+  const double half_width = std::max(vehicle.body.y_max_m, -vehicle.body.y_min_m);
+  const double reach = half_width + 0.5 * cell_m_;
+  // Slopes at the vehicle's own scale.
+  const double span = std::max(half_width, cell_m_);
+  const SmoothVariety noise(columns_ * cell_m_, rows_ * cell_m_, seed);
+  std::vector<double> dear(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const Place at = centre({column, row});
+      double& value = dear[index({column, row})];
+      const double across =
+          map.height_m(at.x_m + span, at.y_m) - map.height_m(at.x_m - span, at.y_m);
+      const double along =
+          map.height_m(at.x_m, at.y_m + span) - map.height_m(at.x_m, at.y_m - span);
+      const double slope = std::atan(std::hypot(across, along) / (2 * span));
+      if (std::isnan(slope) || !map.soil_index(at.x_m, at.y_m)) {
+        value = kFar;
+        continue;
+      }
+      const double steepness = slope / problem.limits.slope_max_rad;
+      const bool blocked =
+          steepness > 1 || map.any_rock(at.x_m - reach, at.x_m + reach, at.y_m - reach,
+                                        at.y_m + reach, [&](const Rock& rock) {
+                                          return rock.height_m > vehicle.step_max_m &&
+                                                 std::hypot(rock.x_m - at.x_m, rock.y_m - at.y_m) <
+                                                     rock.radius_m + reach;
+                                        });
+      value = (blocked ? kAcrossObstacle : 1 + 3 * steepness * steepness) +
+              variety * noise.at(at.x_m - west_m_, at.y_m - south_m_);
+    }
+  }
+  return dear;
+}
+
+void CostToGo::spread(const std::vector<double>& dearness) {
+  using Entry = std::pair<double, std::size_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  cost_m_.assign(dearness.size(), kFar);
+  const std::size_t goal = index(cell_at(goal_.x_m, goal_.y_m));
+  cost_m_[goal] = 0;
+  open.emplace(0, goal);
+  while (!open.empty()) {
+    const auto [cost, at] = open.top();
+    open.pop();
+    if (cost > cost_m_[at]) continue;
+    const int column = static_cast<int>(at % static_cast<std::size_t>(columns_));
+    const int row = static_cast<int>(at / static_cast<std::size_t>(columns_));
+    for (int dr = -1; dr <= 1; ++dr) {
+      for (int dc = -1; dc <= 1; ++dc) {
+        const Cell next{column + dc, row + dr};
+        if ((dr == 0 && dc == 0) || next.column < 0 || next.column >= columns_ || next.row < 0 ||
+            next.row >= rows_) {
+          continue;
+        }
+        const std::size_t i = index(next);
+        const double there = cost + cell_m_ * std::hypot(dr, dc) * (dearness[at] + dearness[i]) / 2;
+        if (there < cost_m_[i]) {
+          cost_m_[i] = there;
+          open.emplace(there, i);
+        }
+      }
+    }
+  }
+}
+
+CostToGo::Place CostToGo::ahead(double x_m, double y_m, double distance_m) const {
+  Cell at = cell_at(x_m, y_m);
+  const Cell goal = cell_at(goal_.x_m, goal_.y_m);
+  double travelled = 0;
+  while (travelled < distance_m && index(at) != index(goal)) {
+    Cell best = at;
+    for (int dr = -1; dr <= 1; ++dr) {
+      for (int dc = -1; dc <= 1; ++dc) {
+        const Cell next{std::clamp(at.column + dc, 0, columns_ - 1),
+                        std::clamp(at.row + dr, 0, rows_ - 1)};
+        if (cost_m_[index(next)] < cost_m_[index(best)]) best = next;
+      }
+    }
+    if (index(best) == index(at)) break;  // the goal cannot be reached from here
+    travelled += cell_m_ * std::hypot(best.column - at.column, best.row - at.row);
+    at = best;
+  }
+  return index(at) == index(goal) ? goal_ : centre(at);
+}
+
+}  // namespace regoplan

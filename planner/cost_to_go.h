@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "planner/planning_problem.h"
+
+namespace regoplan {
+
+/// Rough cost of the way from everywhere to the goal, by Dijkstra's algorithm over a grid of about
+/// a metre: length, dearer on slopes, near obstacles and across them. It knows nothing of the
+/// vehicle's dynamics; searches use it to choose where to steer, and nothing is decided by it.
+class CostToGo {
+ public:
+  /// \param variety 0: the cheapest way; above: cells are made dearer at random by up to so many
+  /// times, smoothly over some metres, so that other ways round become the cheapest
+  CostToGo(const PlanningProblem& problem, double variety, std::uint64_t seed);
+
+  struct Place {
+    double x_m = 0;
+    double y_m = 0;
+  };
+  /// The place that lies a distance ahead on the cheapest way to the goal; the goal where that is
+  /// nearer.
+  Place ahead(double x_m, double y_m, double distance_m) const;
+
+ private:
+  struct Cell {
+    int column = 0;
+    int row = 0;
+  };
+  Cell cell_at(double x_m, double y_m) const;
+  Place centre(const Cell& cell) const;
+  std::size_t index(const Cell& cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(cell.column);
+  }
+  std::vector<double> dearness(const PlanningProblem& problem, double variety,
+                               std::uint64_t seed) const;
+  void spread(const std::vector<double>& dearness);
+
+  Place goal_;
+  double west_m_, south_m_, cell_m_;
+  int columns_, rows_;
+  std::vector<double> cost_m_;
+};
+
+}  // namespace regoplan

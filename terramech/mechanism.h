@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace regoplan {
+
+/// Something that the base wheel model leaves out, in one of its published forms. Parameters that
+/// are not named take the middle of their usual range.
+struct Mechanism {
+  std::string id;    ///< `slip_sinkage`, ...
+  std::string form;  ///< `exponent`, ...; empty: the first form of the id
+  std::map<std::string, double> parameters;
+};
+
+/// What some mechanisms need to know beside load and motion.
+struct WheelConditions {
+  int pass = 1;           ///< how often a wheel has come by, this time included
+  double speed_mps = 0;   ///< travel speed; 0: that of the motion
+  double position_m = 0;  ///< along the bed or map
+  double time_s = 0;
+  double heading_rad = 0;  ///< of the wheel, from the direction in which the bed was levelled
+  double wheel_angle_rad = 0;
+};
+
+struct MechanismParameter {
+  std::string_view name;  ///< unit included
+  double low, high;       ///< usual range; a value beyond is valid as long as it is finite
+  double typical;
+};
+
+/// One functional form of a mechanism.
+struct MechanismForm {
+  std::string_view id;
+  std::string_view form;
+  std::string_view formula;
+  std::string_view source;
+  std::vector<MechanismParameter> parameters;
+};
+
+/// All forms of all mechanisms that act on a single wheel in steady state. Faults of instruments
+/// (sensor_bias and the like) and transients (sensor_delay, actuator_lag) are not physics of the
+/// wheel and not among them.
+const std::vector<MechanismForm>& mechanism_forms();
+
+/// The form that a mechanism names.
+/// \throws InputError where id, form or a parameter's name is unknown (listing the known ones), or
+/// a parameter is not finite
+const MechanismForm& form_of(const Mechanism& mechanism);
+
+}  // namespace regoplan

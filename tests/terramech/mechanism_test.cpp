@@ -1,0 +1,297 @@
+// Mechanisms: each is a bundle of signs over the channels, in conditions where it acts and in
+// conditions where it must not.
+#include "terramech/mechanism.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "terramech/force_table.h"
+#include "terramech/input_error.h"
+#include "terramech/wheel_model.h"
+#include "tests/terramech/wheel_specs.h"
+
+namespace regoplan {
+namespace {
+
+using wheel_specs::kDegree;
+
+WheelModel with(WheelModelSpec spec, const std::string& id, const std::string& form = "",
+                std::map<std::string, double> parameters = {}) {
+  spec.mechanisms.push_back({id, form, std::move(parameters)});
+  return WheelModel(spec);
+}
+
+struct Case {
+  std::string id, form;
+  double slip, beta_deg, load_n;
+  std::string fx, fy, torque, sinkage;  ///< "+", "-", "0" (not at all), "~" (little), "?" (open)
+  WheelConditions conditions = {};
+};
+
+/// Change of a channel against what is little: .15 % of the load.
+void expect_sign(double change, double scale, const std::string& sign, const std::string& where) {
+  constexpr double kLittle = 0.0015;
+  if (sign == "+") {
+    EXPECT_GT(change, kLittle * scale) << where;
+  }
+  if (sign == "-") {
+    EXPECT_LT(change, -kLittle * scale) << where;
+  }
+  if (sign == "0") {
+    EXPECT_NEAR(change, 0, 1e-6 * scale) << where;
+  }
+  if (sign == "~") {
+    EXPECT_NEAR(change, 0, 5 * kLittle * scale) << where;
+  }
+}
+
+/// Dry sand whose shear is mobilised at moderate slip. Where it is not (the simulant's kx is 40 %
+/// of that wheel's radius) or where cohesion counts, a longer contact pulls more, and Fx rises with
+/// sinkage.
+WheelModelSpec mobilised() {
+  WheelModelSpec spec = wheel_specs::ishigami2007();
+  spec.soil.cohesion_pa = 150;
+  spec.soil.lambda = 0;
+  spec.soil.kx0_m = 0.004;
+  spec.soil.ky0_m = 0.010;
+  spec.soil.kx1_m = spec.soil.ky1_m = 0;
+  return spec;
+}
+
+void expect_bundle(const Case& at) {
+  const WheelModelSpec spec = mobilised();
+  const WheelMotion motion = motion_at(at.slip, at.beta_deg * kDegree);
+  const WheelForces base = WheelModel(spec).forces(at.load_n, motion);
+  const WheelForces changed =
+      with(spec, at.id, at.form).channels(at.load_n, motion, at.conditions).forces;
+  ASSERT_TRUE(has_forces(changed.status)) << at.id;
+  const std::string where = at.id + " " + at.form + " at slip " + std::to_string(at.slip) +
+                            ", slip angle " + std::to_string(at.beta_deg);
+  expect_sign(changed.fx_n - base.fx_n, at.load_n, at.fx, where + ": fx");
+  expect_sign(changed.fy_n - base.fy_n, at.load_n, at.fy, where + ": fy");
+  expect_sign(changed.torque_nm - base.torque_nm, at.load_n * spec.wheel.radius_m, at.torque,
+              where + ": torque");
+  expect_sign(changed.sinkage_m - base.sinkage_m, base.sinkage_m, at.sinkage, where + ": sinkage");
+}
+
+const std::vector<Case> kBundles{
+    // id, form, slip, slip angle, load: fx, fy, torque, sinkage
+    {"slip_sinkage", "exponent", 0.5, 0, 60, "-", "0", "?", "+"},
+    {"slip_sinkage", "exponent", -0.3, 0, 60, "0", "0", "0", "0"},
+    {"slip_sinkage", "lyasko", 0.5, 0, 60, "-", "0", "+", "+"},
+    {"slip_sinkage", "lyasko", -0.3, 10, 60, "0", "0", "0", "0"},
+    {"slip_sinkage", "linear", 0.5, 0, 60, "-", "0", "+", "+"},
+    {"slip_sinkage", "hyperbolic", 0.5, 0, 60, "-", "0", "?", "+"},
+    {"lateral_digging", "sine", 0.2, 20, 60, "?", "+", "?", "+"},
+    {"lateral_digging", "sine", 0.2, 0, 60, "0", "0", "0", "0"},
+    {"rut_asymmetry", "tilt", 0.2, 20, 60, "~", "?", "~", "~"},
+    {"rut_asymmetry", "tilt", 0.2, 4, 60, "0", "0", "0", "0"},
+    {"shear_modulus_slip_angle", "linear", 0.4, 30, 60, "-", "-", "-", "?"},
+    {"shear_modulus_slip_angle", "linear", 0.4, 0, 60, "0", "0", "0", "0"},
+    {"coupled_shear", "displacement", 0.5, 30, 60, "-", "-", "-", "?"},
+    {"coupled_shear", "slip_velocity", 0.5, 30, 60, "-", "-", "-", "?"},
+    {"coupled_shear", "displacement", 0.3, 0, 60, "0", "0", "0", "0"},
+    {"grousers", "passive_pressure", 0.4, 0, 60, "+", "0", "+", "+"},
+    {"grousers", "passive_pressure", -0.3, 0, 60, "0", "0", "0", "0"},
+    {"grousers", "effective_radius", 0.4, 0, 60, "+", "0", "+", "+"},
+    {"grousers", "effective_radius", -0.3, 0, 60, "0", "0", "0", "0"},
+    {"side_pileup", "raised", 0.2, 20, 120, "0", "+", "0", "0"},
+    {"side_pileup", "raised", 0.2, 0, 120, "0", "0", "0", "0"},
+    {"side_pileup", "surcharge", 0.2, 20, 120, "0", "+", "0", "0"},
+    {"front_bulldozing", "passive", 0.3, 0, 60, "-", "0", "0", "0"},
+    {"front_bulldozing", "passive", -0.3, 0, 60, "-", "0", "0", "0"},
+    {"rear_contact", "linear", 0.5, 0, 60, "?", "0", "?", "-"},
+    {"rear_contact", "linear", 0, 0, 60, "0", "0", "0", "0"},
+    {"max_stress_angle", "linear", 0.2, 30, 60, "-", "?", "?", "?"},
+    {"max_stress_angle", "linear", 0.2, 0, 60, "0", "0", "0", "0"},
+    {"skid_branch", "reversal", -0.5, 0, 60, "?", "0", "?", "+"},
+    {"skid_branch", "reversal", 0.3, 20, 60, "0", "0", "0", "0"},
+    {"multi_pass", "stiffening", 0.3, 0, 60, "+", "0", "?", "-", {.pass = 2}},
+    {"multi_pass", "stiffening", 0.3, 0, 60, "0", "0", "0", "0", {.pass = 1}},
+    {"multi_pass", "compaction", 0.3, 0, 60, "+", "0", "+", "-", {.pass = 2}},
+    {"multi_pass", "compaction", 0.3, 0, 60, "0", "0", "0", "0", {.pass = 1}},
+    {"rate_dependence", "stiffness", 0.2, 0, 60, "?", "0", "?", "-", {.speed_mps = 0.5}},
+    {"rate_dependence", "stiffness", 0.2, 0, 60, "0", "0", "0", "0", {.speed_mps = 0.05}},
+    {"rate_dependence", "shear_limit", 0.4, 0, 60, "+", "0", "+", "?", {.speed_mps = 0.5}},
+    {"rate_dependence", "inertia", 0.4, 0, 60, "-", "0", "0", "0", {.speed_mps = 1}},
+    {"rate_dependence", "inertia", 0.4, 0, 60, "~", "0", "0", "0", {.speed_mps = 0.01}},
+    {"layered_soil", "hard_below", 0.2, 0, 120, "?", "0", "?", "-"},
+    {"layered_soil", "crust", 0.2, 0, 60, "?", "0", "?", "+"},
+    {"soil_zone", "factors", 0.3, 0, 60, "-", "0", "?", "+", {.position_m = 0.5}},
+    {"soil_zone", "factors", 0.3, 0, 60, "0", "0", "0", "0", {.position_m = 2}},
+    {"cohesion_drift", "linear", 0.5, 0, 5, "-", "0", "-", "?", {.time_s = 20000}},
+    {"cohesion_drift", "linear", 0.5, 0, 5, "0", "0", "0", "0", {.time_s = 0}},
+    {"cohesion_drift", "drying", 0.5, 0, 5, "-", "0", "-", "?", {.time_s = 30000}},
+    {"shear_hump", "wong", 0.6, 0, 60, "?", "0", "?", "?"},
+    {"slope_tilt", "gravity", 0.2, 10, 60, "-", "0", "0", "0"},
+    {"slope_tilt", "gravity", 0.2, 10, 60, "+", "0", "0", "0", {.heading_rad = std::numbers::pi}},
+    {"slope_tilt",
+     "gravity",
+     0.2,
+     0,
+     60,
+     "~",
+     "+",
+     "0",
+     "0",
+     {.heading_rad = std::numbers::pi / 2}},
+    {"flexible_wheel", "substitute_circle", 0.2, 0, 120, "?", "0", "?", "-"},
+    {"sidewall_shear", "segment", 0.3, 0, 120, "0", "0", "+", "0"},
+    {"bearing_drag", "linear", 0.3, 10, 60, "0", "0", "+", "0"},
+    {"load_transfer", "proportional", 0.3, 10, 60, "+", "+", "+", "+"},
+    {"load_transfer", "offset", 0.3, 10, 60, "+", "+", "+", "+"},
+    {"slip_scale", "rim_speed", 0.05, 0, 60, "+", "0", "+", "?"},
+};
+
+}  // namespace
+
+TEST(Mechanism, HasItsBundleOfSigns) {
+  for (const Case& at : kBundles) expect_bundle(at);
+}
+
+TEST(Mechanism, EveryFormHasABundle) {
+  for (const MechanismForm& form : mechanism_forms()) {
+    EXPECT_TRUE(std::ranges::any_of(
+        kBundles, [&](const Case& at) { return at.id == form.id && at.form == form.form; }))
+        << form.id << " " << form.form;
+    EXPECT_FALSE(form.source.empty());
+    EXPECT_FALSE(form.formula.empty());
+    for (const MechanismParameter& parameter : form.parameters) {
+      EXPECT_LT(parameter.low, parameter.high) << form.id << " " << parameter.name;
+      EXPECT_GE(parameter.typical, parameter.low) << form.id << " " << parameter.name;
+      EXPECT_LE(parameter.typical, parameter.high) << form.id << " " << parameter.name;
+    }
+  }
+}
+
+TEST(Mechanism, EveryFormIsFiniteAndSymmetricOverTheDomain) {
+  for (const auto& named : wheel_specs::all()) {
+    for (const MechanismForm& form : mechanism_forms()) {
+      const WheelModel model = with(named.spec, std::string(form.id), std::string(form.form));
+      for (const double slip : {-1.0, -0.5, 0.0, 0.4, 1.0}) {
+        for (const double beta_deg : {0.0, 10.0, 60.0}) {
+          const WheelForces left =
+              model.forces(named.nominal_load_n, motion_at(slip, beta_deg * kDegree));
+          const WheelForces right =
+              model.forces(named.nominal_load_n, motion_at(slip, -beta_deg * kDegree));
+          const std::string where = named.name + " " + std::string(form.id) + " " +
+                                    std::string(form.form) + " " + std::to_string(slip);
+          EXPECT_TRUE(std::isfinite(left.fx_n + left.fy_n + left.torque_nm + left.sinkage_m))
+              << where;
+          EXPECT_EQ(left.status, right.status) << where;
+          EXPECT_EQ(left.fx_n, right.fx_n) << where;
+          EXPECT_EQ(left.fy_n, -right.fy_n) << where;
+        }
+      }
+    }
+  }
+}
+
+TEST(Mechanism, WithoutMechanismsTheChannelsAreTheBaseModel) {
+  for (const auto& named : wheel_specs::all()) {
+    const WheelModel model(named.spec);
+    const WheelMotion motion = motion_at(0.3, 0.2);
+    const WheelForces forces = model.forces(named.nominal_load_n, motion);
+    const WheelForces channels = model.channels(named.nominal_load_n, motion).forces;
+    EXPECT_NEAR(channels.fx_n, forces.fx_n, 1e-6 * named.nominal_load_n);
+    EXPECT_NEAR(channels.fy_n, forces.fy_n, 1e-6 * named.nominal_load_n);
+  }
+}
+
+TEST(Mechanism, OwnIntegralsAgreeWithTheBaseModelWhereTheMechanismIsIdle) {
+  for (const auto& named : wheel_specs::all()) {
+    const WheelModel base(named.spec);
+    const WheelModel layered = with(named.spec, "layered_soil", "hard_below", {{"ratio", 1}});
+    for (const double slip : {-0.7, 0.0, 0.5}) {
+      const WheelMotion motion = motion_at(slip, 0.3);
+      const WheelForces a = base.forces(named.nominal_load_n, motion);
+      const WheelForces b = layered.forces(named.nominal_load_n, motion);
+      EXPECT_NEAR(b.fx_n, a.fx_n, 2e-5 * named.nominal_load_n) << named.name << " " << slip;
+      EXPECT_NEAR(b.fy_n, a.fy_n, 2e-5 * named.nominal_load_n) << named.name << " " << slip;
+    }
+  }
+}
+
+TEST(Mechanism, CoupledShearStaysWithinOneMohrCoulombLimit) {
+  const WheelModelSpec spec = wheel_specs::ishigami2007();
+  const WheelModel base(spec), coupled = with(spec, "coupled_shear");
+  // Dragged sideways and spinning at once, the base model counts the limit twice.
+  const WheelMotion motion{0.5, 2, 3};
+  const WheelForces a = base.forces(60, motion), b = coupled.forces(60, motion);
+  EXPECT_LT(std::hypot(b.fx_n, b.fy_n), std::hypot(a.fx_n, a.fy_n));
+  EXPECT_LT(b.torque_nm, 0.9 * a.torque_nm);
+}
+
+TEST(Mechanism, TheInnerSideOfTheRutIsDeeper) {
+  const WheelModel model = with(wheel_specs::ishigami2007(), "rut_asymmetry");
+  const WheelChannels left = model.channels(60, motion_at(0.2, 20 * kDegree));
+  EXPECT_GT(left.rut_right_m, left.rut_left_m + 0.001);
+  EXPECT_NE(left.roll_moment_nm, 0);
+  const WheelChannels right = model.channels(60, motion_at(0.2, -20 * kDegree));
+  EXPECT_EQ(right.rut_left_m, left.rut_right_m);
+  EXPECT_EQ(right.roll_moment_nm, -left.roll_moment_nm);
+}
+
+TEST(Mechanism, LugsRippleWithTheWheelAngle) {
+  const WheelModel model = with(wheel_specs::ishigami2007(), "grousers", "passive_pressure",
+                                {{"ripple", 0.4}, {"lugs", 24}});
+  const auto fx = [&](double wheel_angle_rad) {
+    return model.channels(60, motion_at(0.4, 0), {.wheel_angle_rad = wheel_angle_rad}).forces.fx_n;
+  };
+  EXPECT_GT(fx(0), fx(std::numbers::pi / 24));
+  EXPECT_NEAR(fx(0), fx(2 * std::numbers::pi / 24), 1e-9);
+}
+
+TEST(Mechanism, TheHumpPeaksAtItsModulusAndFallsToItsResidual) {
+  WheelModelSpec spec = wheel_specs::yoshida2004();
+  spec.soil.c0_m = 0;
+  const WheelModel base(spec), hump = with(spec, "shear_hump", "", {{"residual", 0.5}});
+  EXPECT_GT(hump.forces(60, motion_at(0.1, 0)).torque_nm,
+            base.forces(60, motion_at(0.1, 0)).torque_nm);
+  EXPECT_LT(hump.forces(60, motion_at(0.95, 0)).torque_nm,
+            0.9 * base.forces(60, motion_at(0.95, 0)).torque_nm);
+}
+
+TEST(Mechanism, SeveralActTogether) {
+  WheelModelSpec spec = wheel_specs::ishigami2007();
+  spec.mechanisms = {{"slip_sinkage", "linear", {}}, {"bearing_drag", "", {{"t0_nm", 0.1}}}};
+  const WheelMotion motion = motion_at(0.5, 0.1);
+  const WheelForces both = WheelModel(spec).forces(60, motion);
+  const WheelForces digging =
+      with(wheel_specs::ishigami2007(), "slip_sinkage", "linear").forces(60, motion);
+  EXPECT_EQ(both.sinkage_m, digging.sinkage_m);
+  EXPECT_GT(both.torque_nm, digging.torque_nm + 0.09);
+}
+
+TEST(Mechanism, CanBeTabulated) {
+  WheelModelSpec spec = wheel_specs::ishigami2007();
+  spec.mechanisms = {{"slip_sinkage", "lyasko", {}}};
+  const ForceTable table({.model = spec, .nominal_load_n = 60});
+  EXPECT_LE(table.check(5000, 2000, 3).at_worst, 5e-3);
+}
+
+TEST(Mechanism, NamesWhatItDoesNotKnow) {
+  const auto message = [](const Mechanism& mechanism) -> std::string {
+    try {
+      form_of(mechanism);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message({"magic", "", {}}).find("slip_sinkage"), std::string::npos);
+  EXPECT_NE(message({"slip_sinkage", "magic", {}}).find("lyasko"), std::string::npos);
+  EXPECT_NE(message({"slip_sinkage", "exponent", {{"n3", 1}}}).find("n1"), std::string::npos);
+  EXPECT_NE(message({"slip_sinkage", "exponent", {{"n1", std::nan("")}}}), "");
+  EXPECT_EQ(message({"slip_sinkage", "", {{"n1", 0.2}}}), "");
+  WheelModelSpec spec = wheel_specs::ishigami2007();
+  spec.mechanisms = {{"magic", "", {}}};
+  EXPECT_THROW(WheelModel{spec}, InputError);
+  EXPECT_THROW(WheelModel(wheel_specs::ishigami2007()).channels(60, motion_at(0, 0), {.pass = 0}),
+               ValueError);
+}
+
+}  // namespace regoplan
