@@ -73,6 +73,11 @@ const std::vector<std::string>& drive_law_names() {
   return names;
 }
 
+const std::vector<std::string>& steering_names() {
+  static const std::vector<std::string> names{"ackermann", "crab", "skid"};
+  return names;
+}
+
 WheelMount read_wheel_mount(const SettingsNode& node) {
   return read_mapping(node, [](SettingsMapping& mapping) {
     return WheelMount{.name = mapping.required("name").text(),
@@ -124,6 +129,12 @@ Vehicle read_vehicle(const SettingsNode& node) {
     if (const SettingsNode* law = mapping.optional("drive_law")) {
       vehicle.drive_law = static_cast<DriveLaw>(law->choice(drive_law_names()));
     }
+    if (const SettingsNode* steering = mapping.optional("steering")) {
+      vehicle.steering = static_cast<Steering>(steering->choice(steering_names()));
+    }
+    if (const SettingsNode* torque = mapping.optional("torque_max_nm")) {
+      vehicle.torque_max_nm = torque->number(kAbove0);
+    }
     validate(vehicle);
     return vehicle;
   });
@@ -162,8 +173,11 @@ std::string vehicle_text(const Vehicle& vehicle) {
         fmt::format("rocker_bogie: {{rocker_pivot_x_m: {}, bogie_pivot_x_m: {}}}\n",
                     vehicle.rocker_bogie->rocker_pivot_x_m, vehicle.rocker_bogie->bogie_pivot_x_m);
   }
-  text += fmt::format("drive_law: {}\nbody:\n",
-                      drive_law_names()[static_cast<std::size_t>(vehicle.drive_law)]);
+  text += fmt::format("drive_law: {}\nsteering: {}\n",
+                      drive_law_names()[static_cast<std::size_t>(vehicle.drive_law)],
+                      steering_names()[static_cast<std::size_t>(vehicle.steering)]);
+  if (vehicle.torque_max_nm) text += fmt::format("torque_max_nm: {}\n", *vehicle.torque_max_nm);
+  text += "body:\n";
   for (const BodyNumber& number : kBodyNumbers) {
     text += fmt::format("  {}: {}\n", number.key, vehicle.body.*number.member);
   }

@@ -2,9 +2,11 @@
 #include <benchmark/benchmark.h>
 
 #include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
+#include "terramech/force_table.h"
 #include "terramech/state_margins.h"
 
 namespace regoplan {
@@ -12,19 +14,23 @@ namespace {
 
 constexpr double kMoon_mps2 = 1.62;
 
+enum class Law { kDirectFast, kDirectExact, kTable };
+
 /// An LRV on firm lunar regolith.
 struct Lrv {
   Vehicle vehicle = preset_vehicle("lrv");
+  double weight_n = vehicle.mass_kg * kMoon_mps2;
   WheelModel model;
+  std::optional<ForceTable> table;
+  WheelLaw law;
   std::vector<WheelLaw> laws;
   LoadSharing sharing{vehicle};
-  double weight_n = vehicle.mass_kg * kMoon_mps2;
   TrimLimits limits{.slip_angle_max_rad = vehicle.slip_angle_max_rad,
                     .slip_max = vehicle.slip_max,
                     .sinkage_max_m = vehicle.sinkage_max_m,
                     .steer_angle_max_rad = vehicle.steer_angle_max_rad};
 
-  explicit Lrv(WheelAccuracy accuracy)
+  explicit Lrv(Law kind)
       : model({.variant = WheelVariant::kIshigami2007,
                .wheel = vehicle.wheel,
                .soil = {.cohesion_pa = 170,
@@ -41,8 +47,18 @@ struct Lrv {
                         .ky0_m = 0.013,
                         .ky1_m = 0.020},
                .gravity_mps2 = kMoon_mps2},
-              accuracy),
-        laws(vehicle.wheels.size(), WheelLaw(model)) {}
+              kind == Law::kDirectExact ? WheelAccuracy::kExact : WheelAccuracy::kFast),
+        table(kind == Law::kTable
+                  ? std::optional<ForceTable>(ForceTableSpec{
+                        .model = model.spec(),
+                        .nominal_load_n = weight_n / static_cast<double>(vehicle.wheels.size()),
+                        // as searches use it
+                        .accuracy = {.at_999_permille = 5e-3, .at_worst = 2e-2}})
+                  : std::nullopt),
+        law(table ? WheelLaw(*table) : WheelLaw(model)),
+        laws(vehicle.wheels.size(), law) {}
+  Lrv(const Lrv&) = delete;
+  Lrv& operator=(const Lrv&) = delete;
 };
 
 /// Curvatures and forward forces as searches ask for.
@@ -62,9 +78,8 @@ std::vector<Asked> questions(const Lrv& lrv) {
 }
 
 /// A slalom on a slope, started anew every 10 s.
-void vehicle_step(benchmark::State& state, WheelAccuracy accuracy, double speed_mps,
-                  double step_s) {
-  const Lrv lrv(accuracy);
+void vehicle_step(benchmark::State& state, Law law, double speed_mps, double step_s) {
+  const Lrv lrv(law);
   const VehicleDynamics dynamics(
       lrv.vehicle, lrv.laws,
       [](double, double, double) {
@@ -85,13 +100,16 @@ void vehicle_step(benchmark::State& state, WheelAccuracy accuracy, double speed_
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_CAPTURE(vehicle_step, fast_3_mps, WheelAccuracy::kFast, 3, 0.1);
-BENCHMARK_CAPTURE(vehicle_step, exact_3_mps, WheelAccuracy::kExact, 3, 0.1);
-BENCHMARK_CAPTURE(vehicle_step, exact_3_mps_fine, WheelAccuracy::kExact, 3, 0.01);
-BENCHMARK_CAPTURE(vehicle_step, fast_0p05_mps, WheelAccuracy::kFast, 0.05, 0.5);
+BENCHMARK_CAPTURE(vehicle_step, table_3_mps, Law::kTable, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, table_0p3_mps, Law::kTable, 0.3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, table_0p05_mps, Law::kTable, 0.05, 0.5);
+BENCHMARK_CAPTURE(vehicle_step, fast_3_mps, Law::kDirectFast, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, exact_3_mps, Law::kDirectExact, 3, 0.1);
+BENCHMARK_CAPTURE(vehicle_step, exact_3_mps_fine, Law::kDirectExact, 3, 0.01);
+BENCHMARK_CAPTURE(vehicle_step, fast_0p05_mps, Law::kDirectFast, 0.05, 0.5);
 
-void supply_solved(benchmark::State& state, WheelAccuracy accuracy) {
-  const Lrv lrv(accuracy);
+void supply_solved(benchmark::State& state, Law law) {
+  const Lrv lrv(law);
   const std::vector<Asked> asked = questions(lrv);
   std::size_t i = 0;
   for ([[maybe_unused]] auto _ : state) {
@@ -102,16 +120,38 @@ void supply_solved(benchmark::State& state, WheelAccuracy accuracy) {
   }
   state.SetItemsProcessed(state.iterations());
 }
-BENCHMARK_CAPTURE(supply_solved, fast, WheelAccuracy::kFast);
-BENCHMARK_CAPTURE(supply_solved, exact, WheelAccuracy::kExact);
+BENCHMARK_CAPTURE(supply_solved, table, Law::kTable);
+BENCHMARK_CAPTURE(supply_solved, fast, Law::kDirectFast);
+BENCHMARK_CAPTURE(supply_solved, exact, Law::kDirectExact);
+
+/// A curve of 100 trims: lateral force from none to what the slip angle allows, each trim from the
+/// one before.
+void supply_curve(benchmark::State& state, Law law) {
+  const Lrv lrv(law);
+  const SteadyManoeuvre manoeuvre(lrv.vehicle, lrv.sharing, lrv.laws, 0.1, lrv.weight_n);
+  const ForceLine line{.from = {}, .per_unit = {.forward_n = 0, .left_n = lrv.weight_n}};
+  for ([[maybe_unused]] auto _ : state) {
+    auto at = manoeuvre.solve_from_rolling(line);
+    constexpr int kTrims = 100;
+    for (int i = 1; i < kTrims && at; ++i) {
+      (*at)[3] = 0.5 * i / kTrims;
+      at = manoeuvre.solve(*at, line);
+      benchmark::DoNotOptimize(at);
+    }
+    if (!at) state.SkipWithError("no trim");
+  }
+}
+BENCHMARK_CAPTURE(supply_curve, table, Law::kTable)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(supply_curve, fast, Law::kDirectFast)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(supply_curve, exact, Law::kDirectExact)->Unit(benchmark::kMillisecond);
 
 SupplyTable table_of(const Lrv& lrv) {
   constexpr double kTiltMax_rad = 25 * std::numbers::pi / 180;
-  return {lrv.vehicle, WheelLaw(lrv.model), lrv.limits, lrv.weight_n, kTiltMax_rad, 1};
+  return {lrv.vehicle, lrv.law, lrv.limits, lrv.weight_n, kTiltMax_rad, 1};
 }
 
 void supply_looked_up(benchmark::State& state) {
-  const Lrv lrv(WheelAccuracy::kFast);
+  const Lrv lrv(Law::kDirectFast);
   const SupplyTable table = table_of(lrv);
   const std::vector<Asked> asked = questions(lrv);
   std::size_t i = 0;
@@ -123,8 +163,28 @@ void supply_looked_up(benchmark::State& state) {
 }
 BENCHMARK(supply_looked_up);
 
+/// Margins of a state from the supply table, as searches ask at every step.
+void margins_looked_up(benchmark::State& state) {
+  const Lrv lrv(Law::kTable);
+  const std::vector<SupplyTable> tables{table_of(lrv)};
+  const TabledSupply supply(tables);
+  const SupportPolygon polygon(lrv.vehicle);
+  const GroundPatch patch{
+      .known = true, .z_m = 0, .slope_forward = 0.05, .slope_left = 0.05, .soil = {}};
+  const VehicleDynamics dynamics(
+      lrv.vehicle, lrv.laws, [&](double, double, double) { return patch; }, kMoon_mps2);
+  VehicleState at = dynamics.rolling_state(0, 0, 0, 3, 0.02);
+  for ([[maybe_unused]] auto _ : state) {
+    at.motion.vx_mps = 5 - at.motion.vx_mps;
+    const SupplyQuestion question = question_of(dynamics, at, patch);
+    benchmark::DoNotOptimize(margins_of(dynamics, polygon, question,
+                                        supply.answer(question, lrv.vehicle.wheels.size())));
+  }
+}
+BENCHMARK(margins_looked_up);
+
 void supply_table_built(benchmark::State& state) {
-  const Lrv lrv(WheelAccuracy::kFast);
+  const Lrv lrv(Law::kDirectFast);
   for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(table_of(lrv));
 }
 BENCHMARK(supply_table_built)->Unit(benchmark::kMillisecond);

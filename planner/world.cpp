@@ -83,7 +83,9 @@ TrimLimits trim_limits(const PlanningProblem& problem) {
   return {.slip_angle_max_rad = problem.limits.slip_angle_max_rad,
           .slip_max = problem.limits.slip_max,
           .sinkage_max_m = problem.limits.sinkage_max_m,
-          .steer_angle_max_rad = problem.vehicle.steer_angle_max_rad};
+          .steer_angle_max_rad = problem.vehicle.steer_angle_max_rad,
+          .torque_max_nm =
+              problem.vehicle.torque_max_nm.value_or(std::numeric_limits<double>::infinity())};
 }
 
 World::World(const PlanningProblem& problem, WorldUse use, int threads)
@@ -130,7 +132,7 @@ double World::search_step_s() const {
 
 StateMargins World::margins(const VehicleState& state, const GroundPatch& patch) const {
   const SupplyQuestion question = question_of(dynamics_, state, patch);
-  const bool tabled = !supply_tables_.empty() && !question.reverse;
+  const bool tabled = !supply_tables_.empty() && !question.reverse && question.crab_rad == 0;
   const SupplyAnswer answer =
       tabled ? TabledSupply(supply_tables_).answer(question, problem_.vehicle.wheels.size())
              : SolvedSupply(problem_.vehicle, dynamics_.sharing(), laws_, trim_limits(problem_))

@@ -187,8 +187,10 @@ namespace {
 /// Slopes by differences, where there is no table.
 SlopedForces differences(const WheelModel& model, double load_n, const WheelMotion& motion) {
   const WheelForces here = model.forces(load_n, motion);
-  SlopedForces result{
-      .fx = {.value_n = here.fx_n}, .fy = {.value_n = here.fy_n}, .status = here.status};
+  SlopedForces result{.fx = {.value_n = here.fx_n},
+                      .fy = {.value_n = here.fy_n},
+                      .torque_nm = here.torque_nm,
+                      .status = here.status};
   if (!has_forces(here.status)) return result;
   constexpr double kShare = 1e-4;
   const double speed_mps = std::max(
@@ -256,7 +258,11 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
   const std::size_t slips = cubic_spline::coefficients(grid_.slips);
   const std::size_t laterals = cubic_spline::coefficients(grid_.laterals);
   const std::size_t row = load.first * slips + slip.first;
-  const double v = at.v;
+  const double v = at.v, radius_m = spec_.model.wheel.radius_m;
+  const auto in_v = [&](const std::vector<float>& table) {
+    return dot(contract(&table[row * kPowers], slips * kPowers, kPowers, load.value, slip.value),
+               {1, v, v * v, v * v * v});
+  };
   const Partials x = partials(&side.fx[row * kPowers], slips * kPowers, kPowers, load, slip,
                               {1, v, v * v, v * v * v}, {0, 1, 2 * v, 3 * v * v});
   const Partials l = partials(&side.fy[row * laterals + y.first], slips * laterals, laterals, load,
@@ -286,6 +292,7 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
   };
   SlopedForces result{.fx = sloped(x, 0, v_by_angle * at.angle.by_b, v_by_angle * at.angle.by_c),
                       .fy = sloped(l, y_by_a, y_by_b, y_by_c),
+                      .torque_nm = at.x_sign * load_n * radius_m * in_v(side.torque),
                       .status = status_at(at)};
   // Fx changes sign with the direction of travel, Fy with that of the lateral motion
   result.fx.value_n *= at.x_sign;

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "terramech/sloped_forces.h"
 #include "terramech/wheel_model.h"
 
 namespace regoplan {
@@ -36,20 +37,6 @@ struct TableError {
   bool within(const TableAccuracy& accuracy) const {
     return at_999_permille <= accuracy.at_999_permille && at_worst <= accuracy.at_worst;
   }
-};
-
-/// Value and slopes of a force over the load and the motion in the wheel frame.
-struct SlopedForce {
-  double value_n = 0;
-  double by_load = 0;            ///< d/d(load_n)
-  double by_vx_nspm = 0;         ///< d/d(vx_mps)
-  double by_vy_nspm = 0;         ///< d/d(vy_mps)
-  double by_rim_speed_nspm = 0;  ///< d/d(rim_speed_mps)
-};
-
-struct SlopedForces {
-  SlopedForce fx, fy;
-  WheelStatus status = WheelStatus::kOk;
 };
 
 /// The two forces in the plane of the ground, signs as in WheelForces.

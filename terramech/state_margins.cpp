@@ -16,7 +16,7 @@ SupplyAnswer SolvedSupply::answer(const SupplyQuestion& question) const {
     laws.push_back(soil_laws_[static_cast<std::size_t>(question.patch->soil[i])]);
   }
   const SteadyManoeuvre manoeuvre(vehicle_, sharing_, laws, question.curvature_1pm,
-                                  question.normal_n, question.reverse);
+                                  question.normal_n, question.reverse, question.crab_rad);
   const SupplyResult result = cornering_supply(manoeuvre, question.force.forward_n, limits_);
   SupplyAnswer answer{.supply = {}, .no_supply = result.reason, .traction_n = {}};
   if (result.supply) {
@@ -28,6 +28,7 @@ SupplyAnswer SolvedSupply::answer(const SupplyQuestion& question) const {
 }
 
 SupplyAnswer TabledSupply::answer(const SupplyQuestion& question, std::size_t wheels) const {
+  if (question.reverse || question.crab_rad != 0) return {};
   SupplyAnswer least;
   for (std::size_t i = 0; i < wheels; ++i) {
     const bool first = i == 0;
@@ -57,12 +58,14 @@ SupplyQuestion question_of(const VehicleDynamics& dynamics, const VehicleState& 
                            const GroundPatch& patch) {
   const Vehicle& vehicle = dynamics.vehicle();
   const PatchAxes axes(patch, dynamics.gravity_mps2());
-  const double slip_free = kinematic_body_slip_angle_rad(vehicle, state.curvature_1pm);
+  const double slip_free =
+      kinematic_body_slip_angle_rad(vehicle, state.curvature_1pm) + state.crab_rad;
   const double c = std::cos(slip_free), s = std::sin(slip_free);
   const double gravity_forward = c * axes.gravity_forward_mps2 + s * axes.gravity_left_mps2;
   const double gravity_left = c * axes.gravity_left_mps2 - s * axes.gravity_forward_mps2;
   const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
   return {.curvature_1pm = state.curvature_1pm,
+          .crab_rad = state.crab_rad,
           .force = {.forward_n = vehicle.mass_kg * (state.rim_acceleration_mps2 - gravity_forward),
                     .left_n = cornering_demand_n(vehicle.mass_kg, speed, state.curvature_1pm,
                                                  gravity_left)},
@@ -75,7 +78,7 @@ StateMargins margins_of(const VehicleDynamics& dynamics, const SupportPolygon& p
                         const SupplyQuestion& question, const SupplyAnswer& answer) {
   const double weight = dynamics.vehicle().mass_kg * dynamics.gravity_mps2();
   const double slip_free =
-      kinematic_body_slip_angle_rad(dynamics.vehicle(), question.curvature_1pm);
+      kinematic_body_slip_angle_rad(dynamics.vehicle(), question.curvature_1pm) + question.crab_rad;
   const double c = std::cos(slip_free), s = std::sin(slip_free);
   const PathForce& force = question.force;
   // What the soil does not give does not tip the vehicle: it slides instead.

@@ -29,6 +29,7 @@ struct StateMargins {
 /// Where supply and traction come from. One of: `SolvedSupply`, `TabledSupply`.
 struct SupplyQuestion {
   double curvature_1pm = 0;
+  double crab_rad = 0;
   PathForce force;  ///< demanded, forward and left
   double normal_n = 0;
   bool reverse = false;
@@ -56,7 +57,8 @@ class SolvedSupply {
   TrimLimits limits_;
 };
 
-/// Looks up the table of each soil under a wheel and takes the least.
+/// Looks up the table of each soil under a wheel and takes the least. Forward and without crab: of
+/// other questions it knows nothing.
 class TabledSupply {
  public:
   /// \param tables one for each soil; must outlive it

@@ -1,17 +1,66 @@
 #include "terramech/steered_wheel.h"
 
-#include <cmath>
+#include <algorithm>
 
 namespace regoplan {
 
-SteeredWheel steered_wheel(const Vehicle& vehicle, const WheelMount& mount, double curvature_1pm) {
-  const double steer = steer_angle_rad(vehicle, mount, curvature_1pm);
-  const double c = std::cos(steer), s = std::sin(steer);
-  const double slip_free = kinematic_body_slip_angle_rad(vehicle, curvature_1pm);
-  const double vx = std::cos(slip_free) - curvature_1pm * mount.y_m;
-  const double vy = std::sin(slip_free) + curvature_1pm * mount.x_m;
-  return {
-      .steer_rad = steer, .cos_steer = c, .sin_steer = s, .rim_speed_per_speed = c * vx + s * vy};
+SteeredWheel wheel_on_the_spot(const Vehicle& vehicle, const WheelMount& mount) {
+  if (!mount.steered) return {.rim_speed_per_speed = -mount.y_m};
+  // Moves along (-y, x); a wheel on the left looks the other way and turns backwards.
+  const double x = mount.x_m - vehicle.turn_centre_x_m, y = mount.y_m;
+  const double arm = std::sqrt(x * x + y * y);
+  const double side = y > 0 ? -1 : 1;
+  return {.cos_steer = std::abs(y) / arm,
+          .sin_steer = side * x / arm,
+          .rim_speed_per_speed = side * arm};
+}
+
+namespace {
+
+void share_speed(const Vehicle& vehicle, std::array<SteeredWheel, kMaxWheels>& wheels) {
+  double sum = 0, driven = 0;
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    if (!vehicle.wheels[i].driven) continue;
+    sum += wheels[i].rim_speed_per_speed;
+    ++driven;
+  }
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    if (vehicle.wheels[i].driven) wheels[i].rim_speed_per_speed = sum / driven;
+  }
+}
+
+}  // namespace
+
+std::array<SteeredWheel, kMaxWheels> steered_wheels(const Vehicle& vehicle,
+                                                    const SteeringCommand& command) {
+  std::array<SteeredWheel, kMaxWheels> wheels;
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    wheels[i] = steered_wheel(vehicle, vehicle.wheels[i], command);
+  }
+  if (vehicle.drive_law == DriveLaw::kEqualSpeed) share_speed(vehicle, wheels);
+  return wheels;
+}
+
+std::array<SteeredWheel, kMaxWheels> wheels_on_the_spot(const Vehicle& vehicle) {
+  std::array<SteeredWheel, kMaxWheels> wheels;
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    wheels[i] = wheel_on_the_spot(vehicle, vehicle.wheels[i]);
+  }
+  return wheels;
+}
+
+bool can_turn_on_the_spot(const Vehicle& vehicle) {
+  // One speed or one torque for all wheels turns no vehicle whose sides must turn apart.
+  if (vehicle.drive_law != DriveLaw::kKinematic) return false;
+  constexpr double kAbreast_m = 1e-6, kRounding_rad = 1e-9;
+  return std::ranges::all_of(vehicle.wheels, [&](const WheelMount& mount) {
+    if (mount.steered) {
+      return std::abs(wheel_on_the_spot(vehicle, mount).steer_rad()) <=
+             vehicle.steer_angle_max_rad + kRounding_rad;
+    }
+    return vehicle.steering == Steering::kSkid ||
+           std::abs(mount.x_m - vehicle.turn_centre_x_m) < kAbreast_m;
+  });
 }
 
 }  // namespace regoplan

@@ -20,6 +20,11 @@ SupplyEnd end_of(const SteadyManoeuvre& manoeuvre, const SteadyManoeuvre::Point&
   const BranchEnd end = follow_branch(manoeuvre, start, line, kBeyondReach, limits, find_fold);
   SupplyEnd supply{.force_n = line.at(end.p).left_n, .limit = end.limit, .wheel = end.wheel};
   if (end.fold_p) supply.fold_n = line.at(*end.fold_p).left_n;
+  if (end.wheel >= 0) {
+    supply.axle_x_m = manoeuvre.vehicle().wheels[static_cast<std::size_t>(end.wheel)].x_m;
+  }
+  supply.understeer_1pm =
+      direction * (manoeuvre.steer_curvature_1pm(end.point) - manoeuvre.curvature_1pm());
   return supply;
 }
 

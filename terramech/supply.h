@@ -13,6 +13,12 @@ struct SupplyEnd {
   BranchLimit limit = BranchLimit::kFold;
   int wheel = -1;  ///< which wheel reaches the limit, as index in the vehicle's wheels
   std::optional<double> fold_n = {};
+  /// x of the axle that lets go first: that of the wheel that reaches its limit.
+  double axle_x_m = 0;
+  /// How the vehicle handles there: curvature that the steering is set for beyond that of the path,
+  /// counted toward the force. Positive: it must be steered further in (understeer); negative: back
+  /// (oversteer).
+  double understeer_1pm = 0;
 };
 
 /// Why there is no supply at all.

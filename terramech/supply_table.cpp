@@ -21,7 +21,8 @@ constexpr double kForceMax = 0.7;       // over the normal load; steeper than ta
 bool is_mirror_symmetric(const Vehicle& vehicle) {
   return std::all_of(vehicle.wheels.begin(), vehicle.wheels.end(), [&](const WheelMount& wheel) {
     return std::any_of(vehicle.wheels.begin(), vehicle.wheels.end(), [&](const WheelMount& twin) {
-      return twin.x_m == wheel.x_m && twin.y_m == -wheel.y_m && twin.steered == wheel.steered;
+      return twin.x_m == wheel.x_m && twin.y_m == -wheel.y_m && twin.steered == wheel.steered &&
+             twin.driven == wheel.driven;
     });
   });
 }

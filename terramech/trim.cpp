@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "terramech/rim_speed.h"
 
 namespace regoplan {
 namespace {
@@ -26,14 +29,19 @@ double longest_arm_m(const Vehicle& vehicle) {
 
 SteadyManoeuvre::SteadyManoeuvre(const Vehicle& vehicle, const LoadSharing& sharing,
                                  std::span<const WheelLaw> laws, double curvature_1pm,
-                                 double normal_n, bool reverse)
+                                 double normal_n, bool reverse, double crab_rad)
     : vehicle_(vehicle),
       sharing_(sharing),
       laws_(laws),
       curvature_1pm_(curvature_1pm),
       normal_n_(normal_n),
       direction_(reverse ? -1 : 1),
-      length_m_(longest_arm_m(vehicle)) {}
+      crab_rad_(crab_rad),
+      length_m_(longest_arm_m(vehicle)) {
+  rims_follow_ = vehicle.drive_law != DriveLaw::kEqualTorque &&
+                 std::ranges::all_of(vehicle.wheels, [](const WheelMount& w) { return w.driven; });
+  laws_have_slopes_ = std::ranges::all_of(laws, [](const WheelLaw& l) { return l.has_slopes(); });
+}
 
 BodyMotion SteadyManoeuvre::body_motion(const Point& at) const {
   const double slip_angle = kAngleScale * at[0];
@@ -42,12 +50,30 @@ BodyMotion SteadyManoeuvre::body_motion(const Point& at) const {
           .yaw_rate_rad_s = direction_ * curvature_1pm_};
 }
 
-double SteadyManoeuvre::steer_curvature_1pm(const Point& at) const {
-  return kAngleScale * at[1] / length_m_;
+SteeringCommand SteadyManoeuvre::steering(const Point& at) const {
+  return {.curvature_1pm = kAngleScale * at[1] / length_m_, .crab_rad = crab_rad_};
 }
 
-double SteadyManoeuvre::drive_factor(const Point& at) const {
-  return 1 + kAngleScale * at[2];
+std::array<SteeredWheel, kMaxWheels> SteadyManoeuvre::wheels(const Point& at) const {
+  return steered_wheels(vehicle_, steering(at));
+}
+
+double SteadyManoeuvre::rim_speed_mps(std::size_t wheel, const Point& at,
+                                      const SteeredWheel& steered, double load_n,
+                                      const WheelMotion& motion) const {
+  const bool driven = vehicle_.wheels[wheel].driven;
+  if (driven && vehicle_.drive_law != DriveLaw::kEqualTorque) {
+    return direction_ * (1 + kAngleScale * at[2]) * steered.rim_speed_per_speed;
+  }
+  const double mean_load = normal_n_ / static_cast<double>(vehicle_.wheels.size());
+  const double torque =
+      driven ? direction_ * kAngleScale * at[2] * mean_load * vehicle_.wheel.radius_m : 0;
+  constexpr double kLeast_mps = 1e-6;
+  return rim_speed_at_torque(
+      [&](double rim_speed_mps) {
+        return laws_[wheel].forces(load_n, {motion.vx_mps, motion.vy_mps, rim_speed_mps}).torque_nm;
+      },
+      torque, motion.vx_mps, kLeast_mps);
 }
 
 GroundReaction SteadyManoeuvre::reaction(const Point& at, const ForceLine& line) const {
@@ -62,27 +88,77 @@ std::optional<SteadyManoeuvre::Residual> SteadyManoeuvre::residual(const Point& 
                                                                    const ForceLine& line) const {
   const BodyMotion body = body_motion(at);
   const GroundReaction ground = reaction(at, line);
-  const double steer_curvature = steer_curvature_1pm(at);
-  const double rim_speed = direction_ * drive_factor(at);
+  const auto steered = wheels(at);
   BodyForce sum;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     const WheelMount& mount = vehicle_.wheels[i];
     const double load = sharing_.load_n(i, ground);
-    if (!(load > 0)) return std::nullopt;
-    const SteeredWheel wheel = steered_wheel(vehicle_, mount, steer_curvature);
-    const WheelMotion motion =
-        wheel_motion(mount, wheel, body, rim_speed * wheel.rim_speed_per_speed);
+    WheelMotion motion = wheel_motion(mount, steered[i], body, 0);
+    if (!(load > 0) || !std::isfinite(motion.vx_mps)) return std::nullopt;
+    motion.rim_speed_mps = rim_speed_mps(i, at, steered[i], load, motion);
     const WheelForces forces = laws_[i].forces(load, motion);
     if (!has_forces(forces.status)) return std::nullopt;
-    sum.add(mount, wheel, forces);
+    sum.add(mount, steered[i], forces);
   }
   return Residual{(sum.forward_n - ground.forward_n) / normal_n_,
                   (sum.left_n - ground.left_n) / normal_n_, sum.yaw_nm / (normal_n_ * length_m_)};
 }
 
-std::optional<SteadyManoeuvre::Slopes> SteadyManoeuvre::slopes(const Point& at,
-                                                               const ForceLine& line,
-                                                               const Residual& residual_at) const {
+/// From the slopes of the wheels' forces, where a small change of the steering turns a wheel and
+/// its rim speed.
+SteadyManoeuvre::Slopes SteadyManoeuvre::slopes_by_law(const Point& at,
+                                                       const ForceLine& line) const {
+  const BodyMotion body = body_motion(at);
+  const BodyMotion body_by_angle{.vx_mps = -body.vy_mps, .vy_mps = body.vx_mps};
+  const GroundReaction ground = reaction(at, line);
+  const double c = std::cos(kAngleScale * at[0]), s = std::sin(kAngleScale * at[0]);
+  const PathForce& along = line.per_unit;
+  const GroundReaction ground_by_angle{.forward_n = -ground.left_n, .left_n = ground.forward_n};
+  const GroundReaction ground_by_p{.forward_n = c * along.forward_n - s * along.left_n,
+                                   .left_n = s * along.forward_n + c * along.left_n};
+  constexpr double kTurn = 1e-6;
+  Point turned = at;
+  turned[1] += kTurn;
+  const auto steered = wheels(at), steered_more = wheels(turned);
+  const double factor = direction_ * (1 + kAngleScale * at[2]);
+  Slopes slopes = Slopes::Zero();
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    const WheelMount& mount = vehicle_.wheels[i];
+    const SteeredWheel &wheel = steered[i], &more = steered_more[i];
+    const WheelMotion motion = wheel_motion(mount, wheel, body, factor * wheel.rim_speed_per_speed);
+    const SlopedForces f = laws_[i].forces_with_slopes(sharing_.load_n(i, ground), motion);
+    const auto add = [&](int k, double scale, const WheelMotion& moved, double load, double turn) {
+      const auto change = [&](const SlopedForce& force) {
+        return force.by_load * load + force.by_vx_nspm * moved.vx_mps +
+               force.by_vy_nspm * moved.vy_mps + force.by_rim_speed_nspm * moved.rim_speed_mps;
+      };
+      BodyForce sum;
+      sum.add(
+          mount, wheel,
+          {.fx_n = change(f.fx) + f.fy.value_n * turn, .fy_n = change(f.fy) - f.fx.value_n * turn});
+      slopes.col(k) +=
+          scale / normal_n_ * Residual{sum.forward_n, sum.left_n, sum.yaw_nm / length_m_};
+    };
+    add(0, kAngleScale, wheel_motion(mount, wheel, body_by_angle, 0),
+        sharing_.load_n(i, ground_by_angle), 0);
+    const double turn =
+        (wheel.cos_steer * more.sin_steer - wheel.sin_steer * more.cos_steer) / kTurn;
+    const double faster = factor * (more.rim_speed_per_speed - wheel.rim_speed_per_speed) / kTurn;
+    add(1, 1, {motion.vy_mps * turn, -motion.vx_mps * turn, faster}, 0, turn);
+    add(2, 1, {0, 0, direction_ * kAngleScale * wheel.rim_speed_per_speed}, 0, 0);
+    add(3, 1, {}, sharing_.load_n(i, ground_by_p), 0);
+  }
+  slopes.col(0) -=
+      kAngleScale / normal_n_ * Residual{ground_by_angle.forward_n, ground_by_angle.left_n, 0};
+  slopes.col(3) -= Residual{ground_by_p.forward_n, ground_by_p.left_n, 0} / normal_n_;
+  return slopes;
+}
+
+std::optional<SteadyManoeuvre::Slopes> SteadyManoeuvre::slopes(
+    const Point& at, const ForceLine& line, std::optional<Residual> residual_at) const {
+  if (rims_follow_ && laws_have_slopes_) return slopes_by_law(at, line);
+  if (!residual_at) residual_at = residual(at, line);
+  if (!residual_at) return std::nullopt;
   constexpr double kStep = 1e-3;
   Slopes slopes;
   for (int k = 0; k < 4; ++k) {
@@ -90,7 +166,7 @@ std::optional<SteadyManoeuvre::Slopes> SteadyManoeuvre::slopes(const Point& at,
     moved[k] += kStep;
     const auto there = residual(moved, line);
     if (!there) return std::nullopt;
-    slopes.col(k) = (*there - residual_at) / kStep;
+    slopes.col(k) = (*there - *residual_at) / kStep;
   }
   return slopes;
 }
@@ -123,23 +199,30 @@ std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve_from_rolling(
   // Outward from free rolling on either side, the first sign change of the missing forward force.
   constexpr std::array<double, 12> kDriving{1.0, 1.03, 1.07, 1.12, 1.2,  1.3,
                                             1.4, 1.55, 1.75, 2.0,  2.35, 2.8};
-  const double slip_angle = kinematic_body_slip_angle_rad(vehicle_, curvature_1pm_);
-  const auto point_at = [&](double factor) {
+  // Over the mean load and the wheel's radius.
+  constexpr std::array<double, 12> kTorque{0,    0.03, 0.07, 0.12, 0.18, 0.25,
+                                           0.33, 0.42, 0.52, 0.63, 0.75, 0.9};
+  const bool by_torque = vehicle_.drive_law == DriveLaw::kEqualTorque;
+  const double slip_angle = kinematic_body_slip_angle_rad(vehicle_, curvature_1pm_) + crab_rad_;
+  const auto point_at = [&](double drive) {
     return Point{slip_angle / kAngleScale, curvature_1pm_ * length_m_ / kAngleScale,
-                 (factor - 1) / kAngleScale, 0};
+                 (by_torque ? drive : drive - 1) / kAngleScale, 0};
   };
-  const auto rolling = residual(point_at(1), line);
+  const auto drive_at = [&](std::size_t i, bool brakes) {
+    if (by_torque) return brakes ? -kTorque[i] : kTorque[i];
+    return brakes ? 1 / kDriving[i] : kDriving[i];
+  };
+  const auto rolling = residual(point_at(drive_at(0, false)), line);
   if (!rolling) return std::nullopt;
   const bool must_brake = direction_ * (*rolling)[0] > 0;
   double before = (*rolling)[0];
   for (std::size_t i = 1; i < kDriving.size(); ++i) {
-    const double factor = must_brake ? 1 / kDriving[i] : kDriving[i];
-    const double factor_before = must_brake ? 1 / kDriving[i - 1] : kDriving[i - 1];
-    const auto missing = residual(point_at(factor), line);
+    const double drive = drive_at(i, must_brake), drive_before = drive_at(i - 1, must_brake);
+    const auto missing = residual(point_at(drive), line);
     if (!missing) return std::nullopt;
     if (before * (*missing)[0] <= 0) {
       const double share = before / (before - (*missing)[0]);
-      return solve(point_at(factor_before + share * (factor - factor_before)), line);
+      return solve(point_at(drive_before + share * (drive - drive_before)), line);
     }
     before = (*missing)[0];
   }
@@ -149,23 +232,28 @@ std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve_from_rolling(
 Trim SteadyManoeuvre::trim(const Point& at, const ForceLine& line) const {
   const BodyMotion body = body_motion(at);
   const GroundReaction ground = reaction(at, line);
+  const auto steered = wheels(at);
   Trim trim{.force = line.at(at[3]),
             .body_slip_angle_rad = kAngleScale * at[0],
-            .steer_curvature_1pm = steer_curvature_1pm(at),
-            .drive_factor = drive_factor(at),
+            .steer_curvature_1pm = steering(at).curvature_1pm,
+            .drive_factor = 0,
             .wheels = {}};
+  double driven = 0;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
-    const WheelMount& mount = vehicle_.wheels[i];
-    const SteeredWheel wheel = steered_wheel(vehicle_, mount, trim.steer_curvature_1pm);
-    const WheelMotion motion = wheel_motion(
-        mount, wheel, body, direction_ * trim.drive_factor * wheel.rim_speed_per_speed);
+    const SteeredWheel& wheel = steered[i];
     const double load = sharing_.load_n(i, ground);
+    WheelMotion motion = wheel_motion(vehicle_.wheels[i], wheel, body, 0);
+    motion.rim_speed_mps = rim_speed_mps(i, at, wheel, load, motion);
     trim.wheels.push_back({.load_n = load,
-                           .steer_rad = wheel.steer_rad,
+                           .steer_rad = wheel.steer_rad(),
                            .slip = slip_ratio(motion),
                            .slip_angle_rad = slip_angle_rad(motion),
                            .forces = laws_[i].forces(load, motion)});
+    if (!vehicle_.wheels[i].driven) continue;
+    trim.drive_factor += direction_ * motion.rim_speed_mps / wheel.rim_speed_per_speed;
+    ++driven;
   }
+  trim.drive_factor /= driven;
   return trim;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,19 +45,22 @@ struct Trim {
   PathForce force;
   double body_slip_angle_rad = 0;  ///< of the vehicle's origin, left positive
   double steer_curvature_1pm = 0;  ///< curvature that the steering is set for
-  double drive_factor = 1;         ///< rim speeds over the slip-free kinematic ones
+  /// Rim speeds of driven wheels over the slip-free kinematic ones; under equal torque their mean.
+  double drive_factor = 1;
   std::vector<TrimmedWheel> wheels;
 };
 
 /// The balance of the steady manoeuvres of one vehicle along one path curvature, with a given load
 /// on the ground and each wheel on its own soil.
 ///
-/// Unknowns: body slip angle, the curvature the steering is set for, and one drive factor: rim
-/// speeds are the slip-free kinematic ones times it. Equations: the wheels' forces (fx, -fy),
-/// summed in the body frame and turned into the directions of the path, give the path force; their
-/// yaw moment about the vehicle's origin vanishes, so that what a virtual side force adds acts at
-/// the centre of gravity. Wheel forces depend on velocity ratios only: the balance holds at any
-/// speed.
+/// Unknowns: body slip angle; the curvature the steering is set for (with skid steering it sets how
+/// much faster the rims of one side turn); and one for the drive: the factor of the slip-free
+/// kinematic rim speeds, their common value under equal speed, the torque under equal torque.
+/// Wheels that are not driven turn as fast as no torque has them turn. Equations: the wheels'
+/// forces (fx, -fy), summed in the body frame and turned into the directions of the path, give the
+/// path force; their yaw moment about the vehicle's origin vanishes, so that what a virtual side
+/// force adds acts at the centre of gravity. Wheel forces depend on velocity ratios only: the
+/// balance holds at any speed.
 class SteadyManoeuvre {
  public:
   /// The unknowns and the position p on a line of path forces, each scaled to order one.
@@ -67,15 +71,19 @@ class SteadyManoeuvre {
   /// \param vehicle, sharing, laws must outlive this; `laws` one for each wheel
   /// \param curvature_1pm commanded path curvature, left positive
   /// \param normal_n sum of the wheels' loads, above 0 \param reverse drives backwards
+  /// \param crab_rad commanded crab angle
   SteadyManoeuvre(const Vehicle& vehicle, const LoadSharing& sharing,
                   std::span<const WheelLaw> laws, double curvature_1pm, double normal_n,
-                  bool reverse = false);
+                  bool reverse = false, double crab_rad = 0);
 
   /// Missing path force along and across, over the normal load, and yaw moment, over load and
   /// length; nothing where a wheel has no load or no forces.
   std::optional<Residual> residual(const Point& at, const ForceLine& line) const;
+  /// Slopes of the residual over the point; from the laws' own slopes where all have them and all
+  /// rims turn at commanded speeds, else by differences.
+  /// \param residual at the point, where known
   std::optional<Slopes> slopes(const Point& at, const ForceLine& line,
-                               const Residual& residual) const;
+                               std::optional<Residual> residual = {}) const;
 
   /// The trim on the line at p nearest to a guess; nothing where Newton's method finds none.
   std::optional<Point> solve(const Point& guess, const ForceLine& line) const;
@@ -87,12 +95,19 @@ class SteadyManoeuvre {
   /// What a point stands for.
   Trim trim(const Point& at, const ForceLine& line) const;
 
+  double steer_curvature_1pm(const Point& at) const { return steering(at).curvature_1pm; }
+
+  const Vehicle& vehicle() const { return vehicle_; }
   double normal_n() const { return normal_n_; }
+  double curvature_1pm() const { return curvature_1pm_; }
 
  private:
   BodyMotion body_motion(const Point& at) const;
-  double steer_curvature_1pm(const Point& at) const;
-  double drive_factor(const Point& at) const;
+  SteeringCommand steering(const Point& at) const;
+  std::array<SteeredWheel, kMaxWheels> wheels(const Point& at) const;
+  double rim_speed_mps(std::size_t wheel, const Point& at, const SteeredWheel& steered,
+                       double load_n, const WheelMotion& motion) const;
+  Slopes slopes_by_law(const Point& at, const ForceLine& line) const;
   GroundReaction reaction(const Point& at, const ForceLine& line) const;
 
   const Vehicle& vehicle_;
@@ -101,7 +116,10 @@ class SteadyManoeuvre {
   double curvature_1pm_;
   double normal_n_;
   double direction_;  ///< 1 forward, -1 reverse
-  double length_m_;   ///< scale of steering and of the yaw moment
+  double crab_rad_;
+  double length_m_;          ///< scale of steering and of the yaw moment
+  bool rims_follow_ = true;  ///< every rim turns at the factor times its kinematic speed
+  bool laws_have_slopes_ = true;
 };
 
 }  // namespace regoplan

@@ -25,26 +25,33 @@ std::optional<Point> tangent_of(const SteadyManoeuvre::Slopes& slopes, const Poi
 /// those of a trim nearby at first, are taken anew only when it slows down.
 std::optional<Point> correct(const SteadyManoeuvre& manoeuvre, const Point& predicted,
                              const Point& tangent, const ForceLine& line,
-                             std::optional<SteadyManoeuvre::Slopes> slopes) {
-  constexpr double kConverged = 3e-7, kAccepted = 1e-4;
+                             std::optional<SteadyManoeuvre::Slopes> slopes, double converged) {
+  constexpr double kAccepted = 1e-4;
   Point at = predicted;
+  std::optional<Eigen::PartialPivLU<Eigen::Matrix4d>> solver;
   double error_before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < 12; ++iteration) {
     const auto residual = manoeuvre.residual(at, line);
     if (!residual) return std::nullopt;
     const double error = residual->cwiseAbs().maxCoeff();
-    if (iteration > 0 && error < kConverged) return at;
+    if (error < converged) return at;
     const bool slows = error > 0.2 * error_before;
     if (slows && iteration > 3 && error < kAccepted) return at;
     if (slows && iteration > 6) return std::nullopt;
-    if (!slopes || slows) slopes = manoeuvre.slopes(at, line, *residual);
+    if (!slopes || slows) {
+      slopes = manoeuvre.slopes(at, line, *residual);
+      solver.reset();
+    }
     if (!slopes) return std::nullopt;
     error_before = error;
-    Eigen::Matrix4d system;
-    system << *slopes, tangent.transpose();
+    if (!solver) {
+      Eigen::Matrix4d system;
+      system << *slopes, tangent.transpose();
+      solver = system.partialPivLu();
+    }
     Point missing;
     missing << *residual, tangent.dot(at - predicted);
-    at -= system.partialPivLu().solve(missing);
+    at -= solver->solve(missing);
     if (!at.allFinite()) return std::nullopt;
   }
   return std::nullopt;
@@ -67,8 +74,12 @@ class Walk {
 
   /// The branch at arc length `arc` beyond where it stood before the last step.
   std::optional<Point> between(double arc) const {
-    return correct(manoeuvre_, before_ + arc * tangent_before_, tangent_before_, line_,
-                   slopes_before_);
+    // Cubic through both ends with their tangents.
+    const double t = arc / last_arc_, u = 1 - t;
+    const double along = std::max(tangent_.dot(tangent_before_), 0.1);
+    const Point guess = u * u * ((1 + 2 * t) * before_ + arc * tangent_before_) +
+                        t * t * ((3 - 2 * t) * at_ - (last_arc_ - arc) / along * tangent_);
+    return correct(manoeuvre_, guess, tangent_before_, line_, slopes_before_, kConverged);
   }
   double last_arc() const { return last_arc_; }
 
@@ -76,7 +87,10 @@ class Walk {
   bool step() {
     constexpr double kLongest = 0.4, kShortest = 1e-4;
     while (arc_ > kShortest) {
-      const auto next = correct(manoeuvre_, at_ + arc_ * tangent_, tangent_, line_, slopes_);
+      const Point straight = at_ + arc_ * tangent_;
+      auto next =
+          correct(manoeuvre_, straight + arc_ * arc_ * bend_, tangent_, line_, slopes_, kOnTheWay);
+      if (!next) next = correct(manoeuvre_, straight, tangent_, line_, slopes_, kOnTheWay);
       const auto slopes = next ? slopes_at(*next) : std::nullopt;
       const auto tangent = slopes ? tangent_of(*slopes, tangent_) : std::nullopt;
       if (tangent && tangent->dot(tangent_) > least_turn()) {
@@ -84,6 +98,7 @@ class Walk {
         tangent_before_ = tangent_;
         slopes_before_ = slopes_;
         last_arc_ = arc_;
+        bend_ = (*tangent - tangent_) / (2 * arc_);
         at_ = *next;
         tangent_ = *tangent;
         slopes_ = slopes;
@@ -96,9 +111,11 @@ class Walk {
   }
 
  private:
+  /// Balanced to this share of the load: where a branch ends, and where it only passes.
+  static constexpr double kConverged = 3e-7, kOnTheWay = 1e-5;
+
   std::optional<SteadyManoeuvre::Slopes> slopes_at(const Point& at) const {
-    const auto residual = manoeuvre_.residual(at, line_);
-    return residual ? manoeuvre_.slopes(at, line_, *residual) : std::nullopt;
+    return manoeuvre_.slopes(at, line_);
   }
 
   /// Cosine of the sharpest turn of a step. The branch has a kink where a wheel's side slip changes
@@ -116,6 +133,7 @@ class Walk {
   // one side only.
   Point tangent_ = Point{0, 0, 0, 1}, tangent_before_ = tangent_;
   std::optional<SteadyManoeuvre::Slopes> slopes_, slopes_before_;
+  Point bend_ = Point::Zero();  // half the curvature of the last step
   double arc_ = 0.05;
   double last_arc_ = 0;
 };
@@ -175,6 +193,8 @@ std::string_view name(BranchLimit limit) {
       return "sinkage";
     case BranchLimit::kSteering:
       return "steering range";
+    case BranchLimit::kTorque:
+      return "motor torque";
     case BranchLimit::kLiftedWheel:
       return "lifted wheel";
   }
@@ -197,6 +217,7 @@ LimitUse limit_use(const Trim& trim, const TrimLimits& limits) {
     consider(std::abs(wheel.slip) / limits.slip_max, BranchLimit::kSlip, i);
     consider(wheel.forces.sinkage_m / limits.sinkage_max_m, BranchLimit::kSinkage, i);
     consider(std::abs(wheel.steer_rad) / limits.steer_angle_max_rad, BranchLimit::kSteering, i);
+    consider(std::abs(wheel.forces.torque_nm) / limits.torque_max_nm, BranchLimit::kTorque, i);
     consider(1.02 - wheel.load_n / mean_load, BranchLimit::kLiftedWheel, i);
   }
   return use;
@@ -208,7 +229,7 @@ namespace {
 /// arc length; the walk stands beyond the limit.
 Point limit_within_step(const Walk& walk, double used_before,
                         const std::function<double(const Point&)>& used) {
-  constexpr double kClose = 1e-6;
+  constexpr double kClose = 1e-5;
   double low = 0, high = walk.last_arc();
   double f_low = used_before - 1, f_high = used(walk.at()) - 1;
   Point at = walk.at();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -12,7 +13,8 @@ struct TrimLimits {
   double slip_angle_max_rad = 0;
   double slip_max = 0;
   double sinkage_max_m = 0;
-  double steer_angle_max_rad = 0;
+  double steer_angle_max_rad = 0;  ///< without meaning where no wheel is steered
+  double torque_max_nm = std::numeric_limits<double>::infinity();  ///< of each driven wheel
 };
 
 /// What ends a branch of steady trims.
@@ -22,6 +24,7 @@ enum class BranchLimit {
   kSlip,
   kSinkage,
   kSteering,
+  kTorque,       ///< of a motor
   kLiftedWheel,  ///< a wheel's load falls to 2 % of the mean
 };
 

@@ -98,15 +98,29 @@ void validate_steering(const Vehicle& vehicle) {
         "curvature_max_1pm", vehicle.curvature_max_1pm,
         fmt::format("below 1/|turn_centre_x_m| = {:.6g}", 1 / std::abs(vehicle.turn_centre_x_m)));
   }
-  const bool steers = std::any_of(vehicle.wheels.begin(), vehicle.wheels.end(),
-                                  [](const WheelMount& w) { return w.steered; });
+  const auto steered = [](const WheelMount& w) { return w.steered; };
+  const bool steers = std::ranges::any_of(vehicle.wheels, steered);
+  if (vehicle.steering == Steering::kSkid) {
+    if (steers) throw InputError("steering: skid, but a wheel is steered");
+    if (vehicle.drive_law != DriveLaw::kKinematic) {
+      throw InputError(
+          "drive_law: not kinematic, but steering is skid: rims of one speed or one "
+          "torque cannot steer");
+    }
+  } else if (!steers) {
+    throw InputError("steering: no wheel is steered; vehicles without say steering: skid");
+  }
+  if (vehicle.steering == Steering::kCrab && !std::ranges::all_of(vehicle.wheels, steered)) {
+    throw InputError("steering: crab, but not every wheel is steered");
+  }
   require_between("steer_angle_max_deg", degrees(vehicle.steer_angle_max_rad), 0, 89);
   if (steers && vehicle.steer_angle_max_rad == 0) {
     throw ValueError("steer_angle_max_deg", 0, "above 0 to 89 where a wheel is steered");
   }
   for (const WheelMount& wheel : vehicle.wheels) {
     if (!wheel.steered) continue;
-    if (std::abs(wheel.x_m - vehicle.turn_centre_x_m) < kSamePlace_m) {
+    if (vehicle.steering != Steering::kCrab &&
+        std::abs(wheel.x_m - vehicle.turn_centre_x_m) < kSamePlace_m) {
       throw ValueError(
           fmt::format("wheels.{}.x_m", wheel.name), wheel.x_m,
           fmt::format("off turn_centre_x_m = {:.6g}: there a steered wheel never turns",
@@ -219,6 +233,7 @@ void validate(const Vehicle& vehicle) {
   validate_body(vehicle.body);
   require_above("speed_max_mps", vehicle.speed_max_mps, 0, 100);
   require_above("acceleration_max_mps2", vehicle.acceleration_max_mps2, 0, 100);
+  if (vehicle.torque_max_nm) require_above("torque_max_nm", *vehicle.torque_max_nm, 0, 1e6);
   validate_steering(vehicle);
   // 60 deg and 0.95: beyond, wheel forces are not trusted.
   require_above("slip_angle_max_deg", degrees(vehicle.slip_angle_max_rad), 0, 60);

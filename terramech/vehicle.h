@@ -30,10 +30,20 @@ struct RockerBogie {
   double bogie_pivot_x_m = 0;
 };
 
+enum class Steering {
+  kAckermann,  ///< wheels steer about a turn centre on the line x = `turn_centre_x_m`: front,
+               ///< double (front and rear) or all-wheel Ackermann, by which wheels are steered
+  kCrab,       ///< the same with every wheel steered; a crab angle turns the direction of travel
+  kSkid,       ///< no wheel steers; the rims of one side turn faster than those of the other
+};
+
+/// How driven wheels share the drive. Wheels that are not driven roll freely: no torque.
 enum class DriveLaw {
   kKinematic,    ///< rim speeds are the slip-free kinematic ones times one common factor
-  kEqualTorque,  ///< every driven wheel has the same torque
-  kEqualSpeed,   ///< every driven wheel has the same rim speed
+  kEqualTorque,  ///< every driven wheel has the same torque (open differentials): their rim speeds
+                 ///< keep the mean of the slip-free kinematic ones
+  kEqualSpeed,   ///< every driven wheel has the same rim speed (locked differentials), the mean of
+                 ///< the slip-free kinematic ones
 };
 
 /// The box that must stay clear of rocks and terrain, in the vehicle frame.
@@ -44,8 +54,7 @@ struct BodyBox {
   double height_m = 0;     ///< from its underside to its top
 };
 
-/// A wheeled vehicle with equal rigid wheels. The steered wheels are set by Ackermann geometry
-/// about a turn centre on the line x = `turn_centre_x_m`.
+/// A wheeled vehicle with equal rigid wheels.
 struct Vehicle {
   std::string name;
   std::string source;
@@ -57,6 +66,9 @@ struct Vehicle {
   Suspension suspension = Suspension::kEqualSprings;
   std::optional<RockerBogie> rocker_bogie;
   DriveLaw drive_law = DriveLaw::kKinematic;
+  /// What each driven wheel can be given, either way; nothing: as much as it takes.
+  std::optional<double> torque_max_nm = {};
+  Steering steering = Steering::kAckermann;
   double turn_centre_x_m = 0;
   BodyBox body;
 
@@ -77,6 +89,8 @@ struct Vehicle {
 ///   within the polygon of their contacts, one of them driven;
 /// - each steered wheel off the line of turn centres, its angle at `curvature_max_1pm`, either
 ///   side, at least 1 deg within `steer_angle_max_rad` (trim needs room to steer against slip);
+/// - steering: some wheel steered for Ackermann, every one for crab, none for skid steering, whose
+///   drive law is kinematic (rims of one speed or torque cannot steer);
 /// - rocker-bogie: six wheels in three axles, each pivot between what it carries;
 /// - rocks that are driven over pass below the body; the sinkage limit is below the axle.
 /// \throws ValueError or InputError naming the field, as it stands in files, that cannot be

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
-#include <vector>
 
 #include "terramech/ground_patch.h"
 #include "terramech/steered_wheel.h"
 #include "terramech/vehicle.h"
 #include "terramech/wheel_law.h"
 #include "terramech/wheel_loads.h"
+#include "terramech/wheel_sums.h"
 
 namespace regoplan {
 
@@ -24,26 +25,25 @@ struct VehicleState {
   double rim_acceleration_mps2 = 0;  ///< commanded, of the step that led here
   double transfer_forward_n = 0;     ///< force that the load transfer has settled to
   double transfer_left_n = 0;
+  double crab_rad = 0;         ///< commanded: direction of travel beside that of the curvature
+  double turn_rate_rad_s = 0;  ///< commanded: rotation on the spot; then the rim speed is 0
 };
 
-/// Targets that the rim speed and the steering move to at the vehicle's limited rates.
+/// Targets that the rim speed and the steering move to at the vehicle's limited rates: the crab
+/// angle at that of the steering, `curvature_rate_max_1pms` times the longest arm of a wheel.
 struct VehicleControl {
   double speed_target_mps = 0;
   double curvature_target_1pm = 0;
-};
-
-/// The largest strains on the wheels at the end of a step.
-struct WheelStrain {
-  double slip = 0;            ///< largest by magnitude, signed
-  double slip_angle_rad = 0;  ///< largest by magnitude, signed
-  double sinkage_m = 0;       ///< the wheel's radius where one sinks to its axle
-  double load_min_n = 0;      ///< 0 or less: a wheel lifts
+  double crab_target_rad = 0;
+  /// Other than 0, the vehicle brakes to a stop, sets its wheels for turning on the spot (in no
+  /// time, at rest) and turns; at 0 it stops turning first. \pre 0 or `can_turn_on_the_spot`
+  double turn_rate_target_rad_s = 0;
 };
 
 /// What a step leads to.
 struct StepResult {
   VehicleState state;
-  WheelStrain strain;
+  WheelStrain strain;         ///< at the end of the step
   double drive_energy_j = 0;  ///< torque times turning rate of the wheels that drive
   bool on_known_ground = true;
   bool converged = true;  ///< false: no step size balanced the forces; the state is the last good
@@ -55,9 +55,14 @@ struct StepResult {
 ///
 ///   m (dvx/dt - vy r) = sum Fx + m g_x,  m (dvy/dt + vx r) = sum Fy + m g_y,  I dr/dt = sum M
 ///
-/// Integrated by the two-stage, second-order, L-stable singly diagonally implicit Runge-Kutta
-/// method (Alexander 1977; gamma = 1 - 1/sqrt 2), because the lateral equations grow stiff as
-/// 1/speed. Load transfer follows the wheels' forces with a delay of `kTransferTime_s`. Below about
+/// Rims turn as the drive law and the motors' torque limit have it (`VehicleWheels`).
+///
+/// Integrated implicitly, because the lateral equations grow stiff as 1/speed, by either of two
+/// methods of second order that are L-stable: where every wheel rolls at its commanded speed and
+/// the step's own error estimate is small, ROS2, a linearly implicit W-method of two stages (Verwer
+/// et al. 1999; gamma = 1 - 1/sqrt 2); else the two-stage singly diagonally implicit Runge-Kutta
+/// method (Alexander 1977; the same gamma), whose stages Newton's method solves. Load transfer
+/// follows the wheels' forces with a delay of `kTransferTime_s`. Below about
 /// 1 mm/s the forces fade with the speed (`kStandstillSpeed_mps`): a vehicle with locked wheels
 /// creeps where friction would hold it, slower than that where it takes less than half of the
 /// friction there is. Deterministic; const and safe from many threads where the ground is.
@@ -66,7 +71,7 @@ class VehicleDynamics {
   using Ground = std::function<GroundPatch(double x_m, double y_m, double yaw_rad)>;
 
   static constexpr double kTransferTime_s = 0.1;
-  static constexpr double kStandstillSpeed_mps = 1e-3;
+  static constexpr double kStandstillSpeed_mps = VehicleWheels::kStandstillSpeed_mps;
 
   /// \param soil_laws the wheel's forces on each soil, by the ground's soil indices; like vehicle
   /// and ground they must outlive this
@@ -79,31 +84,40 @@ class VehicleDynamics {
 
   /// A state that starts at the given pose, rolling without slip at the given speed.
   VehicleState rolling_state(double x_m, double y_m, double yaw_rad, double speed_mps,
-                             double curvature_1pm = 0) const;
+                             double curvature_1pm = 0, double crab_rad = 0) const;
 
   GroundPatch ground(double x_m, double y_m, double yaw_rad) const {
     return ground_(x_m, y_m, yaw_rad);
   }
   const Vehicle& vehicle() const { return vehicle_; }
-  const LoadSharing& sharing() const { return sharing_; }
+  const LoadSharing& sharing() const { return wheels_.sharing(); }
   double gravity_mps2() const { return gravity_mps2_; }
 
  private:
+  struct Commands;
   struct Stage;
-  struct Velocities;
-  struct WheelSums;
+  /// Of the commanded speed: how far the linearly implicit step may be from one of first order.
+  static constexpr double kSmoothShare = 0.05;
 
-  WheelSums wheel_sums(const BodyMotion& motion, const Stage& stage, double transfer_forward_n,
-                       double transfer_left_n, bool with_slopes) const;
+  Commands commands_after(const VehicleState& state, const VehicleControl& control,
+                          double duration_s) const;
+  WheelSetting setting(const Commands& commands) const;
+  GroundReaction reaction(const PatchAxes& axes, double transfer_forward_n,
+                          double transfer_left_n) const;
+  std::optional<StepResult> linearly_implicit_step(const VehicleState& state,
+                                                   const VehicleControl& control,
+                                                   double duration_s) const;
   bool solve_stage(Stage& stage) const;
+  StepResult implicit_step(const VehicleState& state, const VehicleControl& control,
+                           double duration_s) const;
   StepResult try_step(const VehicleState& state, const VehicleControl& control,
                       double duration_s) const;
 
   const Vehicle& vehicle_;
-  std::span<const WheelLaw> soil_laws_;
+  VehicleWheels wheels_;
   Ground ground_;
-  LoadSharing sharing_;
   double gravity_mps2_;
+  double longest_arm_m_;
 };
 
 }  // namespace regoplan

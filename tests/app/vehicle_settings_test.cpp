@@ -31,6 +31,15 @@ TEST(VehicleSettings, WrittenVehiclesReadBackBitForBit) {
   }
 }
 
+TEST(VehicleSettings, SteeringAndTorqueLimitReadBack) {
+  Vehicle crabbing = preset_vehicle("tohoku");
+  crabbing.steering = Steering::kCrab;
+  crabbing.torque_max_nm = 12.5;
+  const Vehicle again = vehicle(vehicle_text(crabbing));
+  EXPECT_EQ(again.steering, Steering::kCrab);
+  EXPECT_EQ(again.torque_max_nm, 12.5);
+}
+
 TEST(VehicleSettings, WhatCannotBeAVehicleIsAnErrorWithItsLine) {
   const std::string lrv = vehicle_text(preset_vehicle("lrv"));
   const auto first_line = [&lrv](const std::string& key, const std::string& value) {

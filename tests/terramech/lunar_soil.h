@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -59,7 +60,8 @@ inline TrimLimits limits_of(const Vehicle& vehicle) {
   return {.slip_angle_max_rad = vehicle.slip_angle_max_rad,
           .slip_max = vehicle.slip_max,
           .sinkage_max_m = vehicle.sinkage_max_m,
-          .steer_angle_max_rad = vehicle.steer_angle_max_rad};
+          .steer_angle_max_rad = vehicle.steer_angle_max_rad,
+          .torque_max_nm = vehicle.torque_max_nm.value_or(std::numeric_limits<double>::infinity())};
 }
 
 /// A vehicle on ground of one soil. Neither copied nor moved: laws point into it.
@@ -88,8 +90,8 @@ struct VehicleOnSoil {
   VehicleOnSoil& operator=(const VehicleOnSoil&) = delete;
 
   double weight_n() const { return vehicle.mass_kg * gravity_mps2; }
-  SteadyManoeuvre manoeuvre(double curvature_1pm, bool reverse = false) const {
-    return {vehicle, sharing, wheel_laws, curvature_1pm, weight_n(), reverse};
+  SteadyManoeuvre manoeuvre(double curvature_1pm, bool reverse = false, double crab_rad = 0) const {
+    return {vehicle, sharing, wheel_laws, curvature_1pm, weight_n(), reverse, crab_rad};
   }
   SupplyResult supply(double curvature_1pm, double forward_n = 0, bool find_folds = false) const {
     return cornering_supply(manoeuvre(curvature_1pm), forward_n, limits_of(vehicle), find_folds);
@@ -125,6 +127,21 @@ inline Vehicle tricycle() {
       {"front", 1.4, 0, true}, {"rear_left", -0.7, 0.9, false}, {"rear_right", -0.7, -0.9, false}};
   vehicle.turn_centre_x_m = -0.7;
   vehicle.curvature_max_1pm = 0.35;
+  return vehicle;
+}
+
+/// A short LRV whose wheels do not steer: the rims of its sides turn apart. (A long one spins its
+/// wheels beyond their best slip when it turns on the spot, and drifts.)
+inline Vehicle skid_steered() {
+  Vehicle vehicle = preset_vehicle("lrv");
+  vehicle.name = "skid";
+  vehicle.steering = Steering::kSkid;
+  for (WheelMount& wheel : vehicle.wheels) {
+    wheel.steered = false;
+    wheel.x_m *= 0.4;
+  }
+  vehicle.steer_angle_max_rad = 0;
+  vehicle.slip_angle_max_rad = 45 * kDegree;
   return vehicle;
 }
 

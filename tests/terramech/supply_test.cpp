@@ -187,5 +187,73 @@ TEST(LargestTraction, IsTheSameBackwardsForAVehicleThatIsItsOwnMirrorImage) {
   EXPECT_NEAR(*ahead, *back, 1e-3 * on.weight_n());
 }
 
+/// The paper's closing claim (Yoshida & Ishigami 2004, Sec. VI), for a vehicle: all wheels at one
+/// slip angle, slip held by the pull they have to give.
+TEST(CorneringSupply, CollapsesBeyondASlipOfSixTenths) {
+  const VehicleOnSoil on("lrv");
+  const double beta = 16 * kDegree;
+  const auto supply_n = [&](double slip) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const WheelForces forces = on.model.forces(on.weight_n() / 4, motion_at(slip, beta));
+      sum += forces.fx_n * std::sin(beta) + forces.fy_n * std::cos(beta);
+    }
+    return sum;
+  };
+  EXPECT_LT(supply_n(0.8), 0.8 * supply_n(0.6));
+  EXPECT_LT(supply_n(0.95), 0.6 * supply_n(0.6));
+  double before = supply_n(0.6);
+  for (double slip = 0.65; slip < 1; slip += 0.05) {
+    EXPECT_LT(supply_n(slip), before) << slip;
+    before = supply_n(slip);
+  }
+}
+
+TEST(CorneringSupply, LargerSlipAnglesOverturnMoreEasily) {
+  // What the soil gives sideways at a larger slip angle brings a vehicle nearer to tipping over.
+  const VehicleOnSoil on("lrv");
+  const SupportPolygon polygon(on.vehicle);
+  double before = 1;
+  for (const double limit_deg : {4.0, 8.0, 12.0, 16.0, 25.0, 35.0}) {
+    TrimLimits limits = limits_of(on.vehicle);
+    limits.slip_angle_max_rad = limit_deg * kDegree;
+    const SupplyResult result = cornering_supply(on.manoeuvre(0.1), 0, limits);
+    ASSERT_TRUE(result.supply);
+    const double margin = polygon.tip_over_margin(
+        {.normal_n = on.weight_n(), .forward_n = 0, .left_n = result.supply->left.force_n});
+    EXPECT_LT(margin, before) << limit_deg;
+    before = margin;
+  }
+}
+
+TEST(CorneringSupply, TellsWhichAxleLetsGoAndHowItHandles) {
+  // On loose soil the heavier axle digs in and holds more than its share: weight on the nose lets
+  // the tail go first, and the vehicle must be steered back.
+  for (const double shift_m : {-0.4, 0.4}) {
+    Vehicle vehicle = preset_vehicle("lrv");
+    for (WheelMount& wheel : vehicle.wheels) wheel.x_m += shift_m;
+    vehicle.turn_centre_x_m = shift_m;
+    vehicle.cg_height_m = 0.3;
+    const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+    const SupplyResult result = on.supply(0.02);
+    ASSERT_TRUE(result.supply);
+    for (const SupplyEnd& end : {result.supply->left, result.supply->right}) {
+      EXPECT_EQ(end.limit, BranchLimit::kSlipAngle);
+      const bool front = end.axle_x_m > 0;
+      EXPECT_EQ(front, shift_m > 0) << shift_m;
+      EXPECT_EQ(end.understeer_1pm > 0, front) << shift_m << ' ' << end.understeer_1pm;
+    }
+  }
+}
+
+TEST(CorneringSupply, EndsWhereAMotorIsTooWeak) {
+  Vehicle vehicle = preset_vehicle("lrv");
+  vehicle.torque_max_nm = 25;
+  const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+  const SupplyResult result = on.supply(0.05, 0.05 * on.weight_n());
+  ASSERT_TRUE(result.supply);
+  EXPECT_EQ(result.supply->left.limit, BranchLimit::kTorque);
+}
+
 }  // namespace
 }  // namespace regoplan

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
+#include "terramech/force_table.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {
@@ -125,6 +127,112 @@ TEST(Trim, IsNoneBeyondWhatTheSoilGives) {
   const VehicleOnSoil on("lrv");
   EXPECT_FALSE(on.manoeuvre(0).solve_from_rolling(at_force(0.9 * on.weight_n(), 0)));
   EXPECT_FALSE(on.manoeuvre(0).solve_from_rolling(at_force(-0.95 * on.weight_n(), 0)));
+}
+
+TEST(Trim, SlopesOfATabledLawAreThoseOfTheBalance) {
+  const VehicleOnSoil on("lrv");
+  const ForceTable table({.model = on.model.spec(),
+                          .nominal_load_n = on.weight_n() / 4,
+                          .accuracy = {.at_999_permille = 5e-3, .at_worst = 2e-2}});
+  const std::vector<WheelLaw> laws(4, WheelLaw(table));
+  const SteadyManoeuvre manoeuvre(on.vehicle, on.sharing, laws, 0.2, on.weight_n());
+  const ForceLine line{.from = {.forward_n = 0.1 * on.weight_n(), .left_n = 0},
+                       .per_unit = {.forward_n = 0, .left_n = on.weight_n()}};
+  const SteadyManoeuvre::Point at{-0.3, 0.3, 0.4, 0.2};
+  const auto slopes = manoeuvre.slopes(at, line);
+  ASSERT_TRUE(slopes);
+  constexpr double kStep = 1e-4;
+  for (int k = 0; k < 4; ++k) {
+    SteadyManoeuvre::Point up = at, down = at;
+    up[k] += kStep;
+    down[k] -= kStep;
+    const SteadyManoeuvre::Residual slope =
+        (*manoeuvre.residual(up, line) - *manoeuvre.residual(down, line)) / (2 * kStep);
+    EXPECT_LT((slopes->col(k) - slope).norm(), 2e-3 * slope.norm()) << k;
+  }
+}
+
+TEST(Trim, HoldsTheDriveLaw) {
+  for (const DriveLaw law : {DriveLaw::kEqualSpeed, DriveLaw::kEqualTorque}) {
+    for (const bool all_driven : {true, false}) {
+      Vehicle vehicle = preset_vehicle("lrv");
+      vehicle.drive_law = law;
+      vehicle.wheels[2].driven = vehicle.wheels[3].driven = all_driven;
+      const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+      const Trim trim = trim_of(on.manoeuvre(0.15), 0.05 * on.weight_n(), 0.1 * on.weight_n());
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double torque = trim.wheels[i].forces.torque_nm;
+        if (!vehicle.wheels[i].driven) {
+          EXPECT_NEAR(torque, 0, 1e-4);
+        } else if (law == DriveLaw::kEqualTorque) {
+          EXPECT_NEAR(torque, trim.wheels[0].forces.torque_nm, 1e-4);
+        }
+      }
+      if (law == DriveLaw::kEqualSpeed) {
+        // One rim speed on two radii: the inner wheels, on the left, slip more.
+        EXPECT_GT(trim.wheels[0].slip, trim.wheels[1].slip + 0.1);
+      }
+    }
+  }
+}
+
+TEST(Trim, SkidSteeringTurnsTheOuterRimsFasterThanTheTurnItself) {
+  const VehicleOnSoil on(skid_steered(), firm_regolith(), kMoon_mps2);
+  const double k = 0.05;
+  const Trim trim = trim_of(on.manoeuvre(k), 0);
+  EXPECT_GT(trim.steer_curvature_1pm, 1.2 * k);
+  EXPECT_LT(trim.wheels[0].slip, trim.wheels[1].slip);
+}
+
+TEST(Trim, CrabSteeringMovesAlongItsWheels) {
+  Vehicle vehicle = preset_vehicle("tohoku");
+  vehicle.steering = Steering::kCrab;
+  const VehicleOnSoil on(vehicle, firm_regolith(), kEarth_mps2);
+  const Trim trim = trim_of(on.manoeuvre(0, false, 0.3), 0);
+  EXPECT_NEAR(trim.body_slip_angle_rad, 0.3, 1e-5);
+  for (const TrimmedWheel& wheel : trim.wheels) {
+    EXPECT_NEAR(wheel.steer_rad, 0.3, 1e-5);
+    EXPECT_NEAR(wheel.slip_angle_rad, 0, 1e-5);
+  }
+}
+
+/// The linear bicycle model in a steady turn at speed v: lateral and yaw balance of two axles whose
+/// stiffnesses are the wheel model's own dFy/dbeta at the trimmed loads and slips. The wheels'
+/// pull is turned with their heading, as it is in the trim. A trim near zero lateral force has
+/// small slip angles of both signs only if its pull is small: here the flat, straight and slow.
+TEST(Trim, IsTheLinearBicycleModelAtSmallAngles) {
+  for (const std::string& name : preset_vehicle_names()) {
+    const VehicleOnSoil on(name);
+    const SteadyManoeuvre manoeuvre = on.manoeuvre(0);
+    const double left_n = 2e-3 * on.weight_n();
+    const Trim trim = trim_of(manoeuvre, 0, left_n);
+    // Side force -C beta with beta = body slip + kappa x - steer; kappa = 0.
+    double stiffness = 0;
+    for (const TrimmedWheel& wheel : trim.wheels) {
+      constexpr double kStep_rad = 1e-4;
+      const auto fy = [&](double beta) {
+        return on.model.forces(wheel.load_n, motion_at(wheel.slip, beta)).fy_n;
+      };
+      stiffness += (fy(kStep_rad) - fy(-kStep_rad)) / (2 * kStep_rad);
+    }
+    double mean_slip_angle = 0;
+    for (const TrimmedWheel& wheel : trim.wheels) {
+      mean_slip_angle += wheel.slip_angle_rad / static_cast<double>(trim.wheels.size());
+    }
+    EXPECT_NEAR(-stiffness * mean_slip_angle, left_n, 0.02 * left_n) << name;
+  }
+}
+
+TEST(Trim, MirrorsExactly) {
+  const VehicleOnSoil on("lrv");
+  const double k = 0.2, left_n = 0.2 * on.weight_n();
+  const SteadyManoeuvre one = on.manoeuvre(k), other = on.manoeuvre(-k);
+  const SteadyManoeuvre::Point at{-0.3, 0.7, 0.2, 0.5}, mirrored{0.3, -0.7, 0.2, 0.5};
+  const auto missing = one.residual(at, at_force(50, left_n));
+  const auto missing_mirrored = other.residual(mirrored, at_force(50, -left_n));
+  EXPECT_NEAR((*missing)[0], (*missing_mirrored)[0], 1e-12);
+  EXPECT_NEAR((*missing)[1], -(*missing_mirrored)[1], 1e-12);
+  EXPECT_NEAR((*missing)[2], -(*missing_mirrored)[2], 1e-12);
 }
 
 }  // namespace

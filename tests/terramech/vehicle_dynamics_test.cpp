@@ -328,5 +328,124 @@ TEST(VehicleDynamics, TellsTheStrainOfItsWheels) {
               rover.on.weight_n() * std::cos(15 * kDegree) / 4 - transfer, 0.5);
 }
 
+TEST(VehicleDynamics, ACrabbingVehicleMovesAsideWithoutTurning) {
+  Vehicle vehicle = preset_vehicle("tohoku");
+  vehicle.steering = Steering::kCrab;
+  const VehicleOnSoil on(vehicle, firm_regolith(), kEarth_mps2);
+  const VehicleDynamics dynamics(on.vehicle, on.soil_laws, Plane{}, on.gravity_mps2);
+  VehicleState state = dynamics.rolling_state(0, 0, 0, 0);
+  for (int i = 0; i < 200; ++i) {
+    state = dynamics.step(state, {.speed_target_mps = 0.05, .crab_target_rad = 0.5}, 0.1).state;
+  }
+  EXPECT_EQ(state.crab_rad, 0.5);
+  EXPECT_NEAR(std::atan2(state.motion.vy_mps, state.motion.vx_mps), 0.5, 1e-3);
+  EXPECT_NEAR(state.yaw_rad, 0, 1e-3);
+}
+
+TEST(VehicleDynamics, ASkidSteeredVehicleTurnsLessThanItsRimsCommand) {
+  const VehicleOnSoil on(skid_steered(), firm_regolith(), kMoon_mps2);
+  const VehicleDynamics dynamics(on.vehicle, on.soil_laws, Plane{}, on.gravity_mps2);
+  VehicleState state = dynamics.rolling_state(0, 0, 0, 0.5);
+  for (int i = 0; i < 100; ++i) {
+    const StepResult next = dynamics.step(state, {0.5, 0.4}, 0.1);
+    ASSERT_TRUE(next.converged) << i;
+    state = next.state;
+  }
+  const double curvature = state.motion.yaw_rate_rad_s / speed_of(state);
+  EXPECT_GT(curvature, 0.02);
+  EXPECT_LT(curvature, 0.4);
+}
+
+TEST(VehicleDynamics, TurnsOnTheSpot) {
+  for (const Vehicle& vehicle : {preset_vehicle("curiosity"), skid_steered()}) {
+    const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+    const VehicleDynamics dynamics(on.vehicle, on.soil_laws, Plane{}, on.gravity_mps2);
+    const double top = vehicle.speed_max_mps, rate = 0.1 * top;
+    VehicleState state = dynamics.rolling_state(0, 0, 0, 0.3 * top);
+    const auto turn = [&](double target, double duration_s) {
+      for (int i = 0; i < duration_s / 0.1; ++i) {
+        const StepResult next =
+            dynamics.step(state, {.speed_target_mps = top, .turn_rate_target_rad_s = target}, 0.1);
+        ASSERT_TRUE(next.converged) << vehicle.name << i;
+        state = next.state;
+      }
+    };
+    turn(rate, 10);  // it stops first
+    EXPECT_EQ(state.rim_speed_mps, 0) << vehicle.name;
+    const VehicleState before = state;
+    turn(rate, 20);
+    // Wheels that do not steer are dragged sideways and slip much.
+    const double turned = state.yaw_rad - before.yaw_rad;
+    EXPECT_GT(turned, (vehicle.steering == Steering::kSkid ? 0.05 : 0.9) * rate * 20);
+    EXPECT_LT(turned, 1.01 * rate * 20) << vehicle.name;
+    EXPECT_LT(std::hypot(state.x_m - before.x_m, state.y_m - before.y_m), 0.1) << vehicle.name;
+    turn(-rate, 60);
+    EXPECT_LT(state.motion.yaw_rate_rad_s, 0) << vehicle.name;
+  }
+}
+
+TEST(VehicleDynamics, WeakMotorsClimbMoreSlowlyThanCommanded) {
+  for (const double torque_nm : {1000.0, 25.0, 5.0}) {
+    Vehicle vehicle = preset_vehicle("lrv");
+    vehicle.torque_max_nm = torque_nm;
+    const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+    const VehicleDynamics dynamics(on.vehicle, on.soil_laws, Plane{std::tan(8 * kDegree), 0},
+                                   on.gravity_mps2);
+    VehicleState state = dynamics.rolling_state(0, 0, 0, 1);
+    StepResult next{.state = state, .strain = {}};
+    for (int i = 0; i < 100; ++i) {
+      next = dynamics.step(next.state, {1, 0}, 0.1);
+      ASSERT_TRUE(next.converged) << torque_nm << ' ' << i;
+    }
+    EXPECT_LE(std::abs(next.strain.torque_max_nm), torque_nm + 1e-3);
+    if (torque_nm == 1000) {
+      EXPECT_GT(next.state.motion.vx_mps, 0.9);
+    } else if (torque_nm == 5) {
+      EXPECT_LT(next.state.motion.vx_mps, 0.2);
+    }
+  }
+}
+
+TEST(VehicleDynamics, EveryDriveLawDrivesAndMirrors) {
+  for (const auto change : {+[](Vehicle& v) { v.drive_law = DriveLaw::kEqualSpeed; },
+                            +[](Vehicle& v) { v.drive_law = DriveLaw::kEqualTorque; },
+                            +[](Vehicle& v) { v.wheels[2].driven = v.wheels[3].driven = false; }}) {
+    Vehicle vehicle = preset_vehicle("lrv");
+    change(vehicle);
+    const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+    const VehicleDynamics dynamics(on.vehicle, on.soil_laws, Plane{}, on.gravity_mps2);
+    const auto drive = [&](double curvature) {
+      VehicleState state = dynamics.rolling_state(0, 0, 0, 0);
+      for (int i = 0; i < 100; ++i) {
+        const StepResult next = dynamics.step(state, {1.5, curvature}, 0.1);
+        EXPECT_TRUE(next.converged) << i;
+        state = next.state;
+      }
+      return state;
+    };
+    const VehicleState left = drive(0.1), right = drive(-0.1);
+    EXPECT_GT(left.x_m, 5);
+    EXPECT_GT(left.y_m, 1);
+    EXPECT_NEAR(left.x_m, right.x_m, 1e-5);
+    EXPECT_NEAR(left.y_m, -right.y_m, 1e-5);
+  }
+}
+
+TEST(VehicleDynamics, ASlalomOfAMinuteNeedsNoFinerSteps) {
+  for (const double speed : {0.3, 1.0, 3.0}) {
+    const Driving rover("lrv");
+    const auto slalom = [&](double step_s) {
+      VehicleState state = rover.dynamics.rolling_state(0, 0, 0, speed);
+      for (int turn = 0; turn < 12; ++turn) {
+        state = rover.drive(state, {speed, turn % 2 == 0 ? 0.05 : -0.05}, 5, step_s).state;
+      }
+      return state;
+    };
+    const VehicleState coarse = slalom(0.1), fine = slalom(0.05);
+    EXPECT_LT(std::hypot(coarse.x_m - fine.x_m, coarse.y_m - fine.y_m), 0.5e-3 * 60 * speed)
+        << speed;
+  }
+}
+
 }  // namespace
 }  // namespace regoplan

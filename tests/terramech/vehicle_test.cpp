@@ -282,8 +282,23 @@ TEST(ValidateVehicle, AcceptsASkidSteeredVehicle) {
                       [](Vehicle& v) {
                         for (WheelMount& wheel : v.wheels) wheel.steered = false;
                         v.steer_angle_max_rad = 0;
+                        v.steering = Steering::kSkid;
                       }),
             "");
+}
+
+TEST(ValidateVehicle, HoldsSteeringToItsWheels) {
+  const auto skid = [](Vehicle& v) { v.steering = Steering::kSkid; };
+  EXPECT_NE(complaint("tohoku", skid).find("steering: skid"), std::string::npos);
+  const auto crab = [](Vehicle& v) { v.steering = Steering::kCrab; };
+  EXPECT_EQ(complaint("tohoku", crab), "");
+  EXPECT_NE(complaint("curiosity", crab).find("steering: crab"), std::string::npos);
+  const auto unsteered = [](Vehicle& v) {
+    for (WheelMount& wheel : v.wheels) wheel.steered = false;
+  };
+  EXPECT_NE(complaint("tohoku", unsteered).find("steering: no wheel"), std::string::npos);
+  const auto weak = [](Vehicle& v) { v.torque_max_nm = 0; };
+  EXPECT_NE(complaint("lrv", weak).find("torque_max_nm: 0"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,315 @@
+#include "terramech/wheel_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "terramech/rim_speed.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kStandstill = VehicleWheels::kStandstillSpeed_mps;
+
+double length(double a, double b) {
+  return std::sqrt(a * a + b * b);
+}
+
+/// What makes forces vanish with the speed that they oppose.
+double fade(double speed_mps) {
+  return speed_mps / (speed_mps + kStandstill);
+}
+
+double fade_slope(double speed_mps) {
+  const double whole = speed_mps + kStandstill;
+  return kStandstill / (whole * whole);
+}
+
+inline WheelForces faded(const WheelLaw& law, double load_n, const WheelMotion& at) {
+  WheelForces forces = law.forces(load_n, at);
+  const double fade_x = fade(length(at.vx_mps, at.rim_speed_mps));
+  forces.fx_n *= fade_x;
+  forces.fy_n *= fade(length(at.vy_mps, at.rim_speed_mps));
+  forces.torque_nm *= fade_x;
+  return forces;
+}
+
+/// Well above standstill, so that fading bends forces less than speed does.
+constexpr double kMoving_mps = 10 * kStandstill;
+
+bool rolls(const WheelMotion& at) {
+  return at.vx_mps * at.rim_speed_mps > 0 &&
+         std::max(std::abs(at.vx_mps), std::abs(at.rim_speed_mps)) > kMoving_mps;
+}
+
+/// A wheel's force (fx, -fy) in its own frame and its slopes.
+struct WheelSlopes {
+  double x = 0, y = 0;
+  double x_by_vx = 0, x_by_vy = 0, x_by_rim = 0;
+  double y_by_vx = 0, y_by_vy = 0, y_by_rim = 0;
+  double torque_nm = 0, sinkage_m = 0;
+  WheelStatus status = WheelStatus::kOk;
+};
+
+/// \pre `rolls(at)`, the law has slopes
+WheelSlopes faded_slopes(const WheelLaw& law, double load_n, const WheelMotion& at) {
+  const SlopedForces forces = law.forces_with_slopes(load_n, at);
+  const SlopedForce &fx = forces.fx, &fy = forces.fy;
+  const double along = length(at.vx_mps, at.rim_speed_mps);
+  const double across = length(at.vy_mps, at.rim_speed_mps);
+  const double fade_x = fade(along), fade_y = fade(across);
+  const double bend_x = fx.value_n * fade_slope(along) / along;
+  const double bend_y = fy.value_n * fade_slope(across) / across;
+  return {.x = fx.value_n * fade_x,
+          .y = -fy.value_n * fade_y,
+          .x_by_vx = fx.by_vx_nspm * fade_x + bend_x * at.vx_mps,
+          .x_by_vy = fx.by_vy_nspm * fade_x,
+          .x_by_rim = fx.by_rim_speed_nspm * fade_x + bend_x * at.rim_speed_mps,
+          .y_by_vx = -fy.by_vx_nspm * fade_y,
+          .y_by_vy = -fy.by_vy_nspm * fade_y - bend_y * at.vy_mps,
+          .y_by_rim = -fy.by_rim_speed_nspm * fade_y - bend_y * at.rim_speed_mps,
+          .torque_nm = forces.torque_nm * fade_x,
+          .status = forces.status};
+}
+
+double within(const std::optional<double>& limit, double value) {
+  return limit ? std::clamp(value, -*limit, *limit) : value;
+}
+
+/// Directions of a wheel's frame, with their levers, in (forward, left, yaw).
+struct Levers {
+  Eigen::Vector3d along, across;
+
+  Levers(const WheelMount& mount, const SteeredWheel& wheel)
+      : along{wheel.cos_steer, wheel.sin_steer,
+              mount.x_m * wheel.sin_steer - mount.y_m * wheel.cos_steer},
+        across{-wheel.sin_steer, wheel.cos_steer,
+               mount.x_m * wheel.cos_steer + mount.y_m * wheel.sin_steer} {}
+};
+
+void add_contact(WheelStrain& strain, double radius_m, WheelStatus status, double sinkage_m,
+                 double torque_nm) {
+  strain.sinkage_m = std::max(strain.sinkage_m, has_forces(status) ? sinkage_m : radius_m);
+  if (std::abs(torque_nm) > std::abs(strain.torque_max_nm)) strain.torque_max_nm = torque_nm;
+}
+
+}  // namespace
+
+/// How a wheel answers: its forces, and the rim speed at which it does.
+struct VehicleWheels::Response {
+  WheelForces forces;
+  double rim_speed_mps = 0;
+  bool as_commanded = true;
+};
+
+VehicleWheels::VehicleWheels(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws)
+    : vehicle_(vehicle), soil_laws_(soil_laws), sharing_(vehicle) {
+  for (const WheelMount& mount : vehicle.wheels) driven_ += mount.driven;
+}
+
+VehicleWheels::Response VehicleWheels::response(std::size_t wheel, const WheelLaw& law,
+                                                double load_n, WheelMotion at,
+                                                double shared_torque_nm) const {
+  const auto at_rim = [&](double rim_speed_mps) {
+    return faded(law, load_n, {at.vx_mps, at.vy_mps, rim_speed_mps});
+  };
+  const auto given = [&](double torque_nm) {
+    const double rim_speed_mps = rim_speed_at_torque(
+        [&](double rim) { return at_rim(rim).torque_nm; }, torque_nm, at.vx_mps, kStandstill);
+    return Response{at_rim(rim_speed_mps), rim_speed_mps, false};
+  };
+  if (!vehicle_.wheels[wheel].driven) return given(0);
+  if (vehicle_.drive_law == DriveLaw::kEqualTorque) return given(shared_torque_nm);
+  const WheelForces forces = at_rim(at.rim_speed_mps);
+  const double held = within(vehicle_.torque_max_nm, forces.torque_nm);
+  return held == forces.torque_nm ? Response{forces, at.rim_speed_mps} : given(held);
+}
+
+/// The torque at which the driven rims turn at their commanded speeds on average.
+double VehicleWheels::shared_torque_nm(const BodyMotion& motion, const WheelSetting& setting,
+                                       const GroundPatch& patch,
+                                       const GroundReaction& reaction) const {
+  if (vehicle_.drive_law != DriveLaw::kEqualTorque) return 0;
+  double most_nm = 0, axle_mps = 0;
+  const auto excess_mps = [&](double torque_nm) {
+    double sum = 0;
+    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+      if (!vehicle_.wheels[i].driven) continue;
+      const double load = sharing_.load_n(i, reaction);
+      if (!(load > 0)) continue;
+      const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
+      const WheelMotion at =
+          wheel_motion(vehicle_.wheels[i], setting.wheels[i], motion,
+                       setting.rim_speed * setting.wheels[i].rim_speed_per_speed);
+      most_nm = std::max(most_nm, load * vehicle_.wheel.radius_m);
+      axle_mps = std::max(axle_mps, std::abs(at.vx_mps));
+      sum += response(i, law, load, at, torque_nm).rim_speed_mps - at.rim_speed_mps;
+    }
+    return sum;
+  };
+  const double limit = vehicle_.torque_max_nm.value_or(std::numeric_limits<double>::infinity());
+  double low = 0, f_low = excess_mps(0);
+  most_nm = std::min(2 * most_nm, limit);
+  double high = f_low < 0 ? most_nm : -most_nm, f_high = excess_mps(high);
+  if (f_low * f_high >= 0) return f_low == 0 ? 0 : high;
+  for (int i = 0; i < 100; ++i) {
+    constexpr double kCloseShare = 1e-12;
+    const double middle =
+        i % 4 == 3 ? (low + high) / 2 : high - f_high * (high - low) / (f_high - f_low);
+    const double f = excess_mps(middle);
+    const bool close = std::abs(middle - high) <= kCloseShare * most_nm;
+    if (f * f_high < 0) {
+      low = high;
+      f_low = f_high;
+    } else {
+      f_low /= 2;
+    }
+    high = middle;
+    f_high = f;
+    if (close || f == 0) break;
+  }
+  return high;
+}
+
+WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& setting,
+                              const GroundPatch& patch, const GroundReaction& reaction) const {
+  const double shared = shared_torque_nm(motion, setting, patch, reaction);
+  WheelSums sums;
+  sums.contact.load_min_n = reaction.normal_n;
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    const double load = sharing_.load_n(i, reaction);
+    sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
+    if (!(load > 0)) continue;
+    const WheelMount& mount = vehicle_.wheels[i];
+    const SteeredWheel& wheel = setting.wheels[i];
+    const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
+    WheelMotion at =
+        wheel_motion(mount, wheel, motion, setting.rim_speed * wheel.rim_speed_per_speed);
+    WheelForces forces;
+    bool as_commanded = mount.driven && vehicle_.drive_law != DriveLaw::kEqualTorque;
+    if (as_commanded) {
+      forces = faded(law, load, at);
+      as_commanded = within(vehicle_.torque_max_nm, forces.torque_nm) == forces.torque_nm;
+    }
+    if (!as_commanded) [[unlikely]] {
+      const Response response = this->response(i, law, load, at, shared);
+      forces = response.forces;
+      at.rim_speed_mps = response.rim_speed_mps;
+      sums.as_commanded = false;
+    }
+    sums.force.add(mount, wheel, forces);
+    add_contact(sums.contact, vehicle_.wheel.radius_m, forces.status, forces.sinkage_m,
+                forces.torque_nm);
+    sums.slips.add(at);
+    sums.drive_power_w +=
+        std::max(forces.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
+  }
+  return sums;
+}
+
+SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
+                                                const WheelSetting& setting,
+                                                const WheelSetting& next, const GroundPatch& patch,
+                                                const GroundReaction& reaction) const {
+  SlopedWheelSums result;
+  if (vehicle_.drive_law == DriveLaw::kEqualTorque) {
+    // The wheels share one torque: each one's forces depend on the motion of all.
+    result.sums = sums(motion, setting, patch, reaction);
+    result.smooth = false;
+    const double h =
+        1e-4 * std::max({std::abs(motion.vx_mps), std::abs(setting.rim_speed), kStandstill});
+    const auto moved = [&](const BodyMotion& there) {
+      const BodyForce force = sums(there, setting, patch, reaction).force;
+      return Eigen::Vector3d{force.forward_n - result.sums.force.forward_n,
+                             force.left_n - result.sums.force.left_n,
+                             force.yaw_nm - result.sums.force.yaw_nm};
+    };
+    const auto& [vx, vy, r] = motion;
+    result.slopes.col(0) = moved({vx + h, vy, r}) / h;
+    result.slopes.col(1) = moved({vx, vy + h, r}) / h;
+    result.slopes.col(2) = moved({vx, vy, r + h}) / h;
+    return result;
+  }
+  WheelSums& sums = result.sums;
+  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
+  sums.contact.load_min_n = reaction.normal_n;
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    const double load = sharing_.load_n(i, reaction);
+    sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
+    if (!(load > 0)) continue;
+    const WheelMount& mount = vehicle_.wheels[i];
+    const SteeredWheel& wheel = setting.wheels[i];
+    const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
+    WheelMotion at =
+        wheel_motion(mount, wheel, motion, setting.rim_speed * wheel.rim_speed_per_speed);
+    WheelSlopes f;
+    bool as_commanded = mount.driven && rolls(at);
+    if (as_commanded && law.has_slopes()) {
+      f = faded_slopes(law, load, at);
+      as_commanded = within(vehicle_.torque_max_nm, f.torque_nm) == f.torque_nm;
+      sums.sinkage_known = false;
+    }
+    if (!as_commanded || !law.has_slopes()) {
+      const Response here = response(i, law, load, at, 0);
+      const double h = 1e-4 * std::max({std::abs(at.vx_mps), std::abs(at.vy_mps),
+                                        std::abs(at.rim_speed_mps), kStandstill});
+      const WheelForces ahead =
+          response(i, law, load, {at.vx_mps + h, at.vy_mps, at.rim_speed_mps}, 0).forces;
+      const WheelForces aside =
+          response(i, law, load, {at.vx_mps, at.vy_mps + h, at.rim_speed_mps}, 0).forces;
+      as_commanded = as_commanded && here.as_commanded;
+      f = {.x = here.forces.fx_n,
+           .y = -here.forces.fy_n,
+           .x_by_vx = (ahead.fx_n - here.forces.fx_n) / h,
+           .x_by_vy = (aside.fx_n - here.forces.fx_n) / h,
+           .y_by_vx = (here.forces.fy_n - ahead.fy_n) / h,
+           .y_by_vy = (here.forces.fy_n - aside.fy_n) / h,
+           .torque_nm = here.forces.torque_nm,
+           .sinkage_m = here.forces.sinkage_m,
+           .status = here.forces.status};
+      if (as_commanded) {  // forces depend on ratios of speeds only, but for the little they fade
+        f.x_by_rim = -(at.vx_mps * f.x_by_vx + at.vy_mps * f.x_by_vy) / at.rim_speed_mps;
+        f.y_by_rim = -(at.vx_mps * f.y_by_vx + at.vy_mps * f.y_by_vy) / at.rim_speed_mps;
+      }
+      at.rim_speed_mps = here.rim_speed_mps;
+    }
+    result.smooth = result.smooth && as_commanded;
+
+    const Levers lever(mount, wheel);
+    const Eigen::Vector3d force = f.x * lever.along + f.y * lever.across;
+    sums.force.forward_n += force[0];
+    sums.force.left_n += force[1];
+    sums.force.yaw_nm += force[2];
+    const Eigen::Vector3d x_by = f.x_by_vx * lever.along + f.x_by_vy * lever.across;
+    const Eigen::Vector3d y_by = f.y_by_vx * lever.along + f.y_by_vy * lever.across;
+    for (int k = 0; k < 3; ++k) slopes.col(k) += x_by[k] * lever.along + y_by[k] * lever.across;
+    if (result.smooth) {
+      const SteeredWheel& to = next.wheels[i];
+      const double turn = wheel.cos_steer * to.sin_steer - wheel.sin_steer * to.cos_steer;
+      const double faster = next.rim_speed * to.rim_speed_per_speed - at.rim_speed_mps;
+      const double vx = at.vy_mps * turn, vy = -at.vx_mps * turn;
+      result.by_setting +=
+          (f.x_by_vx * vx + f.x_by_vy * vy + f.x_by_rim * faster - f.y * turn) * lever.along +
+          (f.y_by_vx * vx + f.y_by_vy * vy + f.y_by_rim * faster + f.x * turn) * lever.across;
+    }
+    add_contact(sums.contact, vehicle_.wheel.radius_m, f.status, f.sinkage_m, f.torque_nm);
+    sums.slips.add(at);
+    sums.drive_power_w += std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
+  }
+  result.slopes = slopes;
+  return result;
+}
+
+LargestSlips VehicleWheels::slips(const BodyMotion& motion, const WheelSetting& setting,
+                                  const GroundReaction& reaction) const {
+  LargestSlips slips;
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    if (!(sharing_.load_n(i, reaction) > 0)) continue;
+    const SteeredWheel& wheel = setting.wheels[i];
+    slips.add(wheel_motion(vehicle_.wheels[i], wheel, motion,
+                           setting.rim_speed * wheel.rim_speed_per_speed));
+  }
+  return slips;
+}
+
+}  // namespace regoplan

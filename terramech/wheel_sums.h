@@ -1,0 +1,127 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "terramech/ground_patch.h"
+#include "terramech/steered_wheel.h"
+#include "terramech/vehicle.h"
+#include "terramech/wheel_law.h"
+#include "terramech/wheel_loads.h"
+
+namespace regoplan {
+
+/// The largest strains on the wheels.
+struct WheelStrain {
+  double slip = 0;            ///< largest by magnitude, signed
+  double slip_angle_rad = 0;  ///< largest by magnitude, signed
+  double sinkage_m = 0;       ///< the wheel's radius where one sinks to its axle
+  double load_min_n = 0;      ///< 0 or less: a wheel lifts
+  double torque_max_nm = 0;   ///< largest by magnitude, signed
+};
+
+/// Collects the largest slip and slip angle, as ratios that are divided only when asked for.
+class LargestSlips {
+ public:
+  void add(const WheelMotion& at) {
+    const double rim = std::abs(at.rim_speed_mps), ahead = std::abs(at.vx_mps);
+    const double aside = std::abs(at.vy_mps);
+    if (!(std::max({rim, ahead, aside}) > kMoving_mps)) return;
+    const double faster = std::max(rim, ahead);
+    const bool against = at.rim_speed_mps * at.vx_mps < 0;
+    const double excess = against ? -faster : rim - ahead;
+    if (std::abs(excess) * slip_whole_ > std::abs(slip_part_) * faster) {
+      slip_part_ = excess;
+      slip_whole_ = faster;
+    }
+    if (aside * ahead_ > std::abs(aside_) * ahead) {
+      aside_ = at.vy_mps;
+      ahead_ = ahead;
+    }
+  }
+  double slip() const { return slip_part_ / slip_whole_; }
+  double slip_angle_rad() const { return std::atan2(aside_, ahead_); }
+
+ private:
+  static constexpr double kMoving_mps = 1e-3;  ///< slower wheels have no slip worth telling
+  double slip_part_ = 0, slip_whole_ = 1, aside_ = 0, ahead_ = 1;
+};
+
+/// What steering and motors are set to at a moment.
+struct WheelSetting {
+  std::array<SteeredWheel, kMaxWheels> wheels;
+  double rim_speed = 0;  ///< m/s; rad/s of the rotation when set for turning on the spot
+};
+
+/// The forces of all wheels on a moving vehicle, body frame.
+struct WheelSums {
+  BodyForce force;
+  WheelStrain contact;  ///< but for the slips
+  LargestSlips slips;
+  double drive_power_w = 0;  ///< torque times turning rate of the wheels that drive
+  bool as_commanded = true;  ///< every wheel turns at its commanded speed
+  /// Laws that have slopes leave the sinkage out when they give them.
+  bool sinkage_known = true;
+
+  WheelStrain strain() const {
+    WheelStrain strain = contact;
+    strain.slip = slips.slip();
+    strain.slip_angle_rad = slips.slip_angle_rad();
+    return strain;
+  }
+};
+
+/// With slopes.
+struct SlopedWheelSums {
+  WheelSums sums;
+  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();  ///< by (vx, vy, yaw rate), loads held
+  /// Change of the force on the way to the next setting, to first order.
+  Eigen::Vector3d by_setting = Eigen::Vector3d::Zero();
+  /// Every wheel turns at its commanded speed along its motion, well above standstill: `slopes` and
+  /// `by_setting` describe the forces nearby.
+  bool smooth = true;
+};
+
+/// The wheels of a vehicle, each on its soil: the wheel model's forces at the motion of each
+/// contact, with the rim speeds that the drive law and the motors' torque limit give. Near
+/// standstill the forces fade with the speed that they oppose, because a locked wheel shears the
+/// soil fully along either of its axes, whichever way it slides: else its forces would jump.
+class VehicleWheels {
+ public:
+  static constexpr double kStandstillSpeed_mps = 1e-3;
+
+  /// \param soil_laws by the ground's soil indices; all must outlive this
+  VehicleWheels(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws);
+
+  WheelSums sums(const BodyMotion& motion, const WheelSetting& setting, const GroundPatch& patch,
+                 const GroundReaction& reaction) const;
+
+  /// \param next setting that `by_setting` leads to
+  SlopedWheelSums sums_with_slopes(const BodyMotion& motion, const WheelSetting& setting,
+                                   const WheelSetting& next, const GroundPatch& patch,
+                                   const GroundReaction& reaction) const;
+
+  /// Largest slips, from the motion alone, where rims turn at their commanded speeds.
+  LargestSlips slips(const BodyMotion& motion, const WheelSetting& setting,
+                     const GroundReaction& reaction) const;
+
+  const LoadSharing& sharing() const { return sharing_; }
+
+ private:
+  struct Response;
+  double commanded_rim_mps(std::size_t wheel, const WheelSetting& setting) const;
+  Response response(std::size_t wheel, const WheelLaw& law, double load_n, WheelMotion at,
+                    double shared_torque_nm) const;
+  double shared_torque_nm(const BodyMotion& motion, const WheelSetting& setting,
+                          const GroundPatch& patch, const GroundReaction& reaction) const;
+
+  const Vehicle& vehicle_;
+  std::span<const WheelLaw> soil_laws_;
+  LoadSharing sharing_;
+  std::size_t driven_ = 0;
+};
+
+}  // namespace regoplan
