@@ -89,18 +89,19 @@ PlaceProbe::PlaceProbe(const PlanningProblem& problem, const VehicleState& state
       vehicle_, laws, [&patch](double, double, double) { return patch; }, problem.gravity_mps2);
   const SupplyQuestion question = question_of(dynamics, state, patch);
   const SteadyManoeuvre manoeuvre(vehicle_, dynamics.sharing(), laws, question.curvature_1pm,
-                                  question.normal_n, question.reverse);
+                                  question.normal_n, question.reverse, question.crab_rad);
   const auto add = [&](Eigen::Index number, const Trim& trim) {
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       const TrimmedWheel& wheel = trim.wheels[i];
       if (!(wheel.load_n > 0)) continue;
-      wheels_.push_back(
-          {.trim = number,
-           .mount = i,
-           .soil = static_cast<std::size_t>(patch.soil.at(i)),
-           .steered = steered_wheel(vehicle_, vehicle_.wheels[i], trim.steer_curvature_1pm),
-           .load_n = wheel.load_n,
-           .motion = motion_at(wheel.slip, wheel.slip_angle_rad)});
+      wheels_.push_back({.trim = number,
+                         .mount = i,
+                         .soil = static_cast<std::size_t>(patch.soil.at(i)),
+                         .steered = steered_wheel(vehicle_, vehicle_.wheels[i],
+                                                  {.curvature_1pm = trim.steer_curvature_1pm,
+                                                   .crab_rad = question.crab_rad}),
+                         .load_n = wheel.load_n,
+                         .motion = motion_at(wheel.slip, wheel.slip_angle_rad)});
     }
   };
   const TrimLimits limits = trim_limits(problem);
