@@ -19,7 +19,9 @@ class Evaluate : public testing::Test {
                                     folder_.path("out") + "' --draws 20 " + arguments);
   }
   std::string file(const std::string& name, const std::string& text) const {
-    return "'" + folder_.write(name, text) + "'";
+    std::string quoted("'");
+    quoted.append(folder_.write(name, text)).append("'");
+    return quoted;
   }
   nlohmann::json result() const {
     return nlohmann::json::parse(folder_.read("out/evaluation.json"));
