@@ -138,7 +138,7 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
   std::string text =
       "time_s,x_m,y_m,z_m,yaw_deg,speed_mps,yaw_rate_rad_s,steer_deg,slip_max,"
       "slip_angle_max_deg,sinkage_max_m,soil,demand_n,supply_min_n,supply_max_n,"
-      "cornering_margin,tip_over_margin,traction_margin,margin\n";
+      "cornering_margin,tip_over_margin,traction_margin,margin,curvature_1pm,acceleration_mps2\n";
   for (const TrajectoryPoint& point : candidate.points) {
     for (const double value :
          {point.time_s, point.x_m, point.y_m, point.z_m, degrees(point.yaw_rad), point.speed_mps,
@@ -147,9 +147,9 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
       text += fmt::format("{},", number_cell(value));
     }
     text += text_cell(soil_name(problem, point.soil));
-    for (const double value :
-         {point.demand_n, point.supply_min_n, point.supply_max_n, point.cornering_margin,
-          point.tip_over_margin, point.traction_margin, point.margin}) {
+    for (const double value : {point.demand_n, point.supply_min_n, point.supply_max_n,
+                               point.cornering_margin, point.tip_over_margin, point.traction_margin,
+                               point.margin, point.curvature_1pm, point.acceleration_mps2}) {
       text += fmt::format(",{}", number_cell(value));
     }
     text += "\n";

@@ -5,12 +5,14 @@
 /// Files that the build puts into the program (see cmake/embed.cmake).
 namespace regoplan::report_assets {
 
-extern const std::string_view kD3;          ///< d3.min.js of Debian's node-d3
-extern const std::string_view kD3Licence;   ///< its copyright file
-extern const std::string_view kPageHtml;    ///< frame of every report
-extern const std::string_view kPageCss;     ///< look of every report
-extern const std::string_view kPageScript;  ///< what every report's script may use
-extern const std::string_view kPlanHtml;    ///< sections of the planning report
-extern const std::string_view kPlanScript;  ///< draws them
+extern const std::string_view kD3;                ///< d3.min.js of Debian's node-d3
+extern const std::string_view kD3Licence;         ///< its copyright file
+extern const std::string_view kPageHtml;          ///< frame of every report
+extern const std::string_view kPageCss;           ///< look of every report
+extern const std::string_view kPageScript;        ///< what every report's script may use
+extern const std::string_view kPlanHtml;          ///< sections of the planning report
+extern const std::string_view kPlanScript;        ///< draws them
+extern const std::string_view kEvaluationHtml;    ///< sections of the evaluation's map
+extern const std::string_view kEvaluationScript;  ///< draws them
 
 }  // namespace regoplan::report_assets

@@ -37,4 +37,18 @@ regoplan_embed(
   app/report/plan/readout.js
   app/report/plan/rejections.js
   app/report/plan/facts.js
-  app/report/plan/main.js)
+  app/report/plan/main.js
+  kEvaluationHtml
+  app/report/evaluation/evaluation.html
+  kEvaluationScript
+  app/report/plan/model.js
+  app/report/plan/candidate_table.js
+  app/report/plan/map_frame.js
+  app/report/plan/map_canvas.js
+  app/report/plan/map_overlay.js
+  app/report/plan/map_view.js
+  app/report/plan/charts.js
+  app/report/plan/layers.js
+  app/report/plan/readout.js
+  app/report/plan/rejections.js
+  app/report/evaluation/main.js)

@@ -9,53 +9,11 @@
 #include <thread>
 #include <tuple>
 
+#include "planner/path_margins.h"
 #include "planner/soil_uncertainty.h"
 
 namespace regoplan {
 namespace {
-
-LimitingPlace limiting_place(const std::vector<TrajectoryPoint>& points) {
-  const auto at = std::min_element(
-      points.begin(), points.end(),
-      [](const TrajectoryPoint& a, const TrajectoryPoint& b) { return a.margin < b.margin; });
-  const MarginKind kind = at->margin == at->cornering_margin  ? MarginKind::kCornering
-                          : at->margin == at->tip_over_margin ? MarginKind::kTipOver
-                                                              : MarginKind::kTraction;
-  return {.margin = kind, .x_m = at->x_m, .y_m = at->y_m, .time_s = at->time_s};
-}
-
-double smallest_margin(const std::vector<TrajectoryPoint>& points) {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const TrajectoryPoint& point : points) smallest = std::min(smallest, point.margin);
-  return smallest;
-}
-
-/// Mean margin over the tenth of the length where it is smallest; each point stands for the way to
-/// the next.
-double margin_of_worst_tenth(const std::vector<TrajectoryPoint>& points) {
-  struct Piece {
-    double margin, length_m;
-  };
-  std::vector<Piece> pieces;
-  double length = 0;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const double step =
-        std::hypot(points[i + 1].x_m - points[i].x_m, points[i + 1].y_m - points[i].y_m);
-    pieces.push_back({std::min(points[i].margin, points[i + 1].margin), step});
-    length += step;
-  }
-  if (!(length > 0)) return points.front().margin;
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const Piece& a, const Piece& b) { return a.margin < b.margin; });
-  double left = length / 10, sum = 0;
-  for (const Piece& piece : pieces) {
-    const double share = std::min(left, piece.length_m);
-    sum += share * piece.margin;
-    left -= share;
-    if (left <= 0) break;
-  }
-  return sum / (length / 10);
-}
 
 std::string why_overturned(const Replay& replay) {
   if (const auto& rejection = replay.rejection) {
@@ -88,7 +46,7 @@ VerifiedPath verify(const World& verdict, const World& searched, const FoundPath
       deviation_max_m(replayed, replay(searched, path.controls, coarse, false));
   if (!candidate.verified.passed) candidate.verified.reason = why_overturned(replayed);
   if (candidate.points.empty()) return verified;
-  candidate.margin_min = smallest_margin(candidate.points);
+  candidate.margin_min = candidate.points[smallest_margin_index(candidate.points)].margin;
   candidate.verified.margin_min = candidate.margin_min;
   candidate.margin_worst_tenth = margin_of_worst_tenth(candidate.points);
   candidate.limiting = limiting_place(candidate.points);

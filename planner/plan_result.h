@@ -22,9 +22,10 @@ struct TrajectoryPoint {
   double yaw_rad = 0;
   double speed_mps = 0;  ///< forward, negative in reverse
   double yaw_rate_rad_s = 0;
-  double steer_rad = 0;      ///< largest steering angle of a wheel, signed, left positive
-  double curvature_1pm = 0;  ///< commanded
-  double slip_max = 0;       ///< of the wheels, by magnitude, signed
+  double steer_rad = 0;          ///< largest steering angle of a wheel, signed, left positive
+  double curvature_1pm = 0;      ///< commanded
+  double acceleration_mps2 = 0;  ///< commanded, of the rim speed
+  double slip_max = 0;           ///< of the wheels, by magnitude, signed
   double slip_angle_max_rad = 0;
   double sinkage_max_m = 0;
   int soil = -1;  ///< index in the map's soils, below the centre of gravity

@@ -1,12 +1,14 @@
 #include "planner/soil_uncertainty.h"
 
 #include <algorithm>
-#include <atomic>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 #include <random>
 #include <set>
-#include <thread>
+
+#include "planner/parallel_for.h"
+#include "planner/soil_surrogate.h"
 
 namespace regoplan {
 namespace {
@@ -29,15 +31,112 @@ std::vector<VehicleState> decisive_states(const Replay& verified) {
   return states;
 }
 
-/// The smallest margin of the states on one draw of the soils.
-double smallest_margin(const PlanningProblem& problem, const std::vector<VehicleState>& states,
-                       std::uint64_t seed, int draw_number) {
-  std::seed_seq sequence{seed, static_cast<std::uint64_t>(draw_number)};
-  std::mt19937_64 random(sequence);
-  std::vector<WheelModel> models;
-  for (const MapSoil& soil : problem.map.soils()) {
-    models.emplace_back(wheel_model_spec(problem, draw(soil.soil, random)), WheelAccuracy::kFast);
+PathMargins counted(const StateMargins& margins) {
+  const double cornering = margins.cornering.value_or(-1);
+  // Beyond the supply no trim gives traction either; the cornering margin tells by how much.
+  return {.cornering = cornering,
+          .tip_over = margins.tip_over,
+          .traction = margins.traction.value_or(std::min(cornering, 0.0))};
+}
+
+PathMargins smallest_of(const std::vector<PathMargins>& places) {
+  PathMargins smallest;
+  for (const PathMargins& place : places) {
+    smallest = {.cornering = std::min(smallest.cornering, place.cornering),
+                .tip_over = std::min(smallest.tip_over, place.tip_over),
+                .traction = std::min(smallest.traction, place.traction)};
   }
+  return smallest;
+}
+
+/// Where each margin is smallest at the mean soils, a few places apart for each.
+std::vector<std::size_t> decisive_places(const std::vector<VehicleState>& states,
+                                         const std::vector<PathMargins>& at_mean) {
+  constexpr double kApart_m = 2;
+  std::set<std::size_t> chosen;
+  const auto take_smallest = [&](double PathMargins::*kind, std::size_t most) {
+    std::vector<std::size_t> order(states.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return at_mean[a].*kind < at_mean[b].*kind;
+    });
+    std::vector<std::size_t> taken;
+    for (const std::size_t i : order) {
+      if (taken.size() == most) break;
+      const auto near = [&](std::size_t other) {
+        return std::hypot(states[i].x_m - states[other].x_m, states[i].y_m - states[other].y_m) <
+               kApart_m;
+      };
+      if (std::none_of(taken.begin(), taken.end(), near)) taken.push_back(i);
+    }
+    chosen.insert(taken.begin(), taken.end());
+  };
+  take_smallest(&PathMargins::cornering, 3);
+  take_smallest(&PathMargins::traction, 3);
+  take_smallest(&PathMargins::tip_over, 1);
+  return {chosen.begin(), chosen.end()};
+}
+
+std::vector<VehicleState> states_at(const std::vector<VehicleState>& states,
+                                    const std::vector<std::size_t>& places) {
+  std::vector<VehicleState> chosen;
+  for (const std::size_t i : places) chosen.push_back(states[i]);
+  return chosen;
+}
+
+/// Fills in quantiles, probability and influences from the margins of every draw.
+void summarize(SoilSpread& spread, const PlanningProblem& problem, const SoilNumbers& numbers,
+               const std::vector<PathMargins>& margins, const Eigen::MatrixXd& deviations) {
+  const auto quantiles = [&](const auto& value) {
+    std::vector<double> values;
+    for (const PathMargins& one : margins) values.push_back(value(one));
+    return quantiles_of(std::move(values));
+  };
+  spread.cornering = quantiles([](const PathMargins& m) { return m.cornering; });
+  spread.tip_over = quantiles([](const PathMargins& m) { return m.tip_over; });
+  spread.traction = quantiles([](const PathMargins& m) { return m.traction; });
+  spread.margin = quantiles([](const PathMargins& m) { return m.smallest(); });
+  const auto allowed = std::count_if(margins.begin(), margins.end(), [&](const PathMargins& m) {
+    return m.smallest() >= problem.limits.margin_min;
+  });
+  spread.feasible = probability_of(static_cast<int>(allowed), static_cast<int>(margins.size()));
+  Eigen::VectorXd smallest(static_cast<Eigen::Index>(margins.size()));
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    smallest[static_cast<Eigen::Index>(i)] = margins[i].smallest();
+  }
+  const LinearInfluence influence = linear_influence(deviations, smallest);
+  spread.explained = influence.explained;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto index = static_cast<Eigen::Index>(k);
+    spread.influences.push_back(
+        {.soil = problem.map.soils()[numbers[k].soil].name,
+         .parameter = std::string(soil_parameters()[numbers[k].parameter].name),
+         .share = influence.share[index],
+         .margin_per_std = influence.slope[index]});
+  }
+  std::stable_sort(
+      spread.influences.begin(), spread.influences.end(),
+      [](const SoilInfluence& a, const SoilInfluence& b) { return a.share > b.share; });
+}
+
+}  // namespace
+
+double PathMargins::smallest() const {
+  return std::min({cornering, tip_over, traction});
+}
+
+SoilDraw soil_draw(const std::vector<MapSoil>& soils, std::uint64_t seed, int number) {
+  std::seed_seq sequence{seed, static_cast<std::uint64_t>(number)};
+  std::mt19937_64 random(sequence);
+  SoilDraw drawn;
+  for (const MapSoil& soil : soils) drawn.push_back(draw(soil.soil, random));
+  return drawn;
+}
+
+std::vector<PathMargins> margins_on(const PlanningProblem& problem,
+                                    const std::vector<VehicleState>& states,
+                                    const SoilDraw& soils) {
+  const std::vector<WheelModel> models = models_of(problem, soils);
   const std::vector<WheelLaw> laws(models.begin(), models.end());
   const GroundFinder ground(problem.map, problem.vehicle);
   const VehicleDynamics dynamics(
@@ -46,43 +145,139 @@ double smallest_margin(const PlanningProblem& problem, const std::vector<Vehicle
       problem.gravity_mps2);
   const SupportPolygon polygon(problem.vehicle);
   const SolvedSupply supply(problem.vehicle, dynamics.sharing(), laws, trim_limits(problem));
-  double smallest = 1;
+  std::vector<PathMargins> margins;
   for (const VehicleState& state : states) {
     const GroundPatch patch = ground.at(state.x_m, state.y_m, state.yaw_rad);
     const SupplyQuestion question = question_of(dynamics, state, patch);
-    const StateMargins margins = margins_of(dynamics, polygon, question, supply.answer(question));
-    const double cornering = margins.cornering.value_or(-1);
-    // Beyond the supply no trim gives traction either; the cornering margin tells by how much.
-    const double traction = margins.traction.value_or(std::min(cornering, 0.0));
-    smallest = std::min({smallest, cornering, traction, margins.tip_over});
+    margins.push_back(counted(margins_of(dynamics, polygon, question, supply.answer(question))));
   }
-  return smallest;
+  return margins;
 }
-
-}  // namespace
 
 MarginSpread margin_spread(const PlanningProblem& problem, const Replay& verified, int draws,
                            std::uint64_t seed, int threads) {
   const std::vector<VehicleState> states = decisive_states(verified);
   std::vector<double> smallest(static_cast<std::size_t>(draws));
-  std::atomic<int> next = 0;
-  const auto work = [&] {
-    for (int i = next++; i < draws; i = next++) {
-      smallest[static_cast<std::size_t>(i)] = smallest_margin(problem, states, seed, i);
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < threads; ++i) others.emplace_back(work);
-    work();
-  }
-  std::sort(smallest.begin(), smallest.end());
+  parallel_for(smallest.size(), threads, [&](std::size_t i) {
+    const SoilDraw soils = soil_draw(problem.map.soils(), seed, static_cast<int>(i));
+    smallest[i] = smallest_of(margins_on(problem, states, soils)).smallest();
+  });
   const auto allowed = std::count_if(smallest.begin(), smallest.end(), [&](double margin) {
     return margin >= problem.limits.margin_min;
   });
-  const auto below = static_cast<std::size_t>(std::floor(0.05 * draws));
-  return {.p05 = smallest[std::min(below, smallest.size() - 1)],
+  return {.p05 = quantiles_of(smallest).p05,
           .probability_feasible = static_cast<double>(allowed) / draws};
+}
+
+Probability probability_of(int successes, int draws) {
+  constexpr double kZ = 1.959963984540054;  // 97.5 % quantile of the normal distribution
+  const double n = draws, p = successes / n;
+  const double middle = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
+  const double half = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
+  return {.share = p,
+          .low = successes == 0 ? 0 : std::max(0.0, middle - half),
+          .high = successes == draws ? 1 : std::min(1.0, middle + half)};
+}
+
+Quantiles quantiles_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    const auto below = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+    return values[std::min(below, values.size() - 1)];
+  };
+  return {.p05 = at(0.05), .p50 = at(0.5), .p95 = at(0.95)};
+}
+
+SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,
+                       const std::vector<PathMargins>& at_mean, int draws, std::uint64_t seed,
+                       int threads) {
+  assert(states.size() == at_mean.size() && !states.empty() && draws > 1);
+  const std::vector<std::size_t> places = decisive_places(states, at_mean);
+  const std::vector<VehicleState> decisive = states_at(states, places);
+  const SoilNumbers numbers = uncertain_numbers(problem, decisive);
+  SoilSpread spread{.places = static_cast<int>(places.size())};
+  if (numbers.empty()) {
+    const PathMargins known = smallest_of(at_mean);
+    const auto fixed = [](double value) { return Quantiles{value, value, value}; };
+    spread.cornering = fixed(known.cornering);
+    spread.tip_over = fixed(known.tip_over);
+    spread.traction = fixed(known.traction);
+    spread.margin = fixed(known.smallest());
+    const double share = known.smallest() >= problem.limits.margin_min ? 1 : 0;
+    spread.feasible = {.share = share, .low = share, .high = share};
+    return spread;
+  }
+
+  std::vector<SoilDraw> soils;
+  for (int i = 0; i < draws; ++i) soils.push_back(soil_draw(problem.map.soils(), seed, i));
+  const Eigen::MatrixXd deviations = standard_deviations(problem.map.soils(), numbers, soils);
+
+  // The first draws by the wheel model: those the surrogate is made from, and those that check it.
+  const int learned = std::min(draws, SoilSurrogate::kTrainingDraws);
+  constexpr int kChecked = 30;
+  const int checked = std::min(draws - learned, kChecked);
+  const auto direct = static_cast<std::size_t>(learned + checked);
+  constexpr std::size_t kElsewhere = 4;  // other places, in each draw that checks
+  std::vector<std::vector<PathMargins>> judged(static_cast<std::size_t>(draws));
+  std::vector<PathMargins> elsewhere(direct);
+  parallel_for(direct, threads, [&](std::size_t i) {
+    judged[i] = margins_on(problem, decisive, soils[i]);
+    if (i < static_cast<std::size_t>(learned)) return;
+    std::vector<std::size_t> others;
+    const std::size_t turn = i - static_cast<std::size_t>(learned);
+    for (std::size_t k = 0; k < kElsewhere; ++k) {
+      others.push_back((turn + k * kChecked) * states.size() / (kElsewhere * kChecked));
+    }
+    elsewhere[i] = smallest_of(margins_on(problem, states_at(states, others), soils[i]));
+  });
+
+  std::vector<PathMargins> margins(static_cast<std::size_t>(draws));
+  for (std::size_t i = 0; i < direct; ++i) {
+    margins[i] = smallest_of({smallest_of(judged[i]), elsewhere[i]});
+  }
+  spread.draws = draws;
+  spread.direct_draws = static_cast<int>(direct);
+  if (static_cast<int>(direct) < draws) {
+    std::vector<PlaceProbe> probes;
+    for (const VehicleState& state : decisive) probes.emplace_back(problem, state);
+    std::vector features(decisive.size(), std::vector<PlaceProbe::Features>(margins.size()));
+    parallel_for(margins.size(), threads, [&](std::size_t i) {
+      const std::vector<WheelModel> models = models_of(problem, soils[i]);
+      for (std::size_t k = 0; k < probes.size(); ++k) features[k][i] = probes[k].features(models);
+    });
+    const SoilSurrogate surrogate(features, judged, static_cast<std::size_t>(learned));
+    const auto say = [&](std::size_t i) {
+      std::vector<PlaceProbe::Features> of_places;
+      for (const auto& of_place : features) of_places.push_back(of_place[i]);
+      return surrogate.smallest(of_places);
+    };
+    PathMargins& error = spread.surrogate_error;
+    for (std::size_t i = static_cast<std::size_t>(learned); i < direct; ++i) {
+      const PathMargins said = say(i);
+      error.cornering = std::max(error.cornering, said.cornering - margins[i].cornering);
+      error.tip_over = std::max(error.tip_over, said.tip_over - margins[i].tip_over);
+      error.traction = std::max(error.traction, said.traction - margins[i].traction);
+    }
+    constexpr double kTrusted = 0.03;
+    if (std::max({error.cornering, error.tip_over, error.traction}) <= kTrusted) {
+      for (std::size_t i = direct; i < margins.size(); ++i) {
+        const PathMargins said = say(i);
+        margins[i] = {.cornering = std::max(-1.0, said.cornering - error.cornering),
+                      .tip_over = std::max(-1.0, said.tip_over - error.tip_over),
+                      .traction = std::max(-1.0, said.traction - error.traction)};
+      }
+    } else {
+      const auto all = static_cast<std::size_t>(std::min(draws, kDirectDrawsMax));
+      margins.resize(std::max(all, direct));
+      parallel_for(margins.size() - direct, threads, [&](std::size_t k) {
+        margins[direct + k] = smallest_of(margins_on(problem, decisive, soils[direct + k]));
+      });
+      spread.draws = spread.direct_draws = static_cast<int>(margins.size());
+    }
+  }
+  summarize(spread, problem, numbers, margins,
+            deviations.topRows(static_cast<Eigen::Index>(margins.size())));
+  return spread;
 }
 
 }  // namespace regoplan

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "planner/replay.h"
@@ -21,5 +23,73 @@ struct MarginSpread {
 /// \param draws at least 1
 MarginSpread margin_spread(const PlanningProblem& problem, const Replay& verified, int draws,
                            std::uint64_t seed, int threads);
+
+/// One draw of each soil of a map, in their order.
+using SoilDraw = std::vector<Soil>;
+
+/// Draw k depends on the soils, the seed and k alone: the same for every path that is compared.
+SoilDraw soil_draw(const std::vector<MapSoil>& soils, std::uint64_t seed, int number);
+
+/// The smallest margins along a path, each for itself. What is missing counts as -1; traction that
+/// is missing because the lateral demand is beyond the supply, as the cornering margin or 0.
+struct PathMargins {
+  double cornering = 1, tip_over = 1, traction = 1;
+
+  double smallest() const;
+  bool operator==(const PathMargins&) const = default;
+};
+
+/// Margins of states on one draw of the soils, by the direct wheel model at its fast accuracy.
+std::vector<PathMargins> margins_on(const PlanningProblem& problem,
+                                    const std::vector<VehicleState>& states, const SoilDraw& soils);
+
+/// A share of draws with the interval that holds the true probability in 95 % of cases, by Wilson's
+/// score.
+struct Probability {
+  double share = 0;
+  double low = 0, high = 1;
+};
+Probability probability_of(int successes, int draws);
+
+struct Quantiles {
+  double p05 = 0, p50 = 0, p95 = 0;
+};
+/// By the nearest rank; `values` not empty.
+Quantiles quantiles_of(std::vector<double> values);
+
+/// How much one soil number decides.
+struct SoilInfluence {
+  std::string soil;
+  std::string parameter;  ///< as it stands in files
+  double share = 0;       ///< of the margin's variance: squared standardised regression coefficient
+  double margin_per_std = 0;  ///< change of the smallest margin when it grows by one deviation
+};
+
+/// What is known of a path's margins, given what is known of the soils.
+struct SoilSpread {
+  int draws = 0;         ///< 0 where every soil number is known
+  int direct_draws = 0;  ///< of them judged by the wheel model itself; the others by a surrogate
+  /// How much the surrogate promised too much at worst, in draws that it was not made from, against
+  /// the wheel model at more places of the path. Taken off what the surrogate says; where it is too
+  /// large for that, every draw is the wheel model's.
+  PathMargins surrogate_error{.cornering = 0, .tip_over = 0, .traction = 0};
+  int places = 0;  ///< of the path that were judged in each draw
+  Quantiles cornering, tip_over, traction, margin;
+  Probability feasible;                   ///< that the smallest margin is allowed
+  std::vector<SoilInfluence> influences;  ///< the largest first
+  double explained = 0;  ///< of the margin's variance, by the regression behind `influences`
+};
+
+/// The spread over `draws` draws of the soils. The margins are judged at the places where each is
+/// smallest at the mean soils. A quadratic surrogate in the soil numbers is made from the first
+/// draws, checked on the next, and used where its error is small; otherwise the wheel model judges
+/// every draw, of which there are then at most `kDirectDrawsMax`.
+/// \param states along the path \param at_mean their margins at the mean soils, of the same size
+/// \param draws at least 2
+SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,
+                       const std::vector<PathMargins>& at_mean, int draws, std::uint64_t seed,
+                       int threads);
+
+inline constexpr int kDirectDrawsMax = 200;
 
 }  // namespace regoplan

@@ -44,6 +44,39 @@ double largest_by_magnitude(const Vehicle& vehicle, double curvature_1pm) {
   return largest;
 }
 
+RejectedState at_state(const VehicleState& state) {
+  return {.x_m = state.x_m,
+          .y_m = state.y_m,
+          .yaw_rad = state.yaw_rad,
+          .speed_mps = state.motion.vx_mps,
+          .curvature_1pm = state.curvature_1pm};
+}
+
+/// The first margin, in the order of `Rejection`, that is missing or too small.
+std::optional<RejectedState> rejected_by(const StateMargins& margins, double margin_min,
+                                         RejectedState rejection) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  rejection.limit = margin_min;
+  const auto because = [&](Rejection reason, double value) {
+    rejection.reason = reason;
+    rejection.value = value;
+    return rejection;
+  };
+  if (!margins.supply) {
+    return because(
+        margins.no_supply == NoSupply::kTraction ? Rejection::kTraction : Rejection::kCornering,
+        kNone);
+  }
+  // A lateral demand beyond the supply has no trim and hence no traction: that is cornering.
+  if (margins.traction && *margins.traction < margin_min) {
+    return because(Rejection::kTraction, *margins.traction);
+  }
+  if (margins.tip_over < margin_min) return because(Rejection::kTipOver, margins.tip_over);
+  if (*margins.cornering < margin_min) return because(Rejection::kCornering, *margins.cornering);
+  if (!margins.traction) return because(Rejection::kTraction, kNone);
+  return std::nullopt;
+}
+
 }  // namespace
 
 TrimLimits trim_limits(const PlanningProblem& problem) {
@@ -109,11 +142,7 @@ StateMargins World::margins(const VehicleState& state, const GroundPatch& patch)
 
 std::optional<RejectedState> World::rejected(const VehicleState& state, const WheelStrain& strain,
                                              std::optional<double> margin_min) const {
-  RejectedState rejection{.x_m = state.x_m,
-                          .y_m = state.y_m,
-                          .yaw_rad = state.yaw_rad,
-                          .speed_mps = state.motion.vx_mps,
-                          .curvature_1pm = state.curvature_1pm};
+  RejectedState rejection = at_state(state);
   const auto because = [&](Rejection reason, double value, double limit) {
     rejection.reason = reason;
     rejection.value = value;
@@ -151,40 +180,33 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
     return because(Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad);
   }
   if (!margin_min) return std::nullopt;
-  return rejected_by_margins(state, patch, *margin_min, rejection);
+  return rejected_by(margins(state, patch), *margin_min, rejection);
 }
 
-std::optional<RejectedState> World::rejected_by_margins(const VehicleState& state,
-                                                        const GroundPatch& patch, double margin_min,
-                                                        RejectedState rejection) const {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  const StateMargins margins = this->margins(state, patch);
-  rejection.limit = margin_min;
-  const auto because = [&](Rejection reason, double value) {
-    rejection.reason = reason;
-    rejection.value = value;
-    return rejection;
-  };
-  if (!margins.supply) {
-    return because(
-        margins.no_supply == NoSupply::kTraction ? Rejection::kTraction : Rejection::kCornering,
-        kNone);
+Judgement World::judge(const VehicleState& state, const WheelStrain& strain, double time_s) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const std::optional<RejectedState> rejection = rejected(state, strain, std::nullopt);
+  const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
+  if (!patch.known) {
+    TrajectoryPoint point = point_of(state, strain, time_s, patch, {});
+    point.z_m = point.demand_n = point.tip_over_margin = kNone;
+    return {.point = point, .rejected = rejection};
   }
-  // A lateral demand beyond the supply has no trim and hence no traction: that is cornering.
-  if (margins.traction && *margins.traction < margin_min) {
-    return because(Rejection::kTraction, *margins.traction);
-  }
-  if (margins.tip_over < margin_min) return because(Rejection::kTipOver, margins.tip_over);
-  if (*margins.cornering < margin_min) return because(Rejection::kCornering, *margins.cornering);
-  if (!margins.traction) return because(Rejection::kTraction, kNone);
-  return std::nullopt;
+  const StateMargins found = margins(state, patch);
+  return {.point = point_of(state, strain, time_s, patch, found),
+          .rejected = rejection ? rejection
+                                : rejected_by(found, problem_.limits.margin_min, at_state(state))};
 }
 
 TrajectoryPoint World::describe(const VehicleState& state, const WheelStrain& strain,
                                 double time_s) const {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
-  const StateMargins margins = this->margins(state, patch);
+  return point_of(state, strain, time_s, patch, margins(state, patch));
+}
+
+TrajectoryPoint World::point_of(const VehicleState& state, const WheelStrain& strain, double time_s,
+                                const GroundPatch& patch, const StateMargins& margins) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   return {.time_s = time_s,
           .x_m = state.x_m,
           .y_m = state.y_m,
@@ -194,6 +216,7 @@ TrajectoryPoint World::describe(const VehicleState& state, const WheelStrain& st
           .yaw_rate_rad_s = state.motion.yaw_rate_rad_s,
           .steer_rad = largest_by_magnitude(problem_.vehicle, state.curvature_1pm),
           .curvature_1pm = state.curvature_1pm,
+          .acceleration_mps2 = state.rim_acceleration_mps2,
           .slip_max = strain.slip,
           .slip_angle_max_rad = strain.slip_angle_rad,
           .sinkage_max_m = strain.sinkage_m,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "maps/ground_finder.h"
@@ -18,6 +19,12 @@ namespace regoplan {
 enum class WorldUse {
   kSearch,  ///< tabled wheel forces and supply, obstacles enlarged, limits kept with reserve
   kVerdict  ///< exact wheel model, every manoeuvre solved, limits as they are
+};
+
+/// What is thought of a state: everything about it, and why it may not be.
+struct Judgement {
+  TrajectoryPoint point;  ///< without margins (NaN) where the ground is unknown
+  std::optional<RejectedState> rejected;
 };
 
 /// A vehicle in its map: how it moves, and what it may not do.
@@ -45,6 +52,12 @@ class World {
   std::optional<RejectedState> rejected(const VehicleState& state, const WheelStrain& strain,
                                         std::optional<double> margin_min) const;
 
+  /// `describe` and `rejected` in one, the margins solved once.
+  Judgement judge(const VehicleState& state, const WheelStrain& strain, double time_s) const;
+
+  /// The wheel's forces on each soil of the map.
+  std::span<const WheelLaw> soil_laws() const { return laws_; }
+
   /// Everything that decides about a state. \pre it stands on known ground
   TrajectoryPoint describe(const VehicleState& state, const WheelStrain& strain,
                            double time_s) const;
@@ -63,9 +76,8 @@ class World {
   static constexpr double kSearchLimitShare = 0.97;
 
  private:
-  std::optional<RejectedState> rejected_by_margins(const VehicleState& state,
-                                                   const GroundPatch& patch, double margin_min,
-                                                   RejectedState rejection) const;
+  TrajectoryPoint point_of(const VehicleState& state, const WheelStrain& strain, double time_s,
+                           const GroundPatch& patch, const StateMargins& margins) const;
 
   const PlanningProblem& problem_;
   WorldUse use_;

@@ -121,7 +121,8 @@ TEST(PlanFiles, ACandidatesTableHasDegreesAndSoilNames) {
   EXPECT_EQ(first_line(csv),
             "time_s,x_m,y_m,z_m,yaw_deg,speed_mps,yaw_rate_rad_s,steer_deg,slip_max,"
             "slip_angle_max_deg,sinkage_max_m,soil,demand_n,supply_min_n,supply_max_n,"
-            "cornering_margin,tip_over_margin,traction_margin,margin");
+            "cornering_margin,tip_over_margin,traction_margin,margin,curvature_1pm,"
+            "acceleration_mps2");
   const auto columns = split_cells(first_line(csv)).value();
   const auto cells = split_cells(first_line(csv.substr(csv.find('\n') + 1))).value();
   ASSERT_EQ(cells.size(), columns.size());

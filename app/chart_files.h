@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "app/staged_files.h"
+#include "planner/feasibility_chart.h"
+
+namespace regoplan {
+
+/// A feasibility chart as feasibility.svg, safe-curvature.csv and side-slope.csv.
+std::vector<RenderedFile> render_chart(const ChartSettings& settings,
+                                       const FeasibilityChart& chart);
+
+}  // namespace regoplan

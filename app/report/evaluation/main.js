@@ -1,0 +1,21 @@
+// Draws the map and the charts of an evaluation; what is not feasible is dashed.
+document.body.classList.add(`status-${PLAN.status}`);
+CANDIDATE_COLUMNS[1].text = 'Path';
+CANDIDATE_COLUMNS.splice(CANDIDATE_COLUMNS.findIndex(c => c.text === 'Verified margin'), 1);
+CANDIDATE_COLUMNS.find(c => c.text === 'P(feasible)').text = 'P(margins hold)';
+CANDIDATE_COLUMNS.find(c => c.text === 'Limiting').cell = path =>
+    path.verified_path ? limitingCell(path) : `not feasible: ${path.verified.reason}`;
+for (const state of PLAN.rejected_states) view.reasons.add(state.reason);
+for (const path of view.paths) {
+  path.label = String(path.rank);
+  path.visible = true;
+}
+candidateTable(byId('candidates'));
+byId('candidates').querySelector('p').textContent =
+    'Feasible paths first, by the margin that 95 % of the soil draws keep. The deviation is that of the driven path from the given one.';
+readout(byId('readout'), byId('position'));
+layerPanel(byId('layers'), mapView(byId('map')));
+charts(byId('charts'));
+if (view.selected) setCursor(view.selected, worstIndex(view.selected));
+view.events.call('marks');
+document.documentElement.dataset.drawn = 'yes';

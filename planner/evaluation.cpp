@@ -1,0 +1,274 @@
+#include "planner/evaluation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "planner/parallel_for.h"
+#include "planner/path_margins.h"
+
+namespace regoplan {
+namespace {
+
+struct Station {
+  double s_m = 0, time_s = 0;
+  VehicleState state;
+};
+
+std::vector<Station> stations_of(const ReferencePath& path, const Vehicle& vehicle) {
+  std::vector<Station> stations;
+  for (const RecordedMoment& moment : path.recorded) {
+    stations.push_back({moment.s_m, moment.time_s, moment.state});
+  }
+  if (!stations.empty()) return stations;
+  constexpr double kApart_m = 0.5;
+  const double length = path.curve.length_m();
+  const double pieces = std::max(4.0, std::ceil(length / kApart_m));
+  for (double k = 0; k <= pieces; ++k) {
+    const double s = length * k / pieces;
+    stations.push_back({s, path.speed.duration_s(s), path.state_at(vehicle, s)});
+  }
+  return stations;
+}
+
+/// A curvature that the vehicle cannot be steered to has no manoeuvre.
+Judgement judge(const World& world, const Station& station) {
+  const Vehicle& vehicle = world.problem().vehicle;
+  constexpr double kRounding = 1e-9;
+  if (std::abs(station.state.curvature_1pm) <= vehicle.curvature_max_1pm * (1 + kRounding)) {
+    return world.judge(station.state, {}, station.time_s);
+  }
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const VehicleState& state = station.state;
+  return {.point = {.time_s = station.time_s,
+                    .x_m = state.x_m,
+                    .y_m = state.y_m,
+                    .z_m = world.problem().map.height_m(state.x_m, state.y_m),
+                    .yaw_rad = state.yaw_rad,
+                    .speed_mps = state.motion.vx_mps,
+                    .curvature_1pm = state.curvature_1pm,
+                    .acceleration_mps2 = state.rim_acceleration_mps2,
+                    .soil = world.problem().map.soil_index(state.x_m, state.y_m).value_or(-1),
+                    .demand_n = kNone,
+                    .supply_min_n = kNone,
+                    .supply_max_n = kNone,
+                    .cornering_margin = kNone,
+                    .tip_over_margin = kNone,
+                    .traction_margin = kNone,
+                    .margin = kNone},
+          .rejected = {}};
+}
+
+Refusal refusal_of(const RejectedState& rejected, double s_m, double time_s) {
+  return {.reason = std::string(name(rejected.reason)),
+          .x_m = rejected.x_m,
+          .y_m = rejected.y_m,
+          .s_m = s_m,
+          .time_s = time_s,
+          .value = rejected.value,
+          .limit = rejected.limit};
+}
+
+std::optional<Refusal> refusal_of(const TrackingRun& run, double deviation_allowed_m) {
+  const TrackingRun::Moment& last = run.last;
+  Refusal refusal{
+      .x_m = last.state.x_m, .y_m = last.state.y_m, .s_m = last.s_m, .time_s = last.time_s};
+  switch (run.end) {
+    case TrackingEnd::kArrived:
+      return std::nullopt;
+    case TrackingEnd::kRejected:
+      refusal = refusal_of(*run.rejected, last.s_m, last.time_s);
+      break;
+    case TrackingEnd::kStrayed:
+      refusal.reason = "deviation";
+      refusal.value = std::abs(last.offset_m);
+      refusal.limit = deviation_allowed_m;
+      break;
+    case TrackingEnd::kStalled:
+      refusal.reason = "stalled";
+      break;
+    case TrackingEnd::kDynamics:
+      refusal.reason = "dynamics";
+      break;
+  }
+  refusal.while_tracking = true;
+  return refusal;
+}
+
+PathMargins counted(const TrajectoryPoint& point) {
+  const auto or_else = [](double value, double other) { return std::isnan(value) ? other : value; };
+  const double cornering = or_else(point.cornering_margin, -1);
+  return {.cornering = cornering,
+          .tip_over = or_else(point.tip_over_margin, -1),
+          .traction = or_else(point.traction_margin, std::min(cornering, 0.0))};
+}
+
+/// What ends the supply on the side of the demand.
+std::optional<CorneringLimit> cornering_limit(const World& world, const VehicleState& state) {
+  const PlanningProblem& problem = world.problem();
+  const VehicleDynamics& dynamics = world.dynamics();
+  const GroundPatch patch = dynamics.ground(state.x_m, state.y_m, state.yaw_rad);
+  if (!patch.known ||
+      !(std::abs(state.curvature_1pm) <= problem.vehicle.curvature_max_1pm * (1 + 1e-9))) {
+    return std::nullopt;
+  }
+  const SupplyQuestion question = question_of(dynamics, state, patch);
+  std::vector<WheelLaw> laws;
+  for (std::size_t i = 0; i < problem.vehicle.wheels.size(); ++i) {
+    laws.push_back(world.soil_laws()[static_cast<std::size_t>(patch.soil.at(i))]);
+  }
+  const SteadyManoeuvre manoeuvre(problem.vehicle, dynamics.sharing(), laws, question.curvature_1pm,
+                                  question.normal_n, question.reverse);
+  const SupplyResult result =
+      cornering_supply(manoeuvre, question.force.forward_n, trim_limits(problem), true);
+  if (!result.supply) return std::nullopt;
+  const double demand = question.force.left_n;
+  const SupplyEnd& left = result.supply->left;
+  const SupplyEnd& right = result.supply->right;
+  const SupplyEnd& end = left.force_n - demand < demand - right.force_n ? left : right;
+  return CorneringLimit{
+      .limit = end.limit,
+      .wheel =
+          end.wheel < 0 ? "" : problem.vehicle.wheels[static_cast<std::size_t>(end.wheel)].name,
+      .supply_n = end.force_n,
+      .fold_n = end.fold_n};
+}
+
+/// The strains that the run had where the station lies.
+void add_strains(std::vector<TrajectoryPoint>& points, const std::vector<double>& s_m,
+                 const TrackingRun& run) {
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    while (k + 1 < run.moments.size() && run.moments[k + 1].s_m <= s_m[i]) ++k;
+    if (run.moments.empty() || s_m[i] > run.last.s_m + 1) break;
+    const WheelStrain& strain = run.moments[k].strain;
+    points[i].slip_max = strain.slip;
+    points[i].slip_angle_max_rad = strain.slip_angle_rad;
+    points[i].sinkage_max_m = strain.sinkage_m;
+    points[i].yaw_rate_rad_s = run.moments[k].state.motion.yaw_rate_rad_s;
+  }
+}
+
+void judge_steady(PathEvaluation& evaluation, const World& verdict,
+                  const std::vector<Station>& stations, int threads) {
+  std::vector<Judgement> judgements(stations.size());
+  parallel_for(stations.size(), threads,
+               [&](std::size_t i) { judgements[i] = judge(verdict, stations[i]); });
+  const double curvature_max = verdict.problem().vehicle.curvature_max_1pm;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const Station& station = stations[i];
+    const Judgement& judgement = judgements[i];
+    evaluation.s_m.push_back(station.s_m);
+    evaluation.points.push_back(judgement.point);
+    if (evaluation.refusal) continue;
+    if (judgement.rejected) {
+      evaluation.refusal = refusal_of(*judgement.rejected, station.s_m, station.time_s);
+    } else if (!(std::abs(station.state.curvature_1pm) <= curvature_max * (1 + 1e-9))) {
+      evaluation.refusal = Refusal{.reason = "steering",
+                                   .x_m = station.state.x_m,
+                                   .y_m = station.state.y_m,
+                                   .s_m = station.s_m,
+                                   .time_s = station.time_s,
+                                   .value = std::abs(station.state.curvature_1pm),
+                                   .limit = curvature_max};
+    }
+  }
+}
+
+}  // namespace
+
+double default_deviation_max_m(const Vehicle& vehicle) {
+  return (vehicle.body.y_max_m - vehicle.body.y_min_m) / 2;
+}
+
+std::string sentence(const Refusal& refusal) {
+  const bool angle = refusal.reason == "slope" || refusal.reason == "slip_angle";
+  const double unit = angle ? 180 / std::numbers::pi : 1;
+  const char* unit_text = angle                           ? " deg"
+                          : refusal.reason == "steering"  ? " 1/m"
+                          : refusal.reason == "deviation" ? " m"
+                          : refusal.reason == "sinkage"   ? " m"
+                                                          : "";
+  std::string what = refusal.reason;
+  std::replace(what.begin(), what.end(), '_', ' ');
+  if (std::isinf(refusal.value)) {
+    what += " (no steady trim)";
+  } else if (std::isfinite(refusal.value)) {
+    what += fmt::format(" {:.3g}{} against {:.3g}{}", refusal.value * unit, unit_text,
+                        refusal.limit * unit, unit_text);
+  }
+  return fmt::format("{} at ({:.2f}, {:.2f}), {:.1f} m along, {:.1f} s{}", what, refusal.x_m,
+                     refusal.y_m, refusal.s_m, refusal.time_s,
+                     refusal.while_tracking ? ", when driven" : "");
+}
+
+PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
+                        const EvaluationSettings& settings) {
+  const PlanningProblem& problem = verdict.problem();
+  PathEvaluation evaluation{.name = path.name,
+                            .length_m = path.curve.length_m(),
+                            .duration_s = path.speed.duration_s(path.curve.length_m()),
+                            .speed_max_mps = path.speed.speed_max_mps()};
+  const std::vector<Station> stations = stations_of(path, problem.vehicle);
+  judge_steady(evaluation, verdict, stations, settings.threads);
+
+  evaluation.deviation_allowed_m =
+      settings.deviation_max_m.value_or(default_deviation_max_m(problem.vehicle));
+  evaluation.tracking = track(verdict, path, settings.steering, evaluation.deviation_allowed_m);
+  add_strains(evaluation.points, evaluation.s_m, evaluation.tracking);
+  const std::optional<Refusal> when_driven =
+      refusal_of(evaluation.tracking, evaluation.deviation_allowed_m);
+  if (!evaluation.refusal) evaluation.refusal = when_driven;
+  evaluation.feasible = !evaluation.refusal;
+
+  std::vector<VehicleState> states;
+  std::vector<PathMargins> at_mean;
+  std::vector<TrajectoryPoint> without_gaps = evaluation.points;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const PathMargins margins = counted(evaluation.points[i]);
+    PathMargins& smallest = evaluation.margins;
+    smallest = {.cornering = std::min(smallest.cornering, margins.cornering),
+                .tip_over = std::min(smallest.tip_over, margins.tip_over),
+                .traction = std::min(smallest.traction, margins.traction)};
+    without_gaps[i].margin = margins.smallest();
+    if (std::isnan(evaluation.points[i].tip_over_margin)) continue;  // no ground, no steering
+    states.push_back(stations[i].state);
+    at_mean.push_back(margins);
+  }
+  evaluation.margin_min = evaluation.margins.smallest();
+  evaluation.margin_worst_tenth = margin_of_worst_tenth(without_gaps);
+  evaluation.limiting = limiting_place(evaluation.points);
+  const std::size_t worst = smallest_margin_index(evaluation.points);
+  if (evaluation.limiting.margin == MarginKind::kCornering) {
+    evaluation.cornering_limit = cornering_limit(verdict, stations[worst].state);
+  }
+  if (states.size() == stations.size()) {
+    evaluation.spread =
+        soil_spread(problem, states, at_mean, settings.soil_draws, settings.seed, settings.threads);
+  } else {  // somewhere there is nothing to judge, whatever the soils
+    const Quantiles none{-1, -1, -1};
+    evaluation.spread = {.cornering = none,
+                         .tip_over = none,
+                         .traction = none,
+                         .margin = none,
+                         .feasible = {.share = 0, .low = 0, .high = 0}};
+  }
+  // What the soils cannot mend.
+  static constexpr std::string_view kOfMargins[] = {"traction", "tip_over", "cornering"};
+  if (evaluation.refusal && !evaluation.refusal->while_tracking &&
+      std::ranges::find(kOfMargins, evaluation.refusal->reason) == std::end(kOfMargins)) {
+    evaluation.spread.feasible = {.share = 0, .low = 0, .high = 0};
+  }
+  return evaluation;
+}
+
+RankKey rank_key(const PathEvaluation& evaluation) {
+  constexpr double kTie = 0.01;
+  return {!evaluation.feasible, -std::round(evaluation.spread.margin.p05 / kTie),
+          -evaluation.margin_worst_tenth, evaluation.duration_s, evaluation.tracking.energy_j};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,203 @@
+#include "planner/path_tracking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace regoplan {
+namespace {
+
+double angle_between(double to_rad, double from_rad) {
+  return std::remainder(to_rad - from_rad, 2 * std::numbers::pi);
+}
+
+/// The place of the path nearest to a position, not far from where it was.
+double nearest_m(const PathCurve& curve, double x_m, double y_m, double s_m) {
+  double s = s_m;
+  for (int i = 0; i < 3; ++i) {
+    const CurvePlace place = curve.at(s);
+    const double c = std::cos(place.heading_rad), n = std::sin(place.heading_rad);
+    const double along = c * (x_m - place.x_m) + n * (y_m - place.y_m);
+    const double left = c * (y_m - place.y_m) - n * (x_m - place.x_m);
+    // On the inner side of a turn the path is shorter than the way.
+    const double shrink = std::clamp(1 - place.curvature_1pm * left, 0.2, 5.0);
+    s = std::clamp(s + along / shrink, 0.0, curve.length_m());
+  }
+  return s;
+}
+
+double offset_m(const CurvePlace& place, double x_m, double y_m) {
+  return std::cos(place.heading_rad) * (y_m - place.y_m) -
+         std::sin(place.heading_rad) * (x_m - place.x_m);
+}
+
+class Tracker {
+ public:
+  Tracker(const World& world, const ReferencePath& path, const SteeringLaw& law,
+          double deviation_max_m)
+      : world_(world),
+        vehicle_(world.problem().vehicle),
+        path_(path),
+        law_(law),
+        deviation_max_m_(deviation_max_m),
+        speed_top_mps_(path.speed.speed_max_mps()) {
+    constexpr double kTravel_m = 0.05, kLongest_s = 0.25;
+    run_.step_s = std::min(kTravel_m / speed_top_mps_, kLongest_s);
+    now_.state = path.recorded.empty() ? path.state_at(vehicle_, 0) : path.recorded.front().state;
+  }
+
+  TrackingRun drive() {
+    const double patience_s =
+        2 * path_.speed.duration_s(path_.curve.length_m()) + 20 + 200 * run_.step_s;
+    record(true);
+    if (!allowed()) return finish(TrackingEnd::kRejected);
+    while (!arrived()) {
+      if (now_.time_s > patience_s) return finish(TrackingEnd::kStalled);
+      const StepResult step = world_.dynamics().step(now_.state, control(), run_.step_s);
+      now_.time_s += run_.step_s;
+      if (!step.converged) {
+        if (step.on_known_ground) return finish(TrackingEnd::kDynamics);
+        now_.state = step.state;
+        run_.rejected = RejectedState{
+            .reason = Rejection::kUnknownTerrain, .x_m = now_.state.x_m, .y_m = now_.state.y_m};
+        return finish(TrackingEnd::kRejected);
+      }
+      now_.state = step.state;
+      now_.strain = step.strain;
+      run_.energy_j += step.drive_energy_j;
+      locate();
+      record(false);
+      if (!allowed()) return finish(TrackingEnd::kRejected);
+      if (std::abs(now_.offset_m) > deviation_max_m_) return finish(TrackingEnd::kStrayed);
+    }
+    return finish(TrackingEnd::kArrived);
+  }
+
+ private:
+  double speed() const { return std::hypot(now_.state.motion.vx_mps, now_.state.motion.vy_mps); }
+
+  bool arrived() const {
+    const double near_m = std::max(0.02, 2 * speed() * run_.step_s);
+    return now_.s_m >= path_.curve.length_m() - near_m;
+  }
+
+  bool allowed() {
+    run_.rejected = world_.rejected(now_.state, now_.strain, std::nullopt);
+    return !run_.rejected;
+  }
+
+  void locate() {
+    const VehicleState& state = now_.state;
+    now_.s_m = nearest_m(path_.curve, state.x_m, state.y_m, now_.s_m);
+    now_.offset_m = offset_m(path_.curve.at(now_.s_m), state.x_m, state.y_m);
+    if (std::abs(now_.offset_m) > run_.deviation_max_m) {
+      run_.deviation_max_m = std::abs(now_.offset_m);
+      run_.deviation_at = {state.x_m, state.y_m};
+    }
+    const double rim = state.rim_speed_mps;
+    if (std::abs(rim) > 0.05 * speed_top_mps_) {
+      const double share = run_.step_s / (run_.step_s + law_.slip_memory_s);
+      const double ratio = std::clamp(speed() / rim, 0.5, 1.5);
+      speed_per_rim_ += share * (ratio - speed_per_rim_);
+    }
+  }
+
+  VehicleControl control() const {
+    const double v = speed();
+    const CurvePlace place = path_.curve.at(now_.s_m);
+    const double ahead_m = now_.s_m + v * law_.reaction_s;
+    const double length =
+        std::max(law_.lookahead_wheelbases * wheelbase_m(vehicle_), law_.lookahead_s * v);
+    // At rest there is no course; the heading tells where it will go.
+    const double slip_angle =
+        v > 0.01 * speed_top_mps_
+            ? std::atan2(now_.state.motion.vy_mps, now_.state.motion.vx_mps)
+            : kinematic_body_slip_angle_rad(vehicle_, now_.state.curvature_1pm);
+    const double course = angle_between(now_.state.yaw_rad + slip_angle, place.heading_rad);
+    const double curvature = path_.curvature_1pm(ahead_m) - now_.offset_m / (length * length) -
+                             2 * law_.damping * course / length;
+    // From rest, the speed a little farther on: at rest itself the path says to stay.
+    const double a = vehicle_.acceleration_max_mps2, dt = run_.step_s;
+    const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * dt);
+    const double target =
+        std::max(creep_mps, path_.speed.at(now_.s_m + v * dt + a * dt * dt / 2).speed_mps);
+    return {.speed_target_mps = target / speed_per_rim_,
+            .curvature_target_1pm =
+                std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm)};
+  }
+
+  void record(bool always) {
+    WheelStrain& most = run_.strain_max;
+    const WheelStrain& strain = now_.strain;
+    if (std::abs(strain.slip) > std::abs(most.slip)) most.slip = strain.slip;
+    if (std::abs(strain.slip_angle_rad) > std::abs(most.slip_angle_rad)) {
+      most.slip_angle_rad = strain.slip_angle_rad;
+    }
+    most.sinkage_m = std::max(most.sinkage_m, strain.sinkage_m);
+    if (!always && now_.s_m < run_.moments.back().s_m + TrackingRun::kRecordEvery_m) return;
+    run_.moments.push_back(now_);
+  }
+
+  TrackingRun finish(TrackingEnd end) {
+    run_.end = end;
+    run_.last = now_;
+    run_.duration_s = now_.time_s;
+    return std::move(run_);
+  }
+
+  const World& world_;
+  const Vehicle& vehicle_;
+  const ReferencePath& path_;
+  SteeringLaw law_;
+  double deviation_max_m_;
+  double speed_top_mps_;
+  TrackingRun::Moment now_;
+  double speed_per_rim_ = 1;
+  TrackingRun run_;
+};
+
+}  // namespace
+
+double ReferencePath::curvature_1pm(double s_m) const {
+  if (recorded.empty()) return curve.at(s_m).curvature_1pm;
+  const auto above =
+      std::upper_bound(recorded.begin(), recorded.end(), s_m,
+                       [](double s, const RecordedMoment& moment) { return s < moment.s_m; });
+  if (above == recorded.begin()) return recorded.front().state.curvature_1pm;
+  if (above == recorded.end()) return recorded.back().state.curvature_1pm;
+  const RecordedMoment &b = *above, &a = *(above - 1);
+  const double share = (s_m - a.s_m) / (b.s_m - a.s_m);
+  return a.state.curvature_1pm + share * (b.state.curvature_1pm - a.state.curvature_1pm);
+}
+
+VehicleState ReferencePath::state_at(const Vehicle& vehicle, double s_m) const {
+  const CurvePlace place = curve.at(s_m);
+  const double curvature = curvature_1pm(s_m);
+  const double slip_free = kinematic_body_slip_angle_rad(
+      vehicle, std::clamp(curvature, -vehicle.curvature_max_1pm, vehicle.curvature_max_1pm));
+  const SpeedProfile::Value value = speed.at(s_m);
+  const double v = value.speed_mps;
+  return {.x_m = place.x_m,
+          .y_m = place.y_m,
+          .yaw_rad = angle_between(place.heading_rad - slip_free, 0),
+          .motion = {.vx_mps = v * std::cos(slip_free),
+                     .vy_mps = v * std::sin(slip_free),
+                     .yaw_rate_rad_s = v * curvature},
+          .curvature_1pm = curvature,
+          .rim_speed_mps = v,
+          .rim_acceleration_mps2 = value.acceleration_mps2};
+}
+
+double wheelbase_m(const Vehicle& vehicle) {
+  const auto [rear, front] =
+      std::minmax_element(vehicle.wheels.begin(), vehicle.wheels.end(),
+                          [](const WheelMount& a, const WheelMount& b) { return a.x_m < b.x_m; });
+  return front->x_m - rear->x_m;
+}
+
+TrackingRun track(const World& world, const ReferencePath& path, const SteeringLaw& law,
+                  double deviation_max_m) {
+  return Tracker(world, path, law, deviation_max_m).drive();
+}
+
+}  // namespace regoplan

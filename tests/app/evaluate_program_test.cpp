@@ -1,0 +1,158 @@
+// `evaluate` as a person meets it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/flat_map.h"
+#include "tests/app/program_run.h"
+
+namespace regoplan {
+namespace {
+
+class Evaluate : public testing::Test {
+ protected:
+  Evaluate() { write_flat_scenario(folder_); }
+
+  ProgramRun evaluate(const std::string& arguments) const {
+    return run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --out '" +
+                                    folder_.path("out") + "' --draws 20 " + arguments);
+  }
+  std::string file(const std::string& name, const std::string& text) const {
+    return "'" + folder_.write(name, text) + "'";
+  }
+  nlohmann::json result() const {
+    return nlohmann::json::parse(folder_.read("out/evaluation.json"));
+  }
+
+  /// Expects one line that holds all of `words`, status 1 and nothing written.
+  void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
+    const ProgramRun run = evaluate(arguments);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.output, "");
+    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+    for (const std::string& word : words) {
+      EXPECT_NE(run.errors.find(word), std::string::npos) << word << " in: " << run.errors;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Evaluate, RanksPathsFeasibleOnesFirst) {
+  const ProgramRun run =
+      evaluate(file("off.csv", "x_m,y_m\n30,20\n38,20\n50,20\n") + " " +
+               file("good.csv", "x_m,y_m,speed_mps\n8,20,0\n20,20,1\n30,21,0\n"));
+  EXPECT_EQ(run.status, 0) << run.errors;
+  const nlohmann::json paths = result()["paths"];
+  ASSERT_EQ(paths.size(), 2);
+  EXPECT_TRUE(paths[0]["file"].get<std::string>().ends_with("good.csv"));
+  EXPECT_TRUE(paths[0]["feasible"]);
+  EXPECT_FALSE(paths[1]["feasible"]);
+  EXPECT_GT(paths[1]["refusal"]["x_m"], 35);
+  for (const char* key : {"limiting", "quantiles", "probability_feasible", "sensitivity", "reason",
+                          "probability_feasible_ci95", "margin_min", "tracked", "energy_j"}) {
+    EXPECT_TRUE(paths[0].contains(key)) << key;
+  }
+  EXPECT_NE(folder_.read("out/report.html").find("good.csv"), std::string::npos);
+}
+
+TEST_F(Evaluate, NothingFeasibleEndsWithStatus2) {
+  EXPECT_EQ(evaluate(file("off.csv", "x_m,y_m\n30,20\n50,20\n")).status, 2);
+  EXPECT_EQ(result()["status"], "infeasible");
+}
+
+TEST_F(Evaluate, ACandidateOfPlanIsConfirmed) {
+  const std::string plan_out = folder_.path("plan");
+  const ProgramRun planned =
+      run_program(folder_, "plan '" + folder_.path("scenario.yaml") + "' --out '" + plan_out +
+                               "' --planner RRT --iterations 1000 --candidates 1 --quiet");
+  ASSERT_EQ(planned.status, 0) << planned.errors;
+  const auto candidate = nlohmann::json::parse(folder_.read("plan/plan.json"))["candidates"][0];
+  EXPECT_EQ(evaluate("'" + plan_out + "/candidate-1.csv'").status, 0);
+  const nlohmann::json path = result()["paths"][0];
+  EXPECT_TRUE(path["feasible"]);
+  EXPECT_NEAR(path["margin_min"], candidate["margin_min"], 0.02);
+  EXPECT_NEAR(path["recorded"]["margin_min"], candidate["margin_min"], 1e-9);
+
+  // Without the columns that are this program's own, steering and speeds tell the same.
+  std::string text = folder_.read("plan/candidate-1.csv"), fewer;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    for (int k = 0; k < 2; ++k) line.erase(line.rfind(','));
+    fewer += line + "\n";
+  }
+  EXPECT_EQ(evaluate(file("fewer.csv", fewer)).status, 0);
+  EXPECT_NEAR(result()["paths"][0]["margin_min"], candidate["margin_min"], 0.02);
+}
+
+TEST_F(Evaluate, ManoeuvresStandForEachCombination) {
+  const ProgramRun run =
+      evaluate("--manoeuvres " +
+               file("m.yaml",
+                    "- {kind: steady_turn, radius_m: 12, angle_deg: 60, speed_mps: [1, 3.5]}\n"
+                    "- {kind: slope_traverse, length_m: 8, slope_deg: 5, speed_mps: 1}\n"));
+  EXPECT_EQ(run.status, 0) << run.errors;
+  const nlohmann::json paths = result()["paths"];
+  ASSERT_EQ(paths.size(), 3);
+  EXPECT_FALSE(paths[2]["feasible"]);
+  EXPECT_EQ(paths[2]["refusal"]["reason"], "cornering");
+}
+
+TEST_F(Evaluate, ExtraColumnsAreNoticedOnce) {
+  const ProgramRun run = evaluate(file("p.csv", "x_m,note,y_m\n10,a,20\n25,b,20\n"));
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.errors.find("columns ignored: note"), std::string::npos) << run.errors;
+}
+
+TEST_F(Evaluate, BadPathsAreRefusedWithFileAndLine) {
+  expect_refused(file("p.csv", "x_m,y_m\n10,20\nnan,20\n"), {"p.csv:3: x_m: nan is not valid"});
+  expect_refused(file("p.csv", "x_m,y_m\n10,20\n"), {"p.csv:2: ", "at least two points"});
+  expect_refused(file("p.csv", "x_m,y_m\n10,20\n10,20\n10,20\n"), {"p.csv:4: ", "no length"});
+  expect_refused(file("p.csv", "x_m\n10\n"), {"p.csv:1: column y_m is missing"});
+  expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,0\n20,20,99\n30,20,0\n"),
+                 {"p.csv:3: speed_mps: 99 is not valid"});
+  expect_refused(file("p.csv", ""), {"p.csv: empty"});
+  expect_refused("'" + folder_.path("none.csv") + "'", {"none.csv: no such file"});
+  expect_refused(file("p.csv", "x_m,y_m\n10,20\n20,20\n") + " --speed 50", {"--speed: 50"});
+  expect_refused("", {"nothing to evaluate"});
+}
+
+TEST_F(Evaluate, BadManoeuvresAreRefusedWithFileAndLine) {
+  const auto manoeuvres = [this](const std::string& text) {
+    return "--manoeuvres " + file("m.yaml", text);
+  };
+  expect_refused(manoeuvres("- {kind: point_turn}\n"), {"m.yaml:1: ", "point_turn"});
+  expect_refused(manoeuvres("- {kind: steady_turn}\n"), {"m.yaml:1: ", "radius_m is missing"});
+  expect_refused(manoeuvres("- {kind: steady_turn, radius_m: 9, speed_mps: 70}\n"),
+                 {"m.yaml:1: ", "speed_mps: 70"});
+  expect_refused(manoeuvres("- {kind: loop}\n"), {"m.yaml:1: ", "steady_turn"});
+  expect_refused(manoeuvres("- {kind: steady_turn, radius_m: 9, soil: ice}\n"), {"ice", "mare"});
+}
+
+TEST_F(Evaluate, AChartIsAPictureAndTables) {
+  const ProgramRun run =
+      run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --chart '" +
+                               folder_.path("chart") + "' --chart-slopes-deg 0 --quiet");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_TRUE(folder_.read("chart/feasibility.svg").starts_with("<svg"));
+  EXPECT_TRUE(folder_.read("chart/side-slope.csv").starts_with("soil,slope_deg,"));
+  std::istringstream rows(folder_.read("chart/safe-curvature.csv"));
+  std::string line;
+  std::getline(rows, line);
+  double before = 1e9;
+  int count = 0;
+  while (std::getline(rows, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    for (int k = 0; k < 4; ++k) std::getline(cells, cell, ',');
+    EXPECT_LE(std::stod(cell), before * 1.01);  // faster is never safer
+    before = std::stod(cell);
+    ++count;
+  }
+  EXPECT_EQ(count, 19);
+}
+
+}  // namespace
+}  // namespace regoplan

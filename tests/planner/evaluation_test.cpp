@@ -1,0 +1,204 @@
+#include "planner/evaluation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "planner/manoeuvres.h"
+#include "planner/plan.h"
+#include "tests/planner/flat_problem.h"
+
+namespace regoplan {
+namespace {
+
+UncertainSoil uncertain_regolith() {
+  UncertainSoil soil = firm_regolith();
+  soil.standard_deviation.cohesion_pa = 50;
+  soil.standard_deviation.friction_angle_rad = 2 * kTestDegree;
+  soil.standard_deviation.ky0_m = 0.003;
+  return soil;
+}
+
+constexpr EvaluationSettings kSettings{.soil_draws = 30, .seed = 3};
+
+ReferencePath reference(const std::vector<PathPoint>& points, double speed_mps) {
+  PathCurve curve(points);
+  SpeedProfile speed({{0, speed_mps}, {curve.length_m(), speed_mps}});
+  return {.name = "path", .curve = std::move(curve), .speed = std::move(speed)};
+}
+
+PathEvaluation evaluated(const PlanningProblem& problem, const ReferencePath& path,
+                         const EvaluationSettings& settings = kSettings) {
+  const World world(problem, WorldUse::kVerdict, 1);
+  return evaluate(world, path, settings);
+}
+
+PlanningProblem flat_problem(const UncertainSoil& soil = firm_regolith()) {
+  PlanningProblem problem = lrv_problem(one_soil_map(60, soil, flat));
+  problem.speed_max_mps *= kSpeedTolerance;
+  return problem;
+}
+
+Manoeuvre turn(double speed_mps, double radius_m = 15) {
+  return {.kind = ManoeuvreKind::kSteadyTurn,
+          .name = "turn",
+          .vehicle = preset_vehicle("lrv"),
+          .soil = {.name = "regolith", .source = "test", .soil = uncertain_regolith()},
+          .speed_mps = speed_mps,
+          .radius_m = radius_m,
+          .angle_rad = 90 * kTestDegree};
+}
+
+PathEvaluation evaluated(const Manoeuvre& manoeuvre,
+                         const EvaluationSettings& settings = kSettings) {
+  const PlanningProblem base = flat_problem();
+  const PreparedManoeuvre prepared = prepare(manoeuvre, base.limits, base);
+  return evaluated(prepared.problem, prepared.path, settings);
+}
+
+TEST(Evaluation, AStraightPathOnFirmGroundIsFeasibleAndTrackedClosely) {
+  const PathEvaluation e = evaluated(flat_problem(), reference({{10, 25}, {45, 25}}, 2));
+  EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
+  EXPECT_EQ(e.tracking.end, TrackingEnd::kArrived);
+  EXPECT_LT(e.tracking.deviation_max_m, 0.01);
+  EXPECT_NEAR(e.tracking.duration_s, e.duration_s, 0.05 * e.duration_s);
+  EXPECT_GT(e.tracking.energy_j, 0);
+  for (std::size_t i = 1; i < e.s_m.size(); ++i) EXPECT_LE(e.s_m[i] - e.s_m[i - 1], 0.5 + 1e-9);
+}
+
+TEST(Evaluation, FasterIsNeverSaferOnATurn) {
+  double before = 1;
+  for (const double speed : {1.0, 2.0, 3.0, 3.5}) {
+    const PathEvaluation e = evaluated(turn(speed));
+    EXPECT_LE(e.margins.cornering, before + 1e-9) << speed;
+    before = e.margins.cornering;
+  }
+  EXPECT_LT(before, 0.05);  // the last of them is too fast
+}
+
+TEST(Evaluation, LeftAndRightTurnsAreEquallySafe) {
+  Manoeuvre left = turn(2.5), right = turn(2.5);
+  right.to_the_right = true;
+  const PathEvaluation a = evaluated(left), b = evaluated(right);
+  EXPECT_NEAR(a.margin_min, b.margin_min, 1e-6);
+  EXPECT_NEAR(a.tracking.deviation_max_m, b.tracking.deviation_max_m, 1e-6);
+  EXPECT_EQ(a.feasible, b.feasible);
+}
+
+TEST(Evaluation, ATurnTooFastNamesCorneringItsPlaceAndTheLimitOfTheSupply) {
+  const PathEvaluation e = evaluated(turn(3.5));
+  ASSERT_FALSE(e.feasible);
+  EXPECT_EQ(e.refusal->reason, "cornering");
+  EXPECT_FALSE(e.refusal->while_tracking);
+  EXPECT_GT(e.refusal->s_m, 2);  // not on the straight before the turn
+  EXPECT_EQ(e.limiting.margin, MarginKind::kCornering);
+  ASSERT_TRUE(e.cornering_limit);
+  EXPECT_EQ(e.cornering_limit->limit, BranchLimit::kSlipAngle);
+  EXPECT_FALSE(e.cornering_limit->wheel.empty());
+}
+
+TEST(Evaluation, APathThatLeavesTheMapIsRefusedThere) {
+  const PathEvaluation e = evaluated(flat_problem(), reference({{40, 25}, {70, 25}}, 2));
+  ASSERT_FALSE(e.feasible);
+  EXPECT_TRUE(e.refusal->reason == "bounds" || e.refusal->reason == "unknown_terrain");
+  EXPECT_GT(e.refusal->x_m, 55);
+  EXPECT_LE(e.refusal->x_m, 60.5);
+  EXPECT_EQ(e.margin_min, -1);
+  EXPECT_EQ(e.spread.feasible.share, 0);
+}
+
+TEST(Evaluation, ARockOnThePathIsAnObstacle) {
+  PlanningProblem problem = lrv_problem(one_soil_map(
+      60, firm_regolith(), flat, {{.x_m = 30, .y_m = 25, .radius_m = 1, .height_m = 1}}));
+  const PathEvaluation e = evaluated(problem, reference({{10, 25}, {45, 25}}, 2));
+  ASSERT_FALSE(e.feasible);
+  EXPECT_EQ(e.refusal->reason, "obstacle");
+}
+
+TEST(Evaluation, ACornerSharperThanTheSteeringIsRefused) {
+  std::vector<PathPoint> points;
+  for (double x = 10; x <= 20; ++x) points.push_back({x, 25});
+  points.push_back({20.7, 25.7});
+  for (double x = 20; x >= 10; --x) points.push_back({x, 26.4});
+  const PathEvaluation e = evaluated(flat_problem(), reference(points, 0.5));
+  ASSERT_FALSE(e.feasible);
+  EXPECT_EQ(e.refusal->reason, "steering");
+  EXPECT_NEAR(e.refusal->x_m, 20, 1.5);
+}
+
+TEST(Evaluation, SlopesThatASideForceCannotHoldAreRefused) {
+  Manoeuvre traverse = turn(1);
+  traverse.kind = ManoeuvreKind::kSlopeTraverse;
+  traverse.length_m = 15;
+  traverse.slope_heading_rad = 90 * kTestDegree;
+  traverse.slope_rad = 5 * kTestDegree;
+  const PathEvaluation gentle = evaluated(traverse);
+  EXPECT_TRUE(gentle.feasible) << sentence(*gentle.refusal);
+  EXPECT_GT(gentle.points.front().demand_n, 0);  // uphill is left: gravity pulls to the right
+  traverse.slope_rad = 15 * kTestDegree;
+  EXPECT_LT(evaluated(traverse).margin_min, gentle.margin_min);
+}
+
+TEST(Evaluation, EveryKindOfManoeuvreEndsInAVerdict) {
+  Manoeuvre m = turn(1.5);
+  m.length_m = 12;
+  m.offset_m = 2;
+  m.amplitude_m = 1;
+  m.wavelength_m = 15;
+  m.waves = 1.5;
+  m.braking_mps2 = 0.2;
+  m.angle_rad = 30 * kTestDegree;
+  for (const ManoeuvreKind kind :
+       {ManoeuvreKind::kLaneChange, ManoeuvreKind::kSlalom, ManoeuvreKind::kBrakingInATurn}) {
+    m.kind = kind;
+    const PathEvaluation e = evaluated(m);
+    EXPECT_TRUE(e.feasible) << name(kind) << ": " << sentence(*e.refusal);
+    EXPECT_LT(e.tracking.deviation_max_m, 0.3) << name(kind);
+  }
+}
+
+TEST(Evaluation, SameSeedSameResultWhateverTheThreads) {
+  EvaluationSettings one = kSettings, two = kSettings;
+  one.threads = 1;
+  two.threads = 2;
+  const PathEvaluation a = evaluated(turn(2.5), one), b = evaluated(turn(2.5), two);
+  EXPECT_EQ(a.margin_min, b.margin_min);
+  EXPECT_EQ(a.spread.margin.p05, b.spread.margin.p05);
+  EXPECT_EQ(a.tracking.energy_j, b.tracking.energy_j);
+}
+
+TEST(Evaluation, ACandidateIsConfirmed) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const PlanResult planned = plan(problem, [](const PlanProgress&) {}, {});
+  ASSERT_FALSE(planned.candidates.empty());
+  const Candidate& candidate = planned.candidates.front();
+  std::vector<PathPoint> points;
+  for (const TrajectoryPoint& point : candidate.points) points.push_back({point.x_m, point.y_m});
+  PathCurve curve(points);
+  std::vector<RecordedMoment> recorded;
+  std::vector<SpeedProfile::Node> nodes;
+  for (std::size_t i = 0; i < candidate.points.size(); ++i) {
+    const TrajectoryPoint& point = candidate.points[i];
+    recorded.push_back({.s_m = curve.point_arc_m()[i],
+                        .time_s = point.time_s,
+                        .state = {.x_m = point.x_m,
+                                  .y_m = point.y_m,
+                                  .yaw_rad = point.yaw_rad,
+                                  .motion = {.vx_mps = point.speed_mps},
+                                  .curvature_1pm = point.curvature_1pm,
+                                  .rim_speed_mps = point.speed_mps,
+                                  .rim_acceleration_mps2 = point.acceleration_mps2}});
+    if (nodes.empty() || recorded.back().s_m > nodes.back().s_m) {
+      nodes.push_back({recorded.back().s_m, point.speed_mps});
+    }
+  }
+  const PathEvaluation e = evaluated(problem, {.name = "candidate",
+                                               .curve = std::move(curve),
+                                               .speed = SpeedProfile(std::move(nodes)),
+                                               .recorded = std::move(recorded)});
+  EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
+  EXPECT_NEAR(e.margin_min, candidate.margin_min, 0.02);
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,116 @@
+#include "planner/soil_uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/planner/flat_problem.h"
+
+namespace regoplan {
+namespace {
+
+UncertainSoil uncertain_regolith() {
+  UncertainSoil soil = firm_regolith();
+  soil.standard_deviation.cohesion_pa = 50;
+  soil.standard_deviation.friction_angle_rad = 2 * kTestDegree;
+  soil.standard_deviation.kphi = 2e5;
+  soil.standard_deviation.ky0_m = 0.003;
+  return soil;
+}
+
+/// Turns of 12 m radius at speeds up to 2.5 m/s.
+std::vector<VehicleState> turning_states(const World& world) {
+  std::vector<VehicleState> states;
+  for (int i = 0; i < 10; ++i) {
+    states.push_back(world.dynamics().rolling_state(20 + 2 * i, 25, 0, 1.6 + 0.1 * i, 1.0 / 12));
+  }
+  return states;
+}
+
+struct Judged {
+  PlanningProblem problem;
+  std::vector<VehicleState> states;
+  std::vector<PathMargins> at_mean;
+};
+
+Judged judged(const UncertainSoil& soil) {
+  Judged judged{.problem = lrv_problem(one_soil_map(60, soil, flat)), .states = {}, .at_mean = {}};
+  const World world(judged.problem, WorldUse::kVerdict, 1);
+  judged.states = turning_states(world);
+  judged.at_mean = margins_on(judged.problem, judged.states, {soil.mean});
+  return judged;
+}
+
+TEST(SoilUncertainty, DrawsDependOnSoilsSeedAndNumberAlone) {
+  const std::vector<MapSoil> soils{{.name = "a", .source = "", .soil = uncertain_regolith()}};
+  EXPECT_EQ(soil_draw(soils, 7, 3)[0].cohesion_pa, soil_draw(soils, 7, 3)[0].cohesion_pa);
+  EXPECT_NE(soil_draw(soils, 7, 3)[0].cohesion_pa, soil_draw(soils, 7, 4)[0].cohesion_pa);
+  EXPECT_NE(soil_draw(soils, 7, 3)[0].cohesion_pa, soil_draw(soils, 8, 3)[0].cohesion_pa);
+}
+
+TEST(SoilUncertainty, WilsonsIntervalHoldsTheShareAndStaysWithinItsRange) {
+  // Newcombe (1998), table I: 81 of 263 gives .2553 to .3662.
+  const Probability p = probability_of(81, 263);
+  EXPECT_NEAR(p.low, 0.2553, 5e-5);
+  EXPECT_NEAR(p.high, 0.3662, 5e-5);
+  EXPECT_EQ(probability_of(0, 20).low, 0);
+  EXPECT_GT(probability_of(0, 20).high, 0);
+  EXPECT_EQ(probability_of(20, 20).high, 1);
+  EXPECT_LT(probability_of(20, 20).low, 1);
+}
+
+TEST(SoilUncertainty, KnownSoilsLeaveNothingToChance) {
+  const Judged j = judged(firm_regolith());
+  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, 50, 1, 1);
+  EXPECT_EQ(spread.draws, 0);
+  EXPECT_EQ(spread.margin.p05, spread.margin.p95);
+  EXPECT_TRUE(spread.influences.empty());
+}
+
+TEST(SoilUncertainty, TheSurrogateIsOnTheSafeSideOfTheWheelModel) {
+  constexpr int kDraws = 260;
+  const Judged j = judged(uncertain_regolith());
+  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, kDraws, 1, 2);
+  ASSERT_LT(spread.direct_draws, spread.draws);
+  std::vector<double> direct;
+  for (int i = 0; i < kDraws; ++i) {
+    double smallest = 1;
+    for (const PathMargins& one :
+         margins_on(j.problem, j.states, soil_draw(j.problem.map.soils(), 1, i))) {
+      smallest = std::min(smallest, one.smallest());
+    }
+    direct.push_back(smallest);
+  }
+  const Quantiles exact = quantiles_of(direct);
+  EXPECT_LE(spread.margin.p05, exact.p05 + 1e-3);
+  EXPECT_LE(spread.margin.p50, exact.p50 + 1e-3);
+  EXPECT_NEAR(spread.margin.p05, exact.p05, 0.02);
+  EXPECT_NEAR(spread.margin.p50, exact.p50, 0.02);
+}
+
+TEST(SoilUncertainty, QuantilesRiseAndTheProbabilityLiesInItsInterval) {
+  const Judged j = judged(uncertain_regolith());
+  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, 60, 1, 2);
+  for (const Quantiles& q : {spread.cornering, spread.tip_over, spread.traction, spread.margin}) {
+    EXPECT_LE(q.p05, q.p50);
+    EXPECT_LE(q.p50, q.p95);
+  }
+  EXPECT_LE(spread.margin.p05, spread.cornering.p05);
+  EXPECT_LE(spread.feasible.low, spread.feasible.share);
+  EXPECT_GE(spread.feasible.high, spread.feasible.share);
+}
+
+TEST(SoilUncertainty, TheNumberThatAloneIsUncertainDecidesAlone) {
+  UncertainSoil soil = firm_regolith();
+  soil.standard_deviation.friction_angle_rad = 2 * kTestDegree;
+  const Judged j = judged(soil);
+  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, 40, 1, 2);
+  ASSERT_EQ(spread.influences.size(), 1);
+  EXPECT_EQ(spread.influences[0].parameter, "friction_angle_deg");
+  EXPECT_GT(spread.influences[0].share, 0.95);
+  EXPECT_GT(spread.influences[0].margin_per_std, 0);  // stronger soil holds better
+}
+
+}  // namespace
+}  // namespace regoplan
