@@ -1,6 +1,7 @@
 // Speed of the vehicle's mechanics: a step of its motion, supply solved and looked up, one core.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -107,6 +108,44 @@ BENCHMARK_CAPTURE(vehicle_step, fast_3_mps, Law::kDirectFast, 3, 0.1);
 BENCHMARK_CAPTURE(vehicle_step, exact_3_mps, Law::kDirectExact, 3, 0.1);
 BENCHMARK_CAPTURE(vehicle_step, exact_3_mps_fine, Law::kDirectExact, 3, 0.01);
 BENCHMARK_CAPTURE(vehicle_step, fast_0p05_mps, Law::kDirectFast, 0.05, 0.5);
+
+/// A slalom of a minute: what a step costs in accuracy. `error_mm_per_m` is how far the end lies
+/// from that of steps of 1/512 s, per metre driven.
+void slalom_of_a_minute(benchmark::State& state, double speed_mps) {
+  const Lrv lrv(Law::kTable);
+  const VehicleDynamics dynamics(
+      lrv.vehicle, lrv.laws,
+      [](double, double, double) {
+        return GroundPatch{
+            .known = true, .z_m = 0, .slope_forward = 0.05, .slope_left = 0.05, .soil = {}};
+      },
+      kMoon_mps2);
+  const auto slalom = [&](double step_s) {
+    VehicleState at = dynamics.rolling_state(0, 0, 0, speed_mps);
+    const auto per_bend = static_cast<int>(std::lround(6 / step_s));
+    for (int i = 0; i < 10 * per_bend; ++i) {
+      const double side = i / per_bend % 2 == 0 ? 0.05 : -0.05;
+      at = dynamics.step(at, {.speed_target_mps = speed_mps, .curvature_target_1pm = side}, step_s)
+               .state;
+    }
+    return at;
+  };
+  const double step_s = 1 / static_cast<double>(state.range(0));
+  const VehicleState exact = slalom(1.0 / 512);
+  VehicleState at;
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(at = slalom(step_s));
+  state.counters["step_s"] = step_s;
+  state.counters["error_mm_per_m"] =
+      1e3 * std::hypot(at.x_m - exact.x_m, at.y_m - exact.y_m) / (60 * speed_mps);
+}
+BENCHMARK_CAPTURE(slalom_of_a_minute, at_3_mps, 3)
+    ->RangeMultiplier(2)
+    ->Range(1, 64)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(slalom_of_a_minute, at_0p3_mps, 0.3)
+    ->RangeMultiplier(2)
+    ->Range(1, 64)
+    ->Unit(benchmark::kMillisecond);
 
 void supply_solved(benchmark::State& state, Law law) {
   const Lrv lrv(law);

@@ -11,8 +11,9 @@ namespace regoplan {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kCurvatures = 17;
-constexpr std::size_t kForces = 17;
+constexpr std::size_t kBentIntervals = 6, kOuterIntervals = 8;  // of curvature, either side
+constexpr std::size_t kCurvatures = 2 * (kBentIntervals + kOuterIntervals) + 1;
+constexpr std::size_t kForces = 33;
 constexpr std::size_t kNormals = 2;
 constexpr double kCheckedForce = 0.45;  // over the normal load: what steady manoeuvres come to
 constexpr double kForceMax = 0.7;       // over the normal load; steeper than tan of any slope limit
@@ -25,6 +26,19 @@ bool is_mirror_symmetric(const Vehicle& vehicle) {
              twin.driven == wheel.driven;
     });
   });
+}
+
+/// Curvature of a node over the largest: finest about straight driving, where fast vehicles live,
+/// and again near full lock, where the steering's range comes to decide within a short way.
+double share_of_node(std::size_t node) {
+  constexpr std::size_t kMiddle = kCurvatures / 2;
+  constexpr double kPower = 1.5, kWhole = kBentIntervals + 2;
+  const std::size_t out = node > kMiddle ? node - kMiddle : kMiddle - node;
+  const double bent = static_cast<double>(std::min(out, kBentIntervals));
+  const double outer = static_cast<double>(out) - bent;
+  const double from = std::pow(bent / kWhole, kPower);
+  const double share = from + (1 - from) * outer / static_cast<double>(kOuterIntervals);
+  return node < kMiddle ? -share : share;
 }
 
 /// Every wheel on the same soil.
@@ -49,11 +63,8 @@ void share_out(std::size_t count, int threads, const Work& work) {
 SupplyTable::SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const TrimLimits& limits,
                          double weight_n, double tilt_max_rad, int threads)
     : weight_n_(weight_n) {
-  // Finest about straight driving, where fast vehicles live.
   for (std::size_t i = 0; i < kCurvatures; ++i) {
-    const double t = 2 * static_cast<double>(i) / (kCurvatures - 1) - 1;
-    curvatures_1pm_.push_back(vehicle.curvature_max_1pm *
-                              std::copysign(std::pow(std::abs(t), 1.5), t));
+    curvatures_1pm_.push_back(vehicle.curvature_max_1pm * share_of_node(i));
   }
   for (std::size_t i = 0; i < kForces; ++i) {
     forces_.push_back(kForceMax * (2 * static_cast<double>(i) / (kForces - 1) - 1));

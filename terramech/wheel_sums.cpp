@@ -34,8 +34,8 @@ inline WheelForces faded(const WheelLaw& law, double load_n, const WheelMotion& 
   return forces;
 }
 
-/// Well above standstill, so that fading bends forces less than speed does.
-constexpr double kMoving_mps = 10 * kStandstill;
+/// Above this, forces fade little enough to be called smooth.
+constexpr double kMoving_mps = 3 * kStandstill;
 
 bool rolls(const WheelMotion& at) {
   return at.vx_mps * at.rim_speed_mps > 0 &&
