@@ -45,13 +45,15 @@ struct Panel {
 
 std::string frame_svg(const Panel& p, std::string_view title) {
   std::string svg;
-  for (double v = p.x.low; v <= p.x.high + p.x.tick / 2; v += p.x.tick) {
+  for (int i = 0; p.x.low + i * p.x.tick <= p.x.high + p.x.tick / 2; ++i) {
+    const double v = p.x.low + i * p.x.tick;
     svg += fmt::format(R"(<line x1="{0:.1f}" y1="{1}" x2="{0:.1f}" y2="{2}" stroke="#ddd"/>)"
                        R"(<text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.4g}</text>)"
                        "\n",
                        p.px(v), p.top, p.top + p.height, p.top + p.height + 16, v);
   }
-  for (double v = p.y.low; v <= p.y.high + p.y.tick / 2; v += p.y.tick) {
+  for (int i = 0; p.y.low + i * p.y.tick <= p.y.high + p.y.tick / 2; ++i) {
+    const double v = p.y.low + i * p.y.tick;
     const double shown = std::abs(v) < 1e-9 ? 0 : v;
     svg += fmt::format(R"(<line x1="{1}" y1="{0:.1f}" x2="{2}" y2="{0:.1f}" stroke="#ddd"/>)"
                        R"(<text x="{3}" y="{4:.1f}" text-anchor="end">{5:.4g}</text>)"

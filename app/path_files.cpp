@@ -208,7 +208,7 @@ GivenPath candidate_path(const PathTable& table, const Vehicle& vehicle, double 
       nodes.push_back({moment.s_m, both_rest ? 1e-3 : speed});
     }
     margin_min = std::min(margin_min, table.number_if_any(i, "margin").value_or(margin_min));
-    moments.push_back(std::move(moment));
+    moments.push_back(moment);
   }
   if (!table.has("acceleration_mps2")) add_accelerations(moments, vehicle.acceleration_max_mps2);
   return {.path = {.name = table.file(),

@@ -26,8 +26,8 @@ std::vector<Station> stations_of(const ReferencePath& path, const Vehicle& vehic
   if (!stations.empty()) return stations;
   constexpr double kApart_m = 0.5;
   const double length = path.curve.length_m();
-  const double pieces = std::max(4.0, std::ceil(length / kApart_m));
-  for (double k = 0; k <= pieces; ++k) {
+  const int pieces = std::max(4, static_cast<int>(std::ceil(length / kApart_m)));
+  for (int k = 0; k <= pieces; ++k) {
     const double s = length * k / pieces;
     stations.push_back({s, path.speed.duration_s(s), path.state_at(vehicle, s)});
   }

@@ -115,7 +115,8 @@ std::string reason_of(const PlanResult& result, int found) {
 }  // namespace
 
 PlanResult plan(const PlanningProblem& problem,
-                const std::function<void(const PlanProgress&)>& on_progress, std::stop_token stop) {
+                const std::function<void(const PlanProgress&)>& on_progress,
+                const std::stop_token& stop) {
   validate(problem);
   PlanResult result;
   result.seed = problem.search.seed;

@@ -19,6 +19,7 @@ struct PlanProgress {
 /// interrupted. Must be called while the process has one thread: planners run in child processes.
 /// \throws ValueError, InputError as `validate(problem)`
 PlanResult plan(const PlanningProblem& problem,
-                const std::function<void(const PlanProgress&)>& on_progress, std::stop_token stop);
+                const std::function<void(const PlanProgress&)>& on_progress,
+                const std::stop_token& stop);
 
 }  // namespace regoplan

@@ -128,6 +128,7 @@ void finish(Child& child) {
 /// Reads what children have to say; waits a little for it.
 void listen(std::deque<Child>& children) {
   std::vector<pollfd> polled;
+  polled.reserve(children.size());
   for (const Child& child : children) {
     polled.push_back({.fd = child.done ? -1 : child.pipe, .events = POLLIN, .revents = 0});
   }
@@ -150,7 +151,7 @@ void listen(std::deque<Child>& children) {
 void search_in_processes(
     const World& world, int processes, const std::function<std::optional<SearchRun>()>& next,
     const std::function<void(const SearchRun&, const std::optional<SearchOutcome>&)>& on_outcome,
-    std::stop_token stop) {
+    const std::stop_token& stop) {
   std::deque<Child> children;
   bool more = true;
   while (true) {

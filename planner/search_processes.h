@@ -17,6 +17,6 @@ namespace regoplan {
 void search_in_processes(
     const World& world, int processes, const std::function<std::optional<SearchRun>()>& next,
     const std::function<void(const SearchRun&, const std::optional<SearchOutcome>&)>& on_outcome,
-    std::stop_token stop);
+    const std::stop_token& stop);
 
 }  // namespace regoplan

@@ -216,7 +216,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   const int learned = std::min(draws, SoilSurrogate::kTrainingDraws);
   constexpr int kChecked = 30;
   const int checked = std::min(draws - learned, kChecked);
-  const auto direct = static_cast<std::size_t>(learned + checked);
+  const auto direct = static_cast<std::size_t>(learned) + static_cast<std::size_t>(checked);
   constexpr std::size_t kElsewhere = 4;  // other places, in each draw that checks
   std::vector<std::vector<PathMargins>> judged(static_cast<std::size_t>(draws));
   std::vector<PathMargins> elsewhere(direct);

@@ -50,9 +50,9 @@ SpeedProfile limited_by_acceleration(const std::vector<SpeedProfile::Node>& most
   std::vector<SpeedProfile::Node> nodes;
   for (std::size_t i = 0; i + 1 < most.size(); ++i) {
     const SpeedProfile::Node &a = most[i], &b = most[i + 1];
-    const double pieces = std::max(2.0, std::ceil((b.s_m - a.s_m) / kSpacing_m));
-    for (double k = 0; k < pieces; ++k) {
-      const double share = k / pieces;
+    const int pieces = std::max(2, static_cast<int>(std::ceil((b.s_m - a.s_m) / kSpacing_m)));
+    for (int k = 0; k < pieces; ++k) {
+      const double share = static_cast<double>(k) / pieces;
       nodes.push_back(
           {a.s_m + share * (b.s_m - a.s_m), a.speed_mps + share * (b.speed_mps - a.speed_mps)});
     }

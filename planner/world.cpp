@@ -5,33 +5,49 @@
 #include <limits>
 #include <numbers>
 
+#include "terramech/input_error.h"
+
 namespace regoplan {
 namespace {
 
-std::vector<WheelModel> models_of(const PlanningProblem& problem) {
+std::vector<WheelModel> models_of(const PlanningProblem& problem, WorldUse use) {
   std::vector<WheelModel> models;
-  for (const MapSoil& soil : problem.map.soils())
-    models.emplace_back(wheel_model_spec(problem, soil.soil.mean));
+  for (const MapSoil& soil : problem.map.soils()) {
+    models.emplace_back(wheel_model_spec(problem, soil.soil.mean),
+                        use == WorldUse::kSearch ? WheelAccuracy::kFast : WheelAccuracy::kExact);
+  }
   return models;
 }
 
-std::vector<ForceTable> tables_of(const PlanningProblem& problem) {
+std::optional<ForceTable> table_of(const PlanningProblem& problem, const MapSoil& soil) {
   const double nominal_load_n = problem.vehicle.mass_kg * problem.gravity_mps2 /
                                 static_cast<double>(problem.vehicle.wheels.size());
   // Far below what the supply's bound and the reserves of a search leave; no verdict rests on it.
   constexpr TableAccuracy kAccuracy{.at_999_permille = 5e-3, .at_worst = 2e-2};
-  std::vector<ForceTable> tables;
+  try {
+    return ForceTable::cached({.model = wheel_model_spec(problem, soil.soil.mean),
+                               .nominal_load_n = nominal_load_n,
+                               .accuracy = kAccuracy});
+  } catch (const InputError&) {
+    return std::nullopt;  // no table is that accurate: the search asks the model itself
+  }
+}
+
+std::vector<std::optional<ForceTable>> tables_of(const PlanningProblem& problem, WorldUse use) {
+  std::vector<std::optional<ForceTable>> tables;
   for (const MapSoil& soil : problem.map.soils()) {
-    tables.push_back(ForceTable::cached({.model = wheel_model_spec(problem, soil.soil.mean),
-                                         .nominal_load_n = nominal_load_n,
-                                         .accuracy = kAccuracy}));
+    tables.push_back(use == WorldUse::kSearch ? table_of(problem, soil) : std::nullopt);
   }
   return tables;
 }
 
-template <class Source>
-std::vector<WheelLaw> views_of(const std::vector<Source>& sources) {
-  return {sources.begin(), sources.end()};
+std::vector<WheelLaw> views_of(const std::vector<WheelModel>& models,
+                               const std::vector<std::optional<ForceTable>>& tables) {
+  std::vector<WheelLaw> laws;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    laws.push_back(tables[i] ? WheelLaw(*tables[i]) : WheelLaw(models[i]));
+  }
+  return laws;
 }
 
 double largest_by_magnitude(const Vehicle& vehicle, double curvature_1pm) {
@@ -91,9 +107,9 @@ TrimLimits trim_limits(const PlanningProblem& problem) {
 World::World(const PlanningProblem& problem, WorldUse use, int threads)
     : problem_(problem),
       use_(use),
-      models_(use == WorldUse::kVerdict ? models_of(problem) : std::vector<WheelModel>{}),
-      force_tables_(use == WorldUse::kSearch ? tables_of(problem) : std::vector<ForceTable>{}),
-      laws_(use == WorldUse::kSearch ? views_of(force_tables_) : views_of(models_)),
+      models_(models_of(problem, use)),
+      force_tables_(tables_of(problem, use)),
+      laws_(views_of(models_, force_tables_)),
       ground_(problem.map, problem.vehicle),
       dynamics_(
           problem.vehicle, laws_,

@@ -81,9 +81,10 @@ class World {
 
   const PlanningProblem& problem_;
   WorldUse use_;
-  std::vector<WheelModel> models_;        ///< by soil; verdict only
-  std::vector<ForceTable> force_tables_;  ///< by soil; search only
-  std::vector<WheelLaw> laws_;            ///< by soil, views of what there is
+  std::vector<WheelModel> models_;  ///< by soil
+  /// By soil; of a search, where a table comes near enough to the model.
+  std::vector<std::optional<ForceTable>> force_tables_;
+  std::vector<WheelLaw> laws_;  ///< by soil, views of what there is
   GroundFinder ground_;
   VehicleDynamics dynamics_;
   SupportPolygon polygon_;
