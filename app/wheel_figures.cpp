@@ -152,8 +152,9 @@ std::string small_multiples(std::string_view title, const std::vector<FigureCurv
                             const Axis& x, const Axis& y) {
   std::string svg;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const Box box{.left = 70 + 320 * static_cast<double>(i % 2),
-                  .top = 72 + 260 * static_cast<double>(i / 2),
+    const std::size_t row = i / 2, column = i % 2;
+    const Box box{.left = 70 + 320 * static_cast<double>(column),
+                  .top = 72 + 260 * static_cast<double>(row),
                   .width = 230,
                   .height = 180};
     svg += axes_svg(x, y, box) + curve_svg(curves[i], kColours[i % kColours.size()], x, y, box);
