@@ -1,0 +1,156 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "diagnosis/recording.h"
+#include "terramech/generic_correction.h"
+#include "terramech/wheel_model.h"
+
+namespace regoplan {
+
+/// What is known beforehand of wheel, soil and instruments.
+struct DiagnosisSetup {
+  WheelVariant variant = WheelVariant::kIshigami2007;
+  Wheel wheel;
+  double gravity_mps2 = 9.80665;
+  UncertainSoil soil;                                  ///< what independent soil tests say
+  std::map<Channel, double> noise_standard_deviation;  ///< where there are no replicates
+};
+
+enum class Verdict {
+  kConsistent,   ///< no lack of fit at the prior means
+  kParameters,   ///< none after calibration, every pull within 4.5 prior standard deviations
+  kNamed,        ///< by one name for each effect
+  kClass,        ///< by names that these data cannot tell apart
+  kUnexplained,  ///< a real mismatch that no name fits
+};
+
+/// `consistent`, `parameters`, `named`, `class`, `unexplained`.
+std::string_view name(Verdict verdict);
+
+struct Estimate {
+  double value = 0;
+  double standard_deviation = 0;
+};
+
+/// One effect that the diagnosis claims.
+struct Claim {
+  std::string id;
+  std::string form;        ///< the one that fits best; empty for instruments
+  double probability = 0;  ///< of the class
+  std::map<std::string, Estimate> parameters;
+  std::vector<std::string> equivalent;  ///< further ids that these data cannot tell apart
+  std::vector<Channel> channels;        ///< in which it shows
+  double evidence_nats = 0;             ///< over the best score without it
+};
+
+struct ScoredCandidate {
+  std::string id;  ///< of a mechanism, an instrument fault, `a+b`, `none`, `parameters`, ...
+  double probability = 0;
+};
+
+/// A part of the operating space in which measurement and calibrated model differ.
+struct MismatchRegion {
+  Channel channel = Channel::kFx;
+  std::map<std::string, std::array<double, 2>> region;  ///< column: from, to, in the file's unit
+  double effect = 0;                                    ///< measured - model, the channel's unit
+  std::array<double, 2> ci95{};
+  double p_value = 1;
+};
+
+/// How well one channel fits on conditions held out of the fit.
+struct ChannelFit {
+  Channel channel = Channel::kFx;
+  double noise_floor = 0;      ///< replicate scatter of those rows
+  double baseline_rmse = 0;    ///< model at the prior means
+  double calibrated_rmse = 0;  ///< soil numbers fitted
+  double corrected_rmse = 0;   ///< and the claim's mechanisms, or the generic correction
+};
+
+struct LackOfFit {
+  double f = 0;
+  double critical = 0;
+  double p_value = 1;
+  int degrees_of_freedom = 0;
+  int pure_error_degrees_of_freedom = 0;
+};
+
+struct SoilPull {
+  std::string parameter;  ///< key of the soil file
+  Estimate prior;
+  Estimate calibrated;  ///< without any mechanism
+  Estimate corrected;   ///< with the claim; as calibrated where there is none
+  double pull = 0;      ///< (calibrated - prior mean)/prior standard deviation
+  double corrected_pull = 0;
+};
+
+struct Experiment {
+  std::map<std::string, double> conditions;  ///< column: value in the file's unit
+  std::optional<Channel> further_sensor;     ///< a channel that this recording lacks
+  std::vector<std::string> separates;        ///< ids
+  double expected_gain_nats = 0;
+};
+
+struct SmallestDetectable {
+  std::string id;
+  std::string parameter;
+  double value = 0;          ///< amplitude that these data would have shown with 80 % power
+  double low = 0, high = 0;  ///< usual range
+};
+
+/// One row of the recording against the models, for pictures.
+struct RunResidual {
+  std::size_t run = 0;
+  Channel channel = Channel::kFx;
+  double measured = 0;
+  double noise = 0;     ///< standard deviation
+  double baseline = 0;  ///< model at the prior means
+  double calibrated = 0;
+  double corrected = 0;
+  double held_out = 0;  ///< corrected model fitted without this row's family
+  double held_out_standard_deviation = 0;
+};
+
+/// Everything that a diagnosis finds.
+struct Diagnosis {
+  Verdict verdict = Verdict::kConsistent;
+  std::string sentence;            ///< the finding, for a person
+  std::vector<std::string> notes;  ///< signs, units, outliers, what was assumed
+  std::vector<Claim> claims;
+  std::vector<ScoredCandidate> ranking;  ///< sums to 1
+  std::vector<MismatchRegion> where;     ///< strongest first
+  std::vector<ChannelFit> fit;
+  std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
+  double share_explained = 0;
+  LackOfFit before, after;
+  std::vector<SoilPull> soil;
+  std::vector<Experiment> next_experiments;
+  std::vector<SmallestDetectable> smallest_detectable;
+  std::vector<RunResidual> residuals;
+  WheelModelSpec corrected_model;  ///< calibrated soil, the claim's mechanisms, or `generic`
+  UncertainSoil corrected_soil;
+  bool interrupted = false;
+};
+
+struct DiagnosisOptions {
+  std::uint64_t seed = 1;
+  int threads = 2;
+  std::stop_token stop = {};
+  /// Told what is being done and how much of it is, in [0, 1].
+  std::function<void(std::string_view, double)> progress = {};
+};
+
+/// Locates where the wheel model and a recording differ, says what physics was left out, models it
+/// and shows on held-out conditions how far that goes.
+/// \throws InputError for a recording that cannot be judged (fewer than 8 different conditions,
+/// all replicates identical, ...)
+Diagnosis diagnose(const Recording& recording, const DiagnosisSetup& setup,
+                   const DiagnosisOptions& options = {});
+
+}  // namespace regoplan
