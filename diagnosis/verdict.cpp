@@ -1,0 +1,13 @@
+#include <array>
+
+#include "diagnosis/diagnosis.h"
+
+namespace regoplan {
+
+std::string_view name(Verdict verdict) {
+  constexpr std::array<std::string_view, 5> kNames{"consistent", "parameters", "named", "class",
+                                                   "unexplained"};
+  return kNames[static_cast<std::size_t>(verdict)];
+}
+
+}  // namespace regoplan
