@@ -29,9 +29,9 @@ class RunSchedule {
   std::optional<SearchRun> next(int found) {
     const int wanted = kRunsPerCandidate * search_.candidates;
     SearchRun run{.planner = planner_of(number_),
-                  .seed = seed_of(number_),
-                  .margin_min = margin_min_ + reserve_of(number_),
-                  .variety = variety_of(number_)};
+                  .guidance = {.seed = seed_of(number_),
+                               .margin_min = margin_min_ + reserve_of(number_),
+                               .variety = variety_of(number_)}};
     if (search_.iterations) {
       if (number_ >= wanted) return std::nullopt;
       run.iterations = search_.iterations;
@@ -154,7 +154,7 @@ PlanResult plan(const PlanningProblem& problem,
         result.propagations += outcome->propagations;
         if (!outcome->controls.empty()) {
           found.push_back(
-              {.planner = run.planner, .seed = run.seed, .controls = outcome->controls});
+              {.planner = run.planner, .seed = run.guidance.seed, .controls = outcome->controls});
         }
         report();
       },

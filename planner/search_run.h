@@ -11,12 +11,17 @@
 
 namespace regoplan {
 
-/// One run of one planner. Exactly one of `time_s` and `iterations` bounds it.
-struct SearchRun {
-  std::string planner;  ///< SST, RRT, KPIECE1, EST or PDST
+/// What a run keeps to, and is led by.
+struct SearchGuidance {
   std::uint64_t seed = 1;
   double margin_min = 0;  ///< every state keeps at least this stability margin
   double variety = 0;     ///< of the way that it is guided along, as `CostToGo` takes it
+};
+
+/// One run of one planner. Exactly one of `time_s` and `iterations` bounds it.
+struct SearchRun {
+  std::string planner;  ///< one of `planner_names()`, not `auto`
+  SearchGuidance guidance;
   std::optional<double> time_s;
   std::optional<std::int64_t> iterations;
 };
@@ -32,5 +37,9 @@ struct SearchOutcome {
 /// Runs a planner of OMPL in this process, which must not have drawn from OMPL's random numbers
 /// before: the seed is set for the whole process.
 SearchOutcome search(const World& world, const SearchRun& run);
+
+/// Sets the seed of all of OMPL's random numbers in this process. It counts once, before the first
+/// is drawn.
+void seed_ompl(std::uint64_t seed);
 
 }  // namespace regoplan

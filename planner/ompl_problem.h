@@ -1,0 +1,49 @@
+#pragma once
+
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/control/SpaceInformation.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "planner/cost_to_go.h"
+#include "planner/rejection_log.h"
+#include "planner/search_run.h"
+#include "planner/world.h"
+
+namespace regoplan {
+
+/// A planning problem as OMPL sees it: states, controls, propagation by the vehicle's dynamics,
+/// validity by the world's judgement, the goal in metres. One planner run uses it at a time; what
+/// it counts is of that run.
+class OmplProblem {
+ public:
+  /// \param world must outlive it
+  OmplProblem(const World& world, const SearchGuidance& guidance);
+  OmplProblem(const OmplProblem&) = delete;
+  OmplProblem& operator=(const OmplProblem&) = delete;
+
+  const World& world() const { return world_; }
+  const CostToGo& way() const { return way_; }
+  const ompl::control::SpaceInformationPtr& space() const { return space_; }
+  const ompl::base::ProblemDefinitionPtr& definition() const { return definition_; }
+
+  /// Of the map, metres.
+  double diagonal_m() const;
+
+  std::int64_t propagations() const { return propagations_; }
+  const RejectionLog& rejections() const { return rejections_; }
+
+ private:
+  const World& world_;
+  CostToGo way_;
+  std::int64_t propagations_ = 0;
+  RejectionLog rejections_;
+  ompl::control::SpaceInformationPtr space_;
+  ompl::base::ProblemDefinitionPtr definition_;
+};
+
+/// The controls of the solution; empty where there is none that reaches the goal.
+std::vector<ControlSegment> exact_solution(const ompl::base::ProblemDefinition& definition);
+
+}  // namespace regoplan
