@@ -51,4 +51,9 @@ regoplan_embed(
   app/report/plan/layers.js
   app/report/plan/readout.js
   app/report/plan/rejections.js
-  app/report/evaluation/main.js)
+  app/report/evaluation/main.js
+  kBenchmarkHtml
+  app/report/benchmark/benchmark.html
+  kBenchmarkScript
+  app/report/benchmark/figures.js
+  app/report/benchmark/main.js)

@@ -143,17 +143,18 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
   space_->setPropagationStepSize(world.search_step_s());
   space_->setMinMaxControlDuration(1, 24);
   space_->setup();
+}
 
-  definition_ = std::make_shared<ob::ProblemDefinition>(space_);
+void OmplProblem::pose(ob::ProblemDefinition& definition) const {
   ob::State* start = space_->allocState();
-  start->as<VehicleSpace::StateType>()->vehicle = world.start();
-  definition_->addStartState(start);
+  start->as<VehicleSpace::StateType>()->vehicle = world_.start();
+  definition.addStartState(start);
   space_->freeState(start);
-  definition_->setGoal(std::make_shared<VehicleGoal>(space_, world));
+  definition.setGoal(std::make_shared<VehicleGoal>(space_, world_));
   auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(space_);
   // SST stops at the first path: by default it would use all its time.
   objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::max()));
-  definition_->setOptimizationObjective(objective);
+  definition.setOptimizationObjective(objective);
 }
 
 double OmplProblem::diagonal_m() const {

@@ -26,7 +26,9 @@ class OmplProblem {
   const World& world() const { return world_; }
   const CostToGo& way() const { return way_; }
   const ompl::control::SpaceInformationPtr& space() const { return space_; }
-  const ompl::base::ProblemDefinitionPtr& definition() const { return definition_; }
+
+  /// Sets start, goal and objective.
+  void pose(ompl::base::ProblemDefinition& definition) const;
 
   /// Of the map, metres.
   double diagonal_m() const;
@@ -40,7 +42,6 @@ class OmplProblem {
   std::int64_t propagations_ = 0;
   RejectionLog rejections_;
   ompl::control::SpaceInformationPtr space_;
-  ompl::base::ProblemDefinitionPtr definition_;
 };
 
 /// The controls of the solution; empty where there is none that reaches the goal.

@@ -1,17 +1,10 @@
 #include "planner/search_processes.h"
 
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
-#include <csignal>
 #include <cstring>
-#include <deque>
-#include <exception>
-#include <system_error>
+#include <stdexcept>
 #include <type_traits>
+
+#include "planner/child_processes.h"
 
 namespace regoplan {
 namespace {
@@ -78,105 +71,25 @@ std::optional<SearchOutcome> unpacked(const std::vector<char>& bytes) {
   }
 }
 
-/// A run in a child process.
-struct Child {
-  SearchRun run;
-  pid_t pid = 0;
-  int pipe = -1;
-  std::vector<char> bytes;
-  bool done = false;
-};
-
-[[noreturn]] void be_child(const World& world, const SearchRun& run, int pipe) {
-  // The parent decides what an interrupt means, and ends its children.
-  std::signal(SIGINT, SIG_IGN);
-  int status = 1;
-  try {
-    const std::vector<char> bytes = packed(search(world, run));
-    std::size_t written = 0;
-    while (written < bytes.size()) {
-      const ssize_t n = write(pipe, bytes.data() + written, bytes.size() - written);
-      if (n <= 0 && errno != EINTR) break;
-      if (n > 0) written += static_cast<std::size_t>(n);
-    }
-    status = 0;
-  } catch (const std::exception&) {
-    status = 1;  // an outcome that is missing says so
-  }
-  _exit(status);
-}
-
-Child start(const World& world, const SearchRun& run) {
-  int ends[2];
-  if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-  const pid_t pid = fork();
-  if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
-  if (pid == 0) {
-    close(ends[0]);
-    be_child(world, run, ends[1]);
-  }
-  close(ends[1]);
-  return {.run = run, .pid = pid, .pipe = ends[0], .bytes = {}, .done = false};
-}
-
-void finish(Child& child) {
-  close(child.pipe);
-  waitpid(child.pid, nullptr, 0);
-  child.done = true;
-}
-
-/// Reads what children have to say; waits a little for it.
-void listen(std::deque<Child>& children) {
-  std::vector<pollfd> polled;
-  polled.reserve(children.size());
-  for (const Child& child : children) {
-    polled.push_back({.fd = child.done ? -1 : child.pipe, .events = POLLIN, .revents = 0});
-  }
-  constexpr int kWait_ms = 50;
-  if (poll(polled.data(), polled.size(), kWait_ms) <= 0) return;
-  for (std::size_t i = 0; i < polled.size(); ++i) {
-    if (polled[i].fd < 0 || polled[i].revents == 0) continue;
-    char buffer[65536];
-    const ssize_t n = read(children[i].pipe, buffer, sizeof buffer);
-    if (n > 0) {
-      children[i].bytes.insert(children[i].bytes.end(), buffer, buffer + n);
-    } else if (n == 0 || errno != EINTR) {
-      finish(children[i]);
-    }
-  }
-}
-
 }  // namespace
 
 void search_in_processes(
     const World& world, int processes, const std::function<std::optional<SearchRun>()>& next,
     const std::function<void(const SearchRun&, const std::optional<SearchOutcome>&)>& on_outcome,
     const std::stop_token& stop) {
-  std::deque<Child> children;
-  bool more = true;
-  while (true) {
-    const auto running = std::count_if(children.begin(), children.end(),
-                                       [](const Child& child) { return !child.done; });
-    if (more && !stop.stop_requested() && running < processes) {
-      const std::optional<SearchRun> run = next();
-      more = run.has_value();
-      if (run) children.push_back(start(world, *run));
-      continue;
-    }
-    if (children.empty()) return;
-    if (stop.stop_requested()) {
-      for (Child& child : children) {
-        if (!child.done) kill(child.pid, SIGKILL);
-      }
-      more = false;
-    }
-    listen(children);
-    while (!children.empty() && children.front().done) {
-      const Child child = std::move(children.front());
-      children.pop_front();
-      on_outcome(child.run, unpacked(child.bytes));
-    }
-  }
+  std::vector<SearchRun> runs;
+  run_in_children(
+      processes, AnswerOrder::kAsGiven,
+      [&]() -> std::optional<ChildTask> {
+        const std::optional<SearchRun> run = next();
+        if (!run) return std::nullopt;
+        runs.push_back(*run);
+        return ChildTask{.work = [&world, run] { return packed(search(world, *run)); }};
+      },
+      [&](const ChildAnswer& answer) {
+        on_outcome(runs[answer.task], answer.bytes ? unpacked(*answer.bytes) : std::nullopt);
+      },
+      stop);
 }
 
 }  // namespace regoplan

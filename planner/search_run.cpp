@@ -18,13 +18,15 @@ SearchOutcome search(const World& world, const SearchRun& run) {
   seed_ompl(run.guidance.seed);
   const OmplProblem problem(world, run.guidance);
   const ob::PlannerPtr planner = make_planner(run.planner, problem);
-  planner->setProblemDefinition(problem.definition());
+  const auto definition = std::make_shared<ob::ProblemDefinition>(problem.space());
+  problem.pose(*definition);
+  planner->setProblemDefinition(definition);
   planner->setup();
   ob::IterationTerminationCondition iterations(
       static_cast<unsigned int>(run.iterations.value_or(std::numeric_limits<int>::max())));
   planner->solve(run.iterations ? ob::PlannerTerminationCondition(iterations)
                                 : ob::timedPlannerTerminationCondition(*run.time_s));
-  return {.controls = exact_solution(*problem.definition()),
+  return {.controls = exact_solution(*definition),
           .rejected = problem.rejections().counts(),
           .rejected_states = problem.rejections().sample(),
           .propagations = problem.propagations()};

@@ -1,0 +1,88 @@
+#include "app/benchmark_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "app/benchmark_report.h"
+#include "app/staged_files.h"
+#include "benchmarking/experiment.h"
+#include "benchmarking/ompl_log.h"
+#include "benchmarking/results_database.h"
+#include "benchmarking/summary.h"
+
+namespace regoplan {
+namespace {
+
+nlohmann::json json_of(const std::optional<double>& value) {
+  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
+}
+
+nlohmann::json json_of(const PlannerSummary& summary) {
+  return {{"planner", summary.planner},
+          {"runs", summary.runs},
+          {"verified", summary.verified},
+          {"overturned", summary.overturned},
+          {"crashed", summary.crashed},
+          {"success_ci95", summary.success_ci95},
+          {"time_median_s", json_of(summary.time_median_s)},
+          {"length_median_m", json_of(summary.length_median_m)},
+          {"duration_median_s", json_of(summary.duration_median_s)},
+          {"energy_median_j", json_of(summary.energy_median_j)},
+          {"margin_median", json_of(summary.margin_median)},
+          {"propagations_median", json_of(summary.propagations_median)}};
+}
+
+nlohmann::json json_of(const PairedComparison& pair) {
+  return {{"experiment", pair.experiment}, {"planner", pair.planner}, {"other", pair.other},
+          {"property", pair.property},     {"pairs", pair.pairs},     {"ratio", pair.ratio},
+          {"ratio_ci95", pair.ratio_ci95}, {"real", pair.real}};
+}
+
+/// An experiment's name as a file's.
+std::string log_name(std::string experiment) {
+  std::replace_if(
+      experiment.begin(), experiment.end(), [](char c) { return c == ',' || c == '='; }, '_');
+  return experiment + ".log";
+}
+
+}  // namespace
+
+std::string benchmark_json(const JournalContents& contents, bool interrupted) {
+  nlohmann::json experiments = nlohmann::json::array();
+  nlohmann::json comparisons = nlohmann::json::array();
+  for (const Experiment& experiment : experiments_of(contents)) {
+    nlohmann::json planners = nlohmann::json::array();
+    for (const PlannerRuns& runs : experiment.planners) {
+      planners.push_back(json_of(summary_of(runs)));
+    }
+    experiments.push_back({{"name", experiment.name}, {"planners", planners}});
+    for (const char* property : {"time REAL", "path length m REAL"}) {
+      for (const PairedComparison& pair : paired_comparisons(experiment, property)) {
+        comparisons.push_back(json_of(pair));
+      }
+    }
+  }
+  const JournalOrigin& origin = contents.origins.front();
+  const nlohmann::json json{
+      {"suite", origin.suite},      {"runs", contents.runs.size()},
+      {"interrupted", interrupted}, {"version", contents.origins.back().version},
+      {"experiments", experiments}, {"comparisons", comparisons}};
+  return json.dump(2) + "\n";
+}
+
+void write_benchmark_files(const JournalContents& contents, bool interrupted,
+                           const std::filesystem::path& folder) {
+  const std::vector<Experiment> experiments = experiments_of(contents);
+  StagedFiles staged(folder);
+  for (const Experiment& experiment : experiments) {
+    staged.write({.name = log_name(experiment.name), .content = ompl_log(experiment)});
+  }
+  write_results_database(staged.path("benchmark.db"), experiments);
+  staged.write({.name = "benchmark.json", .content = benchmark_json(contents, interrupted)});
+  staged.write({.name = "report.html", .content = benchmark_report(contents, interrupted)});
+  staged.commit();
+}
+
+}  // namespace regoplan

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <vector>
+
+#include "benchmarking/run_record.h"
+#include "benchmarking/suite.h"
+
+namespace regoplan {
+
+/// Where and under what a part of a journal was written.
+struct JournalOrigin {
+  std::string suite;
+  RunBounds bounds;
+  std::string version;
+  std::string host;
+  std::string cpu;
+  std::string started;                           ///< UTC, `2026-11-20 09:44:17`
+  std::map<std::string, std::string> scenarios;  ///< label: digest of what it read
+  std::vector<SuitePlanner> planners;
+};
+
+/// Everything that a journal holds.
+struct JournalContents {
+  std::vector<JournalOrigin> origins;
+  std::vector<RunRecord> runs;  ///< each run once, by key
+};
+
+/// The runs of a suite that have ended, in the file `runs.jsonl` of a folder: a line each, on the
+/// disk before `append` returns. A line that was cut short, by a kill or a full disk, counts as
+/// never begun.
+class RunJournal {
+ public:
+  /// Opens the journal of a folder, made where it is missing, for this process alone.
+  /// \throws InputError where it cannot be opened, another process has it, or it holds runs under
+  /// other bounds, or of other planners or scenarios under the same labels
+  RunJournal(const std::filesystem::path& folder, const JournalOrigin& origin);
+  ~RunJournal();
+  RunJournal(const RunJournal&) = delete;
+  RunJournal& operator=(const RunJournal&) = delete;
+
+  bool holds(const RunKey& key) const { return keys_.contains(key); }
+  std::size_t size() const { return keys_.size(); }
+
+  /// \throws InputError where it cannot be written; the journal is then as before
+  void append(const RunRecord& run);
+
+ private:
+  void append_line(const std::string& line);
+
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  std::set<RunKey> keys_;
+};
+
+/// \throws InputError where the folder has no journal, or one with a line that no journal writes
+JournalContents read_journal(const std::filesystem::path& folder);
+
+/// The runs of several journals, each once. The first of two that hold the same run counts.
+/// \throws InputError where they were written under different bounds, planners or scenarios
+JournalContents merged(const std::vector<JournalContents>& parts);
+
+/// Writes a journal that holds `contents`, whole or not at all.
+void write_journal(const std::filesystem::path& folder, const JournalContents& contents);
+
+}  // namespace regoplan

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "benchmarking/run_journal.h"
+#include "benchmarking/suite.h"
+#include "planner/planning_problem.h"
+
+namespace regoplan {
+
+/// How far a suite has come.
+struct SuiteProgress {
+  std::string experiment;
+  std::size_t done = 0;
+  std::size_t total = 0;
+  std::optional<double> remaining_s;  ///< estimated from the runs of this session
+};
+
+/// Does those of the runs that the journal does not hold, each in a process of its own: a planner
+/// that crashes, leaks or hangs costs one run. Call it while the process has one thread.
+/// \param problem_of the problem of a scenario at a sweep point, by their places in the suite
+/// \param processes at once
+/// \throws InputError for a planner's parameter that is not valid, or a journal that cannot be
+/// written
+void run_suite(const Suite& suite, const std::vector<SuiteRun>& runs, RunJournal& journal,
+               int processes,
+               const std::function<PlanningProblem(std::size_t, std::size_t)>& problem_of,
+               const std::function<void(const SuiteProgress&)>& on_progress,
+               const std::stop_token& stop);
+
+}  // namespace regoplan
