@@ -11,6 +11,7 @@
 #include "app/settings_mapping.h"
 #include "app/settings_path.h"
 #include "app/soil_settings.h"
+#include "app/terrain_settings.h"
 #include "app/vehicle_settings.h"
 #include "maps/raster_files.h"
 
@@ -159,6 +160,12 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
                 return read_soil_catalogue(read_settings(file(soils)), variant);
               });
 
+    if (const SettingsNode* drawn = mapping.optional("terrain")) {
+      SyntheticTerrain terrain = placed(*drawn, [&] { return draw_terrain(read_terrain(*drawn)); });
+      return ScenarioMap{.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
+                                           std::move(catalogue), std::move(terrain.rocks)),
+                         .notices = {}};
+    }
     const SettingsNode& elevation_file = mapping.required("elevation");
     ElevationRaster elevation =
         placed(elevation_file, [&] { return read_elevation(file(elevation_file)); });
@@ -204,6 +211,7 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
     const double speed_max_mps = speed ? read_speed_max(*speed, vehicle) : vehicle.speed_max_mps;
     const SettingsNode* limits = mapping.optional("limits");
     const SettingsNode* planner = mapping.optional("planner");
+    const SettingsNode* expectation = mapping.optional("expectation");
 
     const Limits kept =
         limits ? read_limits(*limits, default_limits(vehicle)) : default_limits(vehicle);
@@ -221,7 +229,13 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
                     .speed_max_mps = speed_max_mps,
                     .limits = kept,
                     .search = search},
-        .notices = std::move(read.notices)};
+        .notices = std::move(read.notices),
+        .expectation = {}};
+    if (expectation) {
+      scenario.expectation = expectation->choice({"feasible", "infeasible"}) == 0
+                                 ? PlanStatus::kFeasible
+                                 : PlanStatus::kInfeasible;
+    }
     validate(scenario.problem);
     return scenario;
   });

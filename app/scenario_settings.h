@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/settings_node.h"
+#include "planner/plan_result.h"
 #include "planner/planning_problem.h"
 
 namespace regoplan {
@@ -30,7 +31,8 @@ Search overridden(Search search, const ScenarioOverrides& overrides);
 
 struct Scenario {
   PlanningProblem problem;
-  std::vector<std::string> notices;  ///< for the person: what was taken to be so
+  std::vector<std::string> notices;       ///< for the person: what was taken to be so
+  std::optional<PlanStatus> expectation;  ///< what the scenario says that it should come to
 };
 
 struct ScenarioMap {
@@ -45,7 +47,8 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
 /// Reads only the `map` of a scenario.
 ScenarioMap read_scenario_map(const std::string& file);
 
-/// Reads a map `{elevation, soil_class, soils, rocks}` with file names relative to `folder`.
+/// Reads a map `{elevation, soil_class, soils, rocks}` with file names relative to `folder`, or
+/// `{terrain, soils}` with a terrain that stands in the scenario itself (`read_terrain`).
 ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& folder,
                      WheelVariant variant);
 
