@@ -19,7 +19,9 @@ std::string words(double seconds) {
 }  // namespace
 
 SuiteProgressLine::SuiteProgressLine(bool quiet)
-    : on_(!quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : on_(!quiet), terminal_(isatty(STDERR_FILENO) == 1) {
+  if (!terminal_) next_ = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+}
 
 SuiteProgressLine::~SuiteProgressLine() {
   if (shown_ && terminal_) std::fputs(kWipeLine, stderr);

@@ -19,7 +19,7 @@ regoplan_tests(planner regoplan_planner ompl::ompl)
 regoplan_tests(benchmarking regoplan_benchmarking nlohmann_json::nlohmann_json SQLite::SQLite3)
 # Whole journeys over large maps: too long for a build with sanitizers.
 regoplan_tests(journeys regoplan_app)
-regoplan_tests(app regoplan_app nlohmann_json::nlohmann_json yaml-cpp)
+regoplan_tests(app regoplan_app nlohmann_json::nlohmann_json yaml-cpp SQLite::SQLite3)
 # The command line is tested as a person uses it: as a program.
 add_dependencies(app_tests regoplan)
 target_compile_definitions(app_tests PRIVATE REGOPLAN_PROGRAM="$<TARGET_FILE:regoplan>")

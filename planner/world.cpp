@@ -172,8 +172,11 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
     return because(Rejection::kBounds, kNoNumber, kNoNumber);
   // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
   const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
-  const double speed_reserve = use_ == WorldUse::kSearch ? 0.995 : 1 + kRounding;
-  if (speed > problem_.speed_max_mps * speed_reserve) {
+  // A search keeps a reserve, but may start as fast as the problem says.
+  const double speed_allowed_mps =
+      use_ == WorldUse::kSearch ? std::max(0.995 * problem_.speed_max_mps, problem_.start.speed_mps)
+                                : (1 + kRounding) * problem_.speed_max_mps;
+  if (speed > speed_allowed_mps) {
     return because(Rejection::kBounds, speed, problem_.speed_max_mps);
   }
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);

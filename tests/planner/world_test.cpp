@@ -56,6 +56,13 @@ TEST(World, EachLimitIsTheReasonWhenItAloneIsBroken) {
   EXPECT_EQ(reason(world.rejected(at_the_edge, {})), Rejection::kUnknownTerrain);
 }
 
+TEST(World, ASearchMayStartAtTopSpeedThoughItKeepsAReserveBelowIt) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.start.speed_mps = problem.speed_max_mps;
+  const World world(problem, WorldUse::kSearch, 1);
+  EXPECT_EQ(reason(world.rejected(world.start(), {})), std::nullopt);
+}
+
 TEST(World, ASteepSlopeIsRejectedForSlopeAndASofterLimitForTraction) {
   const auto slope = [](double x, double /*y*/) { return std::tan(28 * kTestDegree) * x; };
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), slope));
