@@ -33,6 +33,8 @@ function figure(host, title, description, planners, draw) {
   });
 }
 
+const tickCount = width => Math.max(2, Math.min(7, Math.floor((width - 66) / 80)));
+
 /// Axes of a plot; returns its inner box.
 function axes(svg, width, height, x, y, labels) {
   const box = {left: 54, right: width - 12, top: 8, bottom: height - 38};
@@ -41,7 +43,7 @@ function axes(svg, width, height, x, y, labels) {
   y.range([box.bottom, box.top]);
   const below = d3.axisBottom(x).tickSizeOuter(0);
   if (labels.x_ticks) below.tickValues(labels.x_ticks).tickFormat(labels.x_format);
-  else below.ticks(6, labels.x_format);
+  else below.ticks(tickCount(width), labels.x_format);
   svg.append('g')
       .attr('class', 'axis')
       .attr('transform', `translate(0,${box.bottom})`)
@@ -69,5 +71,6 @@ function decadeTicks([low, high]) {
       const value = m * 10 ** k;
       if (value >= low * 0.999 && value <= high * 1.001) ticks.push(value);
     }
+  if (ticks.length < 3) return d3.ticks(low, high, 4);
   return ticks.length > 9 ? ticks.filter(v => /^1/.test(v.toExponential())) : ticks;
 }

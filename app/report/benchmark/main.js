@@ -96,7 +96,7 @@ const BOXES = [
   {key: 'time_s', title: 'Search time', unit: 's', log: true},
   {key: 'length_m', title: 'Path length', unit: 'm'},
   {key: 'margin_min', title: 'Smallest stability margin', unit: ''},
-  {key: 'energy_j', title: 'Energy', unit: 'J'},
+  {key: 'energy_j', title: 'Energy', unit: 'kJ', scale: 0.001},
 ];
 
 function boxes() {
@@ -105,7 +105,8 @@ function boxes() {
   for (const chart of BOXES) {
     const planners = shown.experiment.planners.filter(p => values(p, chart.key).length);
     if (!planners.length) continue;
-    const all = planners.flatMap(p => values(p, chart.key));
+    const numbers = planner => values(planner, chart.key).map(v => v * (chart.scale || 1));
+    const all = planners.flatMap(numbers);
     figure(host, chart.title, `${chart.title} by planner`, [], (svg, width) => {
       const height = 62 + 34 * planners.length;
       let [low, high] = d3.extent(all);
@@ -119,7 +120,7 @@ function boxes() {
       y.range([4, height - 40]);
       const below = d3.axisBottom(x).tickSizeOuter(0);
       if (chart.log) below.tickValues(decadeTicks(x.domain())).tickFormat(v => significant(v, 3));
-      else below.ticks(6);
+      else below.ticks(tickCount(width - 60));
       svg.append('g')
           .attr('class', 'axis')
           .attr('transform', `translate(0,${height - 40})`)
@@ -133,7 +134,7 @@ function boxes() {
           .attr('y', height - 6)
           .attr('text-anchor', 'middle')
           .text(chart.unit ? `${chart.title}, ${chart.unit}` : chart.title);
-      for (const planner of planners) drawBox(svg, x, y, planner, values(planner, chart.key));
+      for (const planner of planners) drawBox(svg, x, y, planner, numbers(planner));
     });
   }
 }
@@ -276,6 +277,7 @@ function paths() {
         ys = d3.extent(drawn.flatMap(path => path.map(p => p[1])));
   for (const planner of shown.experiment.planners) {
     const own = verifiedRuns(planner).filter(r => r.path && r.path.length);
+    if (!own.length) continue;
     figure(host, `${planner.name} (${own.length})`, `Paths of ${planner.name}`, [], (svg, width) => {
       const span = Math.max(xs[1] - xs[0], (ys[1] - ys[0]), 1) * 1.06;
       const height = Math.min(420, width) * Math.max(0.35, Math.min(1, (ys[1] - ys[0] + 2) / span)) + 50;
@@ -295,7 +297,7 @@ function paths() {
             .text(`seed ${run.seed}: ${fixed(run.length_m, 1, 'm')}, margin ${
                 fixed(run.margin_min, 3)}`);
       }
-      const start = drawn[0][0], ends = own.length ? [own[0].path[own[0].path.length - 1]] : [];
+      const start = own[0].path[0], ends = [own[0].path[own[0].path.length - 1]];
       svg.append('circle').attr('cx', x(start[0])).attr('cy', y(start[1])).attr('r', 5).attr(
           'fill', 'none').attr('stroke', cssColour('--ink')).attr('stroke-width', 2);
       for (const end of ends)
