@@ -14,5 +14,7 @@ extern const std::string_view kPlanHtml;          ///< sections of the planning 
 extern const std::string_view kPlanScript;        ///< draws them
 extern const std::string_view kEvaluationHtml;    ///< sections of the evaluation's map
 extern const std::string_view kEvaluationScript;  ///< draws them
+extern const std::string_view kDiagnosisHtml;     ///< sections of the diagnosis
+extern const std::string_view kDiagnosisScript;   ///< draws them
 
 }  // namespace regoplan::report_assets
