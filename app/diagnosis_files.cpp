@@ -112,13 +112,13 @@ Json detectable_json(const std::vector<SmallestDetectable>& all) {
 
 std::vector<std::string> notes(const DiagnosisRun& run) {
   std::vector<std::string> all = run.setup.warnings;
-  for (const auto* more : {&run.recording.recording.warnings, &run.diagnosis.notes}) {
-    all.insert(all.end(), more->begin(), more->end());
-  }
+  const auto& found = run.diagnosis.notes;  // begins with the warnings of the recording
+  all.insert(all.end(), found.begin(), found.end());
   return all;
 }
 
-constexpr std::array<std::pair<const char*, double RunResidual::*>, 6> kResidualColumns{{
+constexpr std::array<std::pair<const char*, double RunResidual::*>, 7> kResidualColumns{{
+    {"adjusted", &RunResidual::measured},
     {"noise", &RunResidual::noise},
     {"baseline", &RunResidual::baseline},
     {"calibrated", &RunResidual::calibrated},

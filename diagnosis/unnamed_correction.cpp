@@ -2,8 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace regoplan {
+namespace {
+
+/// The region widened by a twentieth of its width, and at least a little, in which the correction
+/// fades: where something was measured it acts in full.
+GenericCorrection faded_outside(GenericCorrection correction) {
+  constexpr double kShare = 0.05, kSlip = 0.02, kAngle_rad = 0.01, kLogLoad = 0.02;
+  const auto widened = [](const std::array<double, 2>& region, double least) {
+    const double margin = std::max(kShare * (region[1] - region[0]), least);
+    return std::array<double, 2>{region[0] - margin, region[1] + margin};
+  };
+  const auto slip = widened(correction.slip_ratio_region, kSlip);
+  correction.slip_ratio_region = {std::max(slip[0], -1.0), std::min(slip[1], 1.0)};
+  const auto angle = widened(correction.slip_angle_rad_region, kAngle_rad);
+  correction.slip_angle_rad_region = {std::max(angle[0], 0.0),
+                                      std::min(angle[1], std::numbers::pi / 2)};
+  const auto& load = correction.load_n_region;
+  const auto log_load = widened({std::log(load[0]), std::log(load[1])}, kLogLoad);
+  correction.load_n_region = {std::exp(log_load[0]), std::exp(log_load[1])};
+  correction.fade_share = kShare / (1 + 2 * kShare);
+  return correction;
+}
+
+}  // namespace
 
 std::vector<std::size_t> remainder_settings(const FitProblem& problem, const CandidateFit& fit) {
   const TestBed& bed = problem.bed;
@@ -64,6 +89,7 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
                                 .slip_angle_rad = std::abs(at.slip_angle_rad),
                                 .load_n = at.load_n});
   }
+  correction = faded_outside(std::move(correction));
   const Eigen::VectorXd left = bed.measured() - fit.prediction;
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const ChannelData& data = bed.channels[c];

@@ -14,7 +14,7 @@ function curves(host) {
   host.append(element(
       'p', {class: 'note'},
       `Points are runs with one standard deviation of the noise. ${
-          lines}Each run is modelled at its own load; lines join means over replicates.`));
+          lines}Runs stand at the mean load of their condition, moved there by the slope of the model; lines join means over replicates.`));
   const legend = element('div', {class: 'residual-legend'});
   for (const model of SHOWN_MODELS) chartKey(legend, model.name, model.colour, model.dash);
   host.append(legend);
