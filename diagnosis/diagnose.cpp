@@ -103,15 +103,16 @@ class Diagnosing {
 
   void detect() {
     const FitProblem wide{bed_, wide_soil_, discrepancy_, soil_free_};
-    const auto loose = fit_under(wide, {}, base_.evidence.settings, base_.x / kWideSoil, 12);
+    const auto loose = fit_under(wide, {}, base_.evidence.settings, base_.x / kWideSoil, 12, 0);
     FitRemainder remainder = remainder_of(loose ? *loose : base_);
     remainder.truth_spread = 1 / kWideSoil;
     found_.before = lack_of_fit(condensed_, remainder, options_.seed);
     found_.after = found_.before;
-    rejected_ = found_.before.f > found_.before.critical;
+    unfit_ = found_.before.f > found_.before.critical;
     for (Eigen::Index i = 0; i < base_.x.size() && loose; ++i) {
-      if (std::abs(kWideSoil * loose->x[i]) > kWorstPull) pulled_ = true;
+      if (std::abs(kWideSoil * loose->x[i]) > kWorstPull) unfit_ = true;
     }
+    rejected_ = unfit_;
     const FitRemainder fixed{
         .residual = measured_ - *predict(bed_, soil_, {}, Eigen::VectorXd::Zero(base_.x.size())),
         .x = Eigen::VectorXd(0),
@@ -140,7 +141,7 @@ class Diagnosing {
         named = std::max(named, s.score);
       }
     }
-    rejected_ = rejected_ || pulled_ || named > parameters + kClearEvidence;
+    rejected_ = unfit_ || named > parameters + kClearEvidence;
     weigh(scored_, !rejected_);
     for (const ScoredId& s : scored_) found_.ranking.push_back({s.id, s.probability});
   }
@@ -156,8 +157,9 @@ class Diagnosing {
     const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
     if (best != nullptr) {
       const std::string doubt = objection(problem, best->fit);
-      const HeldOut proof =
-          hold_out(condensed_, soil_, base_, {.fit = &best->fit}, options_.threads);
+      const std::vector<std::size_t> left = remainder_settings(problem, best->fit);
+      const HeldOut proof = hold_out(condensed_, soil_, base_,
+                                     {.fit = &best->fit, .remainder = left}, options_.threads);
       const bool proven =
           proof.gain > kClearGain * proof.gain_error && proof.share_explained > kWorthNaming;
       if (doubt.empty() && proven) {
@@ -165,7 +167,7 @@ class Diagnosing {
         const bool single = std::ranges::all_of(
             claimed, [](const NameClass& names) { return names.ids.size() == 1; });
         found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
-        correct_with(proof, best->fit, {});
+        correct_with(proof, best->fit, left);
         return;
       }
       found_.notes.push_back(fmt::format(
@@ -174,6 +176,15 @@ class Diagnosing {
                          : fmt::format("on held-out conditions it explains {:.0f} % of the excess "
                                        "misfit, gain {:.2g} +- {:.2g}",
                                        100 * proof.share_explained, proof.gain, proof.gain_error)));
+    }
+    if (!unfit_) {
+      // only a name's evidence spoke against the calibrated model, and the name does not hold
+      found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
+      correct_with(hold_out(condensed_, soil_, base_, {}, options_.threads), base_, {});
+      weigh(scored_, true);
+      found_.ranking.clear();
+      for (const ScoredId& s : scored_) found_.ranking.push_back({s.id, s.probability});
+      return;
     }
     found_.verdict = Verdict::kUnexplained;
     const std::vector<std::size_t> settings = remainder_settings(problem, base_);
@@ -283,7 +294,9 @@ class Diagnosing {
   CandidateFit base_;
   Eigen::MatrixXd soil_free_;
   std::vector<ScoredId> scored_;
-  bool rejected_ = false, pulled_ = false, consistent_ = false;
+  bool unfit_ = false;     // lack of fit, or soil numbers that calibration pulled too far
+  bool rejected_ = false;  // that, or a name far better than calibration alone
+  bool consistent_ = false;
   Diagnosis found_;
 };
 

@@ -82,7 +82,7 @@ Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>
   Prediction prediction{.calibrated = base.prediction,
                         .remainder = Eigen::VectorXd::Zero(bed.size()),
                         .variance = Eigen::VectorXd::Zero(bed.size())};
-  const auto calibrated = fit_under(problem, {}, noise_only, base.x, kSteps);
+  const auto calibrated = fit_under(problem, {}, noise_only, base.x, kSteps, 0);
   if (calibrated) {
     if (const auto all = predict(bed, soil, {}, calibrated->x)) prediction.calibrated = *all;
   }
@@ -90,7 +90,7 @@ Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>
   std::optional<CandidateFit> named = calibrated;
   if (corrected.fit != nullptr) {
     named = fit_under(problem, corrected.fit->candidate, corrected.fit->evidence.settings,
-                      corrected.fit->x, kSteps);
+                      corrected.fit->x, kSteps, corrected.fit->shape_spread);
     prediction.named = corrected.fit->prediction;
     if (named) {
       if (const auto all = predict(bed, soil, corrected.fit->candidate, named->x)) {
