@@ -224,7 +224,6 @@ std::optional<CandidateFit> fit_under(const FitProblem& problem, const Candidate
 std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Candidate& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start) {
-  constexpr std::array kShapeSpreads{0.1, 0.4};  // equally likely
   const Eigen::MatrixXd functions = smooth_functions(problem.bed);
   CandidateFit fit{.candidate = candidate, .x = start, .shape_spread = kShapeSpreads.back()};
   if (!begin(problem, fit)) return std::nullopt;
@@ -246,7 +245,7 @@ std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Candi
     if (fit.evidence.settings == settings) break;
     settings = fit.evidence.settings;
   }
-  if (fit.shape.cols() == 0) return fit;
+  if (fit.shape.cols() == 0 || candidate.effects.size() > 1) return fit;  // pairs: rough forms only
   // forms that hold closely deserve to be told from forms that hold roughly
   const CandidateFit rough = fit;
   fit.shape_spread = kShapeSpreads.front();

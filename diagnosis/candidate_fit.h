@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "diagnosis/candidate.h"
@@ -50,6 +51,9 @@ struct FitProblem {
 std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Candidate& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start);
+
+/// Spreads of the mechanisms' forms that are tried and marginalised: close and rough.
+constexpr std::array kShapeSpreads{0.1, 0.4};
 
 /// Gauss-Newton under fixed settings.
 /// \param steps at most \param shape_spread of the mechanisms' forms, see CandidateFit::shape
