@@ -70,11 +70,11 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
     correction.slip_angle_scale_rad = scales.slip_angle_rad;
     correction.log_load_scale = scales.log_load;
   }
-  Span slip, angle, load;
+  Span slip, angle, log_load;
   for (const Condition& at : bed.conditions) {
     slip.take(at.slip_ratio);
     angle.take(std::abs(at.slip_angle_rad));
-    load.take(at.load_n);
+    log_load.take(std::log(at.load_n));
     correction.nodes.push_back({.slip_ratio = at.slip_ratio,
                                 .slip_angle_rad = std::abs(at.slip_angle_rad),
                                 .load_n = at.load_n});
@@ -82,7 +82,8 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
   // what was measured counts in full; the fade lies outside
   correction.slip_ratio_region = slip.with_margin(0.02, -1, 1);
   correction.slip_angle_rad_region = angle.with_margin(0.02, 0, std::numbers::pi / 2);
-  correction.load_n_region = load.with_margin(0.05 * load.low, 0.5 * load.low, 1e300);
+  const auto [lightest, heaviest] = log_load.with_margin(0.05, -INFINITY, INFINITY);
+  correction.load_n_region = {std::exp(lightest), std::exp(heaviest)};
   correction.fade_share = kMargin / (1 + 2 * kMargin);
   const Eigen::VectorXd left = bed.measured() - fit.prediction;
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
@@ -95,9 +96,9 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
     for (std::size_t i = 0; i < data.conditions.size(); ++i) {
       GenericCorrection::Node& node = correction.nodes[data.conditions[i]];
       const double h = height[static_cast<Eigen::Index>(i)];
-      const double angle = bed.conditions[data.conditions[i]].slip_angle_rad;
+      const bool left_side = bed.conditions[data.conditions[i]].slip_angle_rad > 0;
       if (data.channel == Channel::kFx) node.fx_n = h;
-      if (data.channel == Channel::kFy) node.fy_n = angle > 0 ? h : -h;
+      if (data.channel == Channel::kFy) node.fy_n = left_side ? h : -h;
       if (data.channel == Channel::kTorque) node.torque_nm = h;
       if (data.channel == Channel::kSinkage) node.sinkage_m = h;
     }
