@@ -250,7 +250,7 @@ std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording) 
   return list.take();
 }
 
-std::string id_of(const Candidate& candidate) {
+std::string id_of(const Hypothesis& candidate) {
   std::string id;
   for (const Effect& effect : candidate.effects) id += (id.empty() ? "" : "+") + effect.id;
   return id;
@@ -266,7 +266,7 @@ Mechanism mechanism_at(const Effect& effect, const Eigen::VectorXd& x) {
 }
 
 std::optional<Eigen::VectorXd> predict(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
-                                       const Candidate& candidate, const Eigen::VectorXd& x) {
+                                       const Hypothesis& candidate, const Eigen::VectorXd& x) {
   std::vector<Mechanism> mechanisms;
   auto next = static_cast<Eigen::Index>(soil.size());
   std::vector<double> faults;

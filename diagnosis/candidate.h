@@ -56,18 +56,18 @@ bool is_instrument(const std::string& id);
 std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording);
 
 /// What is wrong, if anything, and from which soil.
-struct Candidate {
+struct Hypothesis {
   std::vector<Effect> effects;
 };
 
 /// `a`, `a+b`.
-std::string id_of(const Candidate& candidate);
+std::string id_of(const Hypothesis& candidate);
 
 /// The mechanism with its numbers at x (the effect's own coordinates).
 Mechanism mechanism_at(const Effect& effect, const Eigen::VectorXd& x);
 
 /// Model values of a candidate; x holds the soil's coordinates, then each effect's.
 std::optional<Eigen::VectorXd> predict(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
-                                       const Candidate& candidate, const Eigen::VectorXd& x);
+                                       const Hypothesis& candidate, const Eigen::VectorXd& x);
 
 }  // namespace regoplan

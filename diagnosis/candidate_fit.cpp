@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kFarthest = 6;  // prior standard deviations
 
-bool is_slow(const Candidate& candidate) {
+bool is_slow(const Hypothesis& candidate) {
   return std::ranges::any_of(candidate.effects, &Effect::slow);
 }
 
@@ -82,7 +82,7 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
 
 /// Soil columns of slow candidates are those of the rest of the candidate.
 std::optional<Eigen::MatrixXd> soil_columns(const FitProblem& problem, const CandidateFit& fit) {
-  Candidate quick;
+  Hypothesis quick;
   const auto soil = static_cast<Eigen::Index>(problem.soil.size());
   std::vector<double> kept(fit.x.data(), fit.x.data() + soil);
   for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
@@ -163,7 +163,7 @@ void descend(const FitProblem& problem, const std::vector<std::size_t>& settings
 
 std::optional<Eigen::MatrixXd> jacobian_of(const TestBed& bed,
                                            const std::vector<SoilCoordinate>& soil,
-                                           const Candidate& candidate, const Eigen::VectorXd& x,
+                                           const Hypothesis& candidate, const Eigen::VectorXd& x,
                                            const Eigen::VectorXd& prediction, Eigen::Index from,
                                            bool central, double step) {
   Eigen::MatrixXd columns(prediction.size(), x.size() - from);
@@ -190,7 +190,7 @@ std::optional<Eigen::MatrixXd> jacobian_of(const TestBed& bed,
 
 std::optional<Eigen::VectorXd> part_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
                                        const CandidateFit& fit, std::size_t effect) {
-  Candidate others = fit.candidate;
+  Hypothesis others = fit.candidate;
   others.effects.erase(others.effects.begin() + static_cast<std::ptrdiff_t>(effect));
   const Eigen::Index first = first_of(soil, fit.candidate, effect);
   const auto size = static_cast<Eigen::Index>(fit.candidate.effects[effect].coordinates.size());
@@ -201,7 +201,7 @@ std::optional<Eigen::VectorXd> part_of(const TestBed& bed, const std::vector<Soi
   return fit.prediction - *rest;
 }
 
-Eigen::Index first_of(const std::vector<SoilCoordinate>& soil, const Candidate& candidate,
+Eigen::Index first_of(const std::vector<SoilCoordinate>& soil, const Hypothesis& candidate,
                       std::size_t effect) {
   auto first = static_cast<Eigen::Index>(soil.size());
   for (std::size_t i = 0; i < effect; ++i) {
@@ -210,7 +210,7 @@ Eigen::Index first_of(const std::vector<SoilCoordinate>& soil, const Candidate& 
   return first;
 }
 
-std::optional<CandidateFit> fit_under(const FitProblem& problem, const Candidate& candidate,
+std::optional<CandidateFit> fit_under(const FitProblem& problem, const Hypothesis& candidate,
                                       const std::vector<std::size_t>& settings,
                                       const Eigen::VectorXd& start, int steps,
                                       double shape_spread) {
@@ -221,7 +221,7 @@ std::optional<CandidateFit> fit_under(const FitProblem& problem, const Candidate
   return fit;
 }
 
-std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Candidate& candidate,
+std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Hypothesis& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start) {
   const Eigen::MatrixXd functions = smooth_functions(problem.bed);

@@ -10,7 +10,7 @@ namespace regoplan {
 
 /// A candidate fitted to a recording.
 struct CandidateFit {
-  Candidate candidate;
+  Hypothesis candidate;
   Eigen::VectorXd x;           ///< soil, then effects; standard normal beforehand
   Eigen::VectorXd prediction;  ///< at x
   Eigen::MatrixXd jacobian;    ///< at x
@@ -27,7 +27,7 @@ struct CandidateFit {
 /// \param central differences of second order, else one-sided
 std::optional<Eigen::MatrixXd> jacobian_of(const TestBed& bed,
                                            const std::vector<SoilCoordinate>& soil,
-                                           const Candidate& candidate, const Eigen::VectorXd& x,
+                                           const Hypothesis& candidate, const Eigen::VectorXd& x,
                                            const Eigen::VectorXd& prediction, Eigen::Index from = 0,
                                            bool central = false, double step = 0.05);
 
@@ -36,7 +36,7 @@ std::optional<Eigen::VectorXd> part_of(const TestBed& bed, const std::vector<Soi
                                        const CandidateFit& fit, std::size_t effect);
 
 /// Index into x of an effect's first coordinate.
-Eigen::Index first_of(const std::vector<SoilCoordinate>& soil, const Candidate& candidate,
+Eigen::Index first_of(const std::vector<SoilCoordinate>& soil, const Hypothesis& candidate,
                       std::size_t effect);
 
 struct FitProblem {
@@ -48,7 +48,7 @@ struct FitProblem {
 
 /// Gauss-Newton from `start`, the discrepancy's settings chosen on the way; nothing where the
 /// start has no forces.
-std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Candidate& candidate,
+std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Hypothesis& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start);
 
@@ -57,7 +57,7 @@ constexpr std::array kShapeSpreads{0.1, 0.4};
 
 /// Gauss-Newton under fixed settings.
 /// \param steps at most \param shape_spread of the mechanisms' forms, see CandidateFit::shape
-std::optional<CandidateFit> fit_under(const FitProblem& problem, const Candidate& candidate,
+std::optional<CandidateFit> fit_under(const FitProblem& problem, const Hypothesis& candidate,
                                       const std::vector<std::size_t>& settings,
                                       const Eigen::VectorXd& start, int steps, double shape_spread);
 

@@ -18,7 +18,7 @@ struct Forecast {
 
 std::optional<Forecast> forecast(const TestBed& trial, const FitProblem& problem,
                                  const CandidateFit& fit) {
-  Candidate physics = fit.candidate;
+  Hypothesis physics = fit.candidate;
   const auto mean = predict(trial, problem.soil, physics, fit.x);
   if (!mean) return std::nullopt;
   const auto j = jacobian_of(trial, problem.soil, physics, fit.x, *mean);

@@ -25,7 +25,7 @@ double log_sum(const std::vector<double>& terms) {
   return top + std::log(sum);
 }
 
-Eigen::VectorXd start_of(const FitProblem& problem, const Candidate& candidate) {
+Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate) {
   std::vector<double> x(problem.soil.size(), 0.0);
   for (const Effect& effect : candidate.effects) {
     x.insert(x.end(), effect.start.begin(), effect.start.end());
@@ -52,7 +52,7 @@ ScoredId base(const std::string& id, const FitProblem& problem, const SettingWei
 
 /// Score of a fit with another effect added, to first order from its starting point.
 double quick_score(const FitProblem& problem, const CandidateFit& single, const Effect& effect) {
-  Candidate pair = single.candidate;
+  Hypothesis pair = single.candidate;
   pair.effects.push_back(effect);
   const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
   Eigen::VectorXd x(single.x.size() + size);
@@ -79,14 +79,14 @@ double quick_score(const FitProblem& problem, const CandidateFit& single, const 
   return !linear && amount < 0 ? -gain : gain;
 }
 
-std::vector<Candidate> promising_pairs(const FitProblem& problem,
-                                       const std::vector<ScoredId>& singles,
-                                       const std::vector<Effect>& effects) {
-  std::vector<Candidate> pairs;
-  const auto add = [&](const Candidate& single, const Effect& effect) {
+std::vector<Hypothesis> promising_pairs(const FitProblem& problem,
+                                        const std::vector<ScoredId>& singles,
+                                        const std::vector<Effect>& effects) {
+  std::vector<Hypothesis> pairs;
+  const auto add = [&](const Hypothesis& single, const Effect& effect) {
     const Effect& first = single.effects.front();
     if (first.id == effect.id) return;
-    const bool known = std::ranges::any_of(pairs, [&](const Candidate& pair) {
+    const bool known = std::ranges::any_of(pairs, [&](const Hypothesis& pair) {
       const auto same = [](const Effect& a, const Effect& b) {
         return a.id == b.id && a.form == b.form && a.fixed == b.fixed;
       };
@@ -128,7 +128,7 @@ std::vector<Candidate> promising_pairs(const FitProblem& problem,
 
 /// Fits candidates in parallel; what is stopped stays empty.
 std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
-                                                 const std::vector<Candidate>& candidates,
+                                                 const std::vector<Hypothesis>& candidates,
                                                  const ScoringOptions& options, double from,
                                                  double to) {
   std::vector<std::optional<CandidateFit>> fits(candidates.size());
@@ -148,7 +148,7 @@ std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
   return fits;
 }
 
-std::vector<ScoredId> gather(const std::vector<Candidate>& candidates,
+std::vector<ScoredId> gather(const std::vector<Hypothesis>& candidates,
                              const std::vector<std::optional<CandidateFit>>& fits) {
   std::map<std::string, Forms> by_id;
   std::map<std::string, std::size_t> tried;
@@ -181,12 +181,12 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
   all.push_back(base("none", fixed, SettingWeights::of_none()));
   all.push_back(base("parameters", wide, SettingWeights::of_none()));
   all.push_back(base("unexplained", problem, SettingWeights::of_unexplained()));
-  std::vector<Candidate> singles;
+  std::vector<Hypothesis> singles;
   for (const Effect& effect : effects) singles.push_back({{effect}});
   const std::vector<ScoredId> alone = gather(singles, fit_all(problem, singles, options, 0, 0.5));
   all.insert(all.end(), alone.begin(), alone.end());
   if (!options.stop.stop_requested()) {
-    const std::vector<Candidate> pairs = promising_pairs(problem, alone, effects);
+    const std::vector<Hypothesis> pairs = promising_pairs(problem, alone, effects);
     const std::vector<ScoredId> together = gather(pairs, fit_all(problem, pairs, options, 0.5, 1));
     all.insert(all.end(), together.begin(), together.end());
   }

@@ -19,7 +19,7 @@ std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
   }
   for (const Effect& effect : effects) {
     if (std::ranges::any_of(all, [&](const auto& s) { return s.id == effect.id; })) continue;
-    Candidate candidate{{effect}};
+    Hypothesis candidate{{effect}};
     Eigen::VectorXd x(base.x.size() + static_cast<Eigen::Index>(effect.coordinates.size()));
     x.head(base.x.size()) = base.x;
     for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {

@@ -59,23 +59,24 @@ Fades fades_at(const GenericCorrection& c, const CorrectionPoint& at) {
           .log_load = along(std::log(at.load_n), std::log(load[0]), std::log(load[1]))};
 }
 
-/// How far the side force has come to its full size.
-Sloped side_rise(double slip_angle_rad) {
-  constexpr double kRise_rad = 2 * kDegree;
-  return fade(slip_angle_rad, 0, INFINITY, kRise_rad, true);
-}
-
-/// Distances from a node in units of the scales, and its bump before any fade.
+/// Distances from a node in units of the scales, and its two bumps before any fade.
 struct Offsets {
-  double slip, angle, log_load;
-  double bump() const { return std::exp(-(slip * slip + angle * angle + log_load * log_load) / 2); }
+  double slip, angle, mirrored_angle, log_load;
+  double bump, mirrored;
 };
 
 Offsets offsets(const GenericCorrection& c, const GenericCorrection::Node& node,
                 const CorrectionPoint& at) {
-  return {.slip = (at.slip_ratio - node.slip_ratio) / c.slip_scale,
-          .angle = (at.slip_angle_rad - node.slip_angle_rad) / c.slip_angle_scale_rad,
-          .log_load = std::log(at.load_n / node.load_n) / c.log_load_scale};
+  Offsets d{.slip = (at.slip_ratio - node.slip_ratio) / c.slip_scale,
+            .angle = (at.slip_angle_rad - node.slip_angle_rad) / c.slip_angle_scale_rad,
+            .mirrored_angle = (at.slip_angle_rad + node.slip_angle_rad) / c.slip_angle_scale_rad,
+            .log_load = std::log(at.load_n / node.load_n) / c.log_load_scale,
+            .bump = 0,
+            .mirrored = 0};
+  const double common = d.slip * d.slip + d.log_load * d.log_load;
+  d.bump = std::exp(-(common + d.angle * d.angle) / 2);
+  d.mirrored = std::exp(-(common + d.mirrored_angle * d.mirrored_angle) / 2);
+  return d;
 }
 
 void add(CorrectionValue& sum, const GenericCorrection::Node& node, double even, double side) {
@@ -133,24 +134,24 @@ CorrectionBump bump(const GenericCorrection& correction, const GenericCorrection
                     const CorrectionPoint& point) {
   if (!is_inside(correction, point)) return {};
   const double fade = fades_at(correction, point).value();
-  const double even = fade * offsets(correction, node, point).bump();
-  return {.even = even, .side = even * side_rise(point.slip_angle_rad).value};
+  const Offsets d = offsets(correction, node, point);
+  return {.even = fade * d.bump, .side = fade * (d.bump - d.mirrored)};
 }
 
 SlopedCorrection correction_at(const GenericCorrection& correction, const CorrectionPoint& point) {
   if (!is_inside(correction, point)) return {};
   SlopedCorrection sum;  // before the fade
-  const Sloped rise = side_rise(point.slip_angle_rad);
   for (const GenericCorrection::Node& node : correction.nodes) {
     const Offsets d = offsets(correction, node, point);
-    const double even = d.bump(), side = even * rise.value;
-    add(sum.value, node, even, side);
+    const double side = d.bump - d.mirrored;
+    add(sum.value, node, d.bump, side);
     const double by_slip = -d.slip / correction.slip_scale;
-    add(sum.by_slip_ratio, node, by_slip * even, by_slip * side);
-    const double by_angle = -d.angle / correction.slip_angle_scale_rad;
-    add(sum.by_slip_angle, node, by_angle * even, by_angle * side + even * rise.slope);
+    add(sum.by_slip_ratio, node, by_slip * d.bump, by_slip * side);
+    const double by_angle = -1 / correction.slip_angle_scale_rad;
+    add(sum.by_slip_angle, node, by_angle * d.angle * d.bump,
+        by_angle * (d.angle * d.bump - d.mirrored_angle * d.mirrored));
     const double by_log_load = -d.log_load / correction.log_load_scale;
-    add(sum.by_log_load, node, by_log_load * even, by_log_load * side);
+    add(sum.by_log_load, node, by_log_load * d.bump, by_log_load * side);
   }
   const Fades fades = fades_at(correction, point);
   const double all = fades.value();

@@ -8,12 +8,11 @@ namespace regoplan {
 /// What a recording shows beyond the model, without a name: a smooth surface to be added to each
 /// channel, learned in a box of conditions and silent outside.
 ///
-/// A sum of Gaussian bumps exp(-(ds^2/Ls^2 + db^2/Lb^2 + dl^2/Ll^2)/2) over slip ratio s,
-/// |slip angle| b and the logarithm l of the load. The side force's sum is odd in the slip angle
-/// and rises from 0 to its full size as a smooth step over the first 2 deg. Towards each side of
-/// the region the sums fade to 0 likewise, over `fade_share` of the region's width (not towards
-/// slip angle 0, where the region begins there). So forces are continuous, and solvers may cross
-/// edges.
+/// A sum of Gaussian bumps g(b) = exp(-(ds^2/Ls^2 + (b - b_k)^2/Lb^2 + dl^2/Ll^2)/2) over slip
+/// ratio s, |slip angle| b and the logarithm l of the load. The side force's bumps are g(b) -
+/// g(-b): odd in the slip angle, without a step at 0. Towards each side of the region the sum fades
+/// to 0 as a smooth step over `fade_share` of the region's width (not towards slip angle 0, where
+/// the region begins there), so that forces are continuous and solvers may cross it.
 struct GenericCorrection {
   struct Node {
     double slip_ratio = 0;
