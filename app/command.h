@@ -25,6 +25,7 @@ struct Command {
 Command add_plan_command(CLI::App& program);
 Command add_evaluate_command(CLI::App& program);
 Command add_benchmark_command(CLI::App& program);
+Command add_diagnose_command(CLI::App& program);
 Command add_wheel_command(CLI::App& program);
 Command add_map_make_command(CLI::App& map);
 Command add_map_info_command(CLI::App& map);

@@ -7,7 +7,7 @@
 
 namespace regoplan {
 
-/// One line on a terminal's standard error that shows how far a plan has come. Silent where
+/// One line on a terminal's standard error that shows how far long work has come. Silent where
 /// standard error is no terminal, or when quiet. Ends with its line wiped.
 class ProgressLine {
  public:
@@ -17,8 +17,12 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(const PlanProgress& progress);
+  /// \param share of this stage, 0 to 1
+  void show(std::string_view stage, double share);
 
  private:
+  bool is_due(std::string_view stage);
+
   bool on_;
   bool shown_ = false;
   std::string stage_;

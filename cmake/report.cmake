@@ -7,53 +7,31 @@ foreach(file ${node_d3_script} ${node_d3_licence})
     message(FATAL_ERROR "${file} is missing; Debian's package node-d3 brings it")
   endif()
 endforeach()
+
+# report_files(variable folder file...): files of app/report/<folder>, in the order given.
+function(report_files variable folder)
+  list(TRANSFORM ARGN PREPEND app/report/${folder}/ OUTPUT_VARIABLE files)
+  set(${variable} ${files} PARENT_SCOPE)
+endfunction()
+
+report_files(page_scripts page format.js dom.js colours.js)
+# Paths on a map: what the reports of plans and evaluations share.
+report_files(map_scripts map terrain.js model.js candidate_table.js map_frame.js map_canvas.js map_overlay.js
+             map_view.js charts.js layers.js readout.js rejections.js)
+report_files(diagnosis_scripts diagnosis model.js residual_maps.js curves.js tables.js main.js)
+
 regoplan_embed(
-  regoplan_app
-  app/report_assets.h
-  kD3
-  ${node_d3_script}
-  kD3Licence
-  ${node_d3_licence}
-  kPageHtml
-  app/report/page/page.html
-  kPageCss
-  app/report/page/page.css
-  kPageScript
-  app/report/page/format.js
-  app/report/page/dom.js
-  app/report/page/colours.js
-  app/report/page/terrain.js
-  kPlanHtml
-  app/report/plan/plan.html
-  kPlanScript
-  app/report/plan/model.js
-  app/report/plan/candidate_table.js
-  app/report/plan/map_frame.js
-  app/report/plan/map_canvas.js
-  app/report/plan/map_overlay.js
-  app/report/plan/map_view.js
-  app/report/plan/charts.js
-  app/report/plan/layers.js
-  app/report/plan/readout.js
-  app/report/plan/rejections.js
-  app/report/plan/facts.js
-  app/report/plan/main.js
-  kEvaluationHtml
-  app/report/evaluation/evaluation.html
-  kEvaluationScript
-  app/report/plan/model.js
-  app/report/plan/candidate_table.js
-  app/report/plan/map_frame.js
-  app/report/plan/map_canvas.js
-  app/report/plan/map_overlay.js
-  app/report/plan/map_view.js
-  app/report/plan/charts.js
-  app/report/plan/layers.js
-  app/report/plan/readout.js
-  app/report/plan/rejections.js
-  app/report/evaluation/main.js
-  kBenchmarkHtml
-  app/report/benchmark/benchmark.html
-  kBenchmarkScript
-  app/report/benchmark/figures.js
-  app/report/benchmark/main.js)
+  regoplan_app app/report_assets.h
+  kD3 ${node_d3_script}
+  kD3Licence ${node_d3_licence}
+  kPageHtml app/report/page/page.html
+  kPageCss app/report/page/page.css
+  kPageScript ${page_scripts}
+  kPlanHtml app/report/map/map.html app/report/plan/plan.html
+  kPlanScript ${map_scripts} app/report/plan/facts.js app/report/plan/main.js
+  kEvaluationHtml app/report/map/map.html
+  kEvaluationScript ${map_scripts} app/report/evaluation/main.js
+  kDiagnosisHtml app/report/diagnosis/diagnosis.html
+  kDiagnosisScript ${diagnosis_scripts}
+  kBenchmarkHtml app/report/benchmark/benchmark.html
+  kBenchmarkScript app/report/benchmark/figures.js app/report/benchmark/main.js)

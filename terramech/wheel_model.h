@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "terramech/generic_correction.h"
 #include "terramech/mechanism.h"
 #include "terramech/mechanism_effects.h"
 #include "terramech/sinkage_solver.h"
@@ -73,7 +75,8 @@ struct WheelModelSpec {
   Wheel wheel;
   Soil soil;
   double gravity_mps2 = 9.80665;
-  std::vector<Mechanism> mechanisms = {};  ///< empty: the base model
+  std::vector<Mechanism> mechanisms = {};                   ///< empty: the base model
+  std::optional<GenericCorrection> generic = std::nullopt;  ///< added to all that the others give
 };
 
 /// All that a single wheel shows, ruts included.
@@ -104,6 +107,7 @@ class WheelModel {
   const WheelModelSpec& spec() const { return spec_; }
 
  private:
+  WheelForces without_correction(double load_n, const WheelMotion& motion) const;
   friend WheelChannels mechanism_channels(const WheelModel& model, double load_n,
                                           const WheelMotion& motion,
                                           const WheelConditions& conditions);

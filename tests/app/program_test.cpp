@@ -157,7 +157,7 @@ class Program : public testing::Test {
 TEST_F(Program, HelpAndVersionAreAnswersOnStandardOutput) {
   for (const char* arguments :
        {"--help", "plan --help", "wheel --help", "map --help", "map make --help", "map info --help",
-        "map import --help", "demo --help"}) {
+        "map import --help", "demo --help", "evaluate --help", "diagnose --help"}) {
     const ProgramRun help = run(arguments);
     EXPECT_EQ(help.status, 0) << arguments;
     EXPECT_EQ(help.errors, "") << arguments;

@@ -1,5 +1,6 @@
 // Draws the map and the charts of an evaluation; what is not feasible is dashed.
 document.body.classList.add(`status-${PLAN.status}`);
+byId('candidates-title').textContent = 'Paths on the map';
 CANDIDATE_COLUMNS[1].text = 'Path';
 CANDIDATE_COLUMNS.splice(CANDIDATE_COLUMNS.findIndex(c => c.text === 'Verified margin'), 1);
 CANDIDATE_COLUMNS.find(c => c.text === 'P(feasible)').text = 'P(margins hold)';

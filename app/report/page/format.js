@@ -44,6 +44,8 @@ const UNIT_ENDINGS = [
   ['_1pms', '1/(m s)'],
   ['_1pm', '1/m'],
   ['_mps', 'm/s'],
+  ['_rad', 'rad'],
+  ['_nm', 'N m'],
   ['_deg', '\u00b0'],
   ['_pa', 'Pa'],
   ['_kg', 'kg'],

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/command.h"
+#include "app/diagnosis_files.h"
+#include "app/diagnosis_report.h"
+#include "app/diagnosis_summary.h"
+#include "app/interrupt.h"
+#include "app/plan_options.h"
+#include "app/progress_line.h"
+#include "app/recording_checks.h"
+#include "app/scenario_settings.h"
+#include "app/staged_files.h"
+
+namespace regoplan {
+namespace {
+
+struct Options {
+  std::string recording;
+  std::string setup;
+  std::filesystem::path folder;
+  std::uint64_t seed = 1;
+  std::optional<int> threads;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `diagnose` knows runs, not files: its errors get the file in front.
+Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options) {
+  try {
+    return diagnose(run.recording.recording, run.setup.setup, options);
+  } catch (const InputError& bad) {
+    throw InputError(fmt::format("{}: {}", run.recording.file, bad.what()));
+  }
+}
+
+ExitStatus run_diagnosis(const Options& options) {
+  require_writable_folder(options.folder);
+  DiagnosisRun run{.setup_file = options.setup, .seed = options.seed};
+  run.setup = read_setup_file(options.setup);
+  run.recording = read_recording(options.recording);
+  Recording& recording = run.recording.recording;
+  for (std::string& warning : doubtful_values(run.recording, run.setup.setup)) {
+    recording.warnings.push_back(std::move(warning));
+  }
+  for (const auto* warnings : {&run.setup.warnings, &recording.warnings}) {
+    for (const std::string& warning : *warnings) notify(warning, options.quiet);
+  }
+  if (!recording.ignored.empty()) {
+    notify(fmt::format("{}: {} kept and not used", options.recording,
+                       fmt::join(recording.ignored, ", ")),
+           options.quiet);
+  }
+
+  const std::stop_token stop = stop_on_interrupt();
+  {
+    ProgressLine line(options.quiet);
+    run.diagnosis = diagnose_file(
+        run,
+        {.seed = options.seed,
+         .threads = overridden({}, {.threads = options.threads}).threads,
+         .stop = stop,
+         .progress = [&line](std::string_view stage, double share) { line.show(stage, share); }});
+  }
+  write_diagnosis_files(run, options.folder);
+  if (options.json) {
+    fmt::print("{}", diagnosis_json(run));
+  } else if (!options.quiet) {
+    fmt::print("{}report: {}\n", diagnosis_summary(run), (options.folder / "report.html").string());
+  }
+  if (run.diagnosis.interrupted) return kInterrupted;
+  return run.diagnosis.verdict == Verdict::kUnexplained ? kNo : kYes;
+}
+
+}  // namespace
+
+Command add_diagnose_command(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* parser = program.add_subcommand(
+      "diagnose",
+      "Where a recording of a single wheel and the model differ, and what physics was left out.\n"
+      "Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html. Exit status 0: "
+      "consistent or explained, 2: unexplained.");
+  parser
+      ->add_option("RECORDING.csv", options->recording,
+                   "run_id, load_n, slip_ratio, slip_angle_deg and at least one of fx_n, fy_n, "
+                   "torque_nm, sinkage_m; optional day, replicate, pass, ...")
+      ->required();
+  parser
+      ->add_option("--setup", options->setup,
+                   "model, wheel, gravity_mps2, soil with priors {mean, std}, optional noise")
+      ->type_name("SETUP.yaml")
+      ->required();
+  parser->add_option("--out", options->folder, "folder for the results")
+      ->type_name("DIR")
+      ->required();
+  parser->add_option("--seed", options->seed, "of all that is drawn")
+      ->type_name("N")
+      ->check(in_range(kAtLeast0))
+      ->capture_default_str();
+  parser->add_option("--threads", options->threads, "default: all cores; changes no result")
+      ->type_name("N")
+      ->check(in_range({.min = 1, .max = kThreadsMax}));
+  add_output_flags(*parser, options->json, options->quiet);
+  return {parser, [options] { return run_diagnosis(*options); }};
+}
+
+}  // namespace regoplan

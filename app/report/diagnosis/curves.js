@@ -1,0 +1,159 @@
+// Measured runs and what the models say of them over slip, a panel for each slip angle. The
+// corrected model is shown as it predicts runs that it was not fitted to.
+function curves(host) {
+  const channels = DIAGNOSIS.channels.filter(c => DIAGNOSIS.run_residuals[c].length);
+  if (!channels.length) {
+    host.append(element('p', {}, 'There are no runs to show.'));
+    return;
+  }
+  const lines = HAS_CORRECTION ?
+      `The corrected line predicts each run from a fit without its own family of conditions${
+          DIAGNOSIS.held_out_by ? ` (held out by ${words(DIAGNOSIS.held_out_by)})` :
+                                  ''}, with a band of two standard deviations. ` :
+                                  '';
+  host.append(element(
+      'p', {class: 'note'},
+      `Points are runs with one standard deviation of the noise. ${
+          lines}Runs stand at the mean load of their condition, moved there by the slope of the model; lines join means over replicates.`));
+  const legend = element('div', {class: 'residual-legend'});
+  for (const model of SHOWN_MODELS) chartKey(legend, model.name, model.colour, model.dash);
+  host.append(legend);
+  for (const channel of channels) {
+    const panels = panelsOf(channel), row = element('div', {class: 'panels'});
+    const {title, unit} = channelOf(channel);
+    const y = valueDomain(channel);
+    for (const rows of panels) row.append(curvePanel(channel, rows, y));
+    host.append(element('h3', {}, title, element('span', {class: 'unit'}, ` ${unit}`)), row);
+  }
+}
+
+/// A legend's entry: a piece of the line and its name.
+function chartKey(host, name, colour, dash) {
+  const sample = d3.create('svg').attr('viewBox', '0 0 26 8').attr('aria-hidden', 'true');
+  sample.append('line')
+      .attr('x2', 26)
+      .attr('y1', 4)
+      .attr('y2', 4)
+      .attr('stroke', `var(${colour})`)
+      .attr('stroke-width', 2)
+      .attr('stroke-dasharray', dash);
+  host.append(element('span', {class: 'key'}, sample.node(), name));
+}
+
+/// What a model says of a run on the panels: the corrected one where it had not seen it.
+const shownValue = (row, key) =>
+    (key === 'corrected' && isKnown(row.held_out) ? row.held_out : row[key]);
+
+function valueDomain(channel) {
+  const {scale} = channelOf(channel), values = [0];
+  for (const row of DIAGNOSIS.run_residuals[channel]) {
+    const noise = isKnown(row.noise) ? row.noise : 0;
+    values.push(row.measured - noise, row.measured + noise);
+    for (const {key} of SHOWN_MODELS) values.push(shownValue(row, key));
+  }
+  const [low, high] = d3.extent(values.filter(isKnown));
+  return [low * scale, high > low ? high * scale : low * scale + 1];
+}
+
+/// The runs of a channel by slip angle and whatever else tells them apart.
+const panelsOf = channel => grouped(
+                                DIAGNOSIS.run_residuals[channel].filter(r => isKnown(r.measured)),
+                                r => `${ANGLE_OF[r.run]}|${othersOf(r.run)}`)
+                                .sort(
+                                    (a, b) => ANGLE_OF[a[0].run] - ANGLE_OF[b[0].run] ||
+                                        d3.ascending(othersOf(a[0].run), othersOf(b[0].run)));
+
+function curvePanel(channel, rows, yDomain) {
+  const first = rows[0].run, others = othersOf(first);
+  const title = `Slip angle ${fixed(ANGLE_OF[first], 1, '\u00b0')}${others ? ', ' + others : ''}`;
+  const rmse = key => Math.sqrt(d3.mean(rows, r => Math.pow(r.measured - shownValue(r, key), 2)));
+  const said =
+      SHOWN_MODELS.map(m => `${m.name} ${withChannelUnit(channel, rmse(m.key))}`).join(', ');
+  const figure = element('figure', {class: 'chart'}, element('figcaption', {}, title));
+  const svg = d3.select(figure)
+                  .append('svg')
+                  .attr('role', 'img')
+                  .attr(
+                      'aria-label',
+                      `${channelOf(channel).title} over slip ratio, ${title}, ${
+                          rows.length} runs; root mean square error: ${said}`);
+  const draw = () => drawPanel(svg, Math.max(220, figure.clientWidth), channel, rows, yDomain);
+  onWidth(figure, draw);
+  return figure;
+}
+
+function drawPanel(svg, width, channel, rows, yDomain) {
+  const margin = {left: 44, right: 12, top: 8, bottom: 32}, height = 190;
+  const {scale} = channelOf(channel);
+  const x = paddedScale(RUNS.slip_ratio, 0.2, [margin.left, width - margin.right]);
+  const y = d3.scaleLinear().domain(yDomain).nice(4).range([height - margin.bottom, margin.top]);
+  svg.attr('viewBox', `0 0 ${width} ${height}`).attr('height', height).selectAll('*').remove();
+  svg.append('g')
+      .attr('class', 'grid')
+      .selectAll('line')
+      .data(y.ticks(4))
+      .join('line')
+      .attr('x1', margin.left)
+      .attr('x2', width - margin.right)
+      .attr('y1', y)
+      .attr('y2', y);
+  svg.append('g')
+      .attr('class', 'axis')
+      .attr('transform', `translate(0,${height - margin.bottom})`)
+      .call(d3.axisBottom(x).ticks(Math.max(3, width / 80)).tickSize(4));
+  svg.append('g')
+      .attr('class', 'axis')
+      .attr('transform', `translate(${margin.left},0)`)
+      .call(d3.axisLeft(y).ticks(4).tickSize(0).tickPadding(6))
+      .select('.domain')
+      .remove();
+  axisTitle(svg, width - margin.right, height - 3, 'slip ratio');
+
+  const bySlip =
+      grouped(rows, r => SLIP_OF[r.run]).sort((a, b) => SLIP_OF[a[0].run] - SLIP_OF[b[0].run]);
+  const slip = group => x(SLIP_OF[group[0].run]);
+  const mean = (group, of) => {
+    const values = group.map(of).filter(isKnown);
+    return values.length ? scale * d3.mean(values) : null;
+  };
+  const spread = group => mean(group, r => r.held_out_std) || 0;
+  if (HAS_CORRECTION) {
+    const middle = group => mean(group, r => shownValue(r, 'corrected'));
+    svg.append('path')
+        .attr('fill', 'var(--band)')
+        .attr(
+            'd',
+            d3.area()
+                .defined(group => middle(group) !== null)
+                .x(slip)
+                .y0(group => y(middle(group) - 2 * spread(group)))
+                .y1(group => y(middle(group) + 2 * spread(group)))(bySlip));
+  }
+  for (const model of SHOWN_MODELS) {
+    const value = group => mean(group, r => shownValue(r, model.key));
+    const known = bySlip.filter(group => value(group) !== null);
+    const line = d3.line().x(slip).y(group => y(value(group)));
+    svg.append('path')
+        .attr('class', 'line')
+        .attr('stroke', `var(${model.colour})`)
+        .attr('stroke-dasharray', model.dash)
+        .attr(
+            'd',
+            known.length === 1 ? `M${slip(known[0]) - 8},${y(value(known[0]))}h16` : line(known));
+  }
+  const points = svg.append('g').selectAll('g').data(rows).join('g').attr(
+      'transform', r => `translate(${x(RUNS.slip_ratio[r.run])},0)`);
+  points.append('line')
+      .attr('class', 'noise')
+      .attr('y1', r => y(scale * (r.measured - (r.noise || 0))))
+      .attr('y2', r => y(scale * (r.measured + (r.noise || 0))));
+  points.append('circle')
+      .attr('class', 'measured')
+      .attr('r', 2.6)
+      .attr('cy', r => y(scale * r.measured));
+  points.append('title').text(
+      r => `${RUNS.run_id[r.run]}: slip ratio ${significant(RUNS.slip_ratio[r.run], 3)}, load ${
+          significant(
+              RUNS.load_n[r.run], 3)} N, measured ${withChannelUnit(channel, r.measured)}; ${
+          SHOWN_MODELS.map(m => `${m.name} ${inUnit(channel, shownValue(r, m.key))}`).join(', ')}`);
+}

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "diagnosis/candidate_fit.h"
+#include "diagnosis/condensed_recording.h"
+
+namespace regoplan {
+
+/// Conditions that are left out together, one family after the other.
+struct Families {
+  std::string by;  ///< `slip_angle`, `slip band`, `load`, `day`
+  std::vector<std::size_t> of_condition;
+  std::size_t count = 0;
+};
+
+/// The kind of families of which there are most (slip angles where they are at least 4; never fewer
+/// than 3 unless nothing else is there; slips in at most 6 bands).
+Families families_of(const TestBed& bed);
+
+/// Every kind of families of which there are at least 3; families_of() where there is none.
+std::vector<Families> all_families(const TestBed& bed);
+
+/// The model that is to prove itself.
+struct CorrectedModel {
+  const CandidateFit* fit = nullptr;  ///< with the claim's effects; null: the calibrated base
+  /// Settings of the discrepancy whose mean is added to the model, per channel; empty: none.
+  std::vector<std::size_t> remainder;
+};
+
+/// How models do on conditions that they were not fitted to.
+struct HeldOut {
+  Families families;
+  std::vector<ChannelFit> fit;
+  Eigen::VectorXd calibrated;  ///< predictions without the condition's own family
+  Eigen::VectorXd corrected;
+  Eigen::VectorXd corrected_deviation;
+  double share_explained = 0;
+  std::vector<double> gain;  ///< per condition: fall of the squared misfit, in noise variances
+  std::vector<double> remainder_share;  ///< per channel: of the remainder that proves itself
+};
+
+/// \param base soil calibrated without any effect, its problem and settings without discrepancy
+HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
+                 const CandidateFit& base, const CorrectedModel& corrected,
+                 const Families& families, int threads);
+
+/// Standard errors by which a correction falls below the calibrated misfit on held-out conditions.
+double gain_in_errors(const HeldOut& held_out);
+
+/// The same for one correction over another, held out by the same families.
+double gain_in_errors(const HeldOut& held_out, const HeldOut& over);
+
+/// Held out by the kind of families in which the correction does best: a form that holds between
+/// conditions need not hold beyond them.
+HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
+                      const CandidateFit& base, const CorrectedModel& corrected, int threads);
+
+}  // namespace regoplan

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "tests/app/scratch_folder.h"
+
+namespace regoplan {
+
+/// Opens pages in Debian's Chromium, where it is installed, and reads what they drew.
+class InTheBrowser : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (output_of("command -v chromium").empty())
+      GTEST_SKIP() << "chromium is not installed; pages are not opened";
+  }
+
+  /// What a page shows once its scripts have run: its elements without the scripts.
+  std::string drawn(const std::string& page) const {
+    const std::string file = folder_.write("report.html", page);
+    return without_scripts(
+        output_of("chromium --headless --no-sandbox --disable-gpu --no-first-run "
+                  "--disable-background-networking --disable-component-update --disable-sync "
+                  "--user-data-dir=" +
+                  folder_.path("profile") +
+                  " --window-size=1400,2400 --virtual-time-budget=4000 --dump-dom file://" + file +
+                  " 2>/dev/null"));
+  }
+
+  static void expect_drawn_without_error(const std::string& page) {
+    EXPECT_NE(page.find("data-drawn=\"yes\""), std::string::npos);
+    const std::size_t failure = page.find("id=\"failure\"");
+    EXPECT_NE(page.find("id=\"failure\" role=\"alert\" hidden"), std::string::npos)
+        << page.substr(failure, page.find("</p>", failure) - failure);
+    EXPECT_EQ(page.find("NaN"), std::string::npos);
+    EXPECT_EQ(page.find(">undefined"), std::string::npos);
+  }
+
+ private:
+  static std::string output_of(const std::string& command) {
+    std::string text;
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"),
+                                                               &pclose);
+    if (!pipe) return text;
+    std::array<char, 65536> part{};
+    while (const std::size_t count = std::fread(part.data(), 1, part.size(), pipe.get()))
+      text.append(part.data(), count);
+    return text;
+  }
+
+  static std::string without_scripts(std::string page) {
+    const std::string end = "</script>";
+    while (true) {
+      const std::size_t open = page.find("<script");
+      if (open == std::string::npos) return page;
+      page.erase(open, page.find(end, open) + end.size() - open);
+    }
+  }
+
+  ScratchFolder folder_;
+};
+
+}  // namespace regoplan

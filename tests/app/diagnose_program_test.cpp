@@ -1,0 +1,147 @@
+// `diagnose` as a person meets it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/error_text.h"
+#include "tests/app/program_run.h"
+
+namespace regoplan {
+namespace {
+
+const std::string kScenario = REGOPLAN_SOURCE_DIR "/scenarios/diagnosis/";
+
+class Diagnose : public testing::Test {
+ protected:
+  std::string quoted(const std::string& name) const { return " '" + folder_.path(name) + "' "; }
+
+  ProgramRun diagnose(const std::string& recording, const std::string& setup,
+                      const std::string& more = "") const {
+    return run_program(folder_, "diagnose '" + recording + "' --setup '" + setup + "' --out" +
+                                    quoted("out") + more);
+  }
+
+  /// Expects one line that holds all of `words`, status 1 and nothing written.
+  void expect_refused(const ProgramRun& run, const std::vector<std::string>& words) const {
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(run.output, "");
+    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+    for (const std::string& word : words) {
+      EXPECT_NE(run.errors.find(word), std::string::npos) << word << " in: " << run.errors;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
+  }
+
+  /// The built-in recording with a part of its text replaced.
+  std::string changed(const std::string& from, const std::string& to) const {
+    std::ifstream stream(kScenario + "recording.csv");
+    std::stringstream text;
+    text << stream.rdbuf();
+    return folder_.write("changed.csv", replaced(text.str(), from, to));
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(Diagnose, TheBuiltInRecordingIsExplainedAndItsCorrectedModelUsable) {
+  const ProgramRun run = diagnose(kScenario + "recording.csv", kScenario + "setup.yaml", "--json");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const auto d = nlohmann::json::parse(run.output);
+  EXPECT_EQ(folder_.read("out/diagnosis.json"), run.output);
+  EXPECT_TRUE(d["verdict"] == "named" || d["verdict"] == "class") << d["verdict"];
+  ASSERT_EQ(d["mechanisms"].size(), 1u);
+  std::vector<std::string> ids = d["mechanisms"][0]["equivalent"];
+  ids.push_back(d["mechanisms"][0]["id"]);
+  EXPECT_NE(std::ranges::find(ids, "slip_sinkage"), ids.end()) << d["mechanisms"].dump();
+  double sum = 0;
+  for (const auto& candidate : d["ranking"]) sum += candidate["probability"].get<double>();
+  EXPECT_NEAR(sum, 1, 1e-9);
+  for (const auto& [channel, fit] : d["fit"].items()) {
+    EXPECT_LT(fit["corrected_rmse"], 1.3 * fit["noise_floor"].get<double>()) << channel;
+  }
+
+  folder_.write("c.csv", "load_n,slip_ratio,slip_angle_deg\n64.7,0.6,8\n");
+  const ProgramRun wheel = run_program(
+      folder_, "wheel" + quoted("c.csv") + "--model" + quoted("out/corrected-model.yaml"));
+  EXPECT_EQ(wheel.status, 0) << wheel.errors;
+  EXPECT_NE(wheel.output.find(",ok\n"), std::string::npos) << wheel.output;
+}
+
+TEST_F(Diagnose, SameInputAndSeedGiveTheSameBitsWhateverTheThreads) {
+  ASSERT_EQ(
+      diagnose(kScenario + "recording.csv", kScenario + "setup.yaml", "--quiet --threads 1").status,
+      0);
+  std::filesystem::rename(folder_.path("out"), folder_.path("one"));
+  ASSERT_EQ(
+      diagnose(kScenario + "recording.csv", kScenario + "setup.yaml", "--quiet --threads 3").status,
+      0);
+  for (const char* name :
+       {"diagnosis.json", "corrected-model.yaml", "residuals.csv", "report.html"}) {
+    EXPECT_EQ(folder_.read(std::string("one/") + name), folder_.read(std::string("out/") + name))
+        << name;
+  }
+}
+
+TEST_F(Diagnose, BadInputIsOneLineAndLeavesNothing) {
+  const std::string setup = kScenario + "setup.yaml";
+  expect_refused(diagnose("none.csv", setup), {"none.csv: no such file"});
+  expect_refused(diagnose(kScenario + "recording.csv", "none.yaml"), {"none.yaml: no such file"});
+  expect_refused(diagnose(changed("slip_ratio", "slip"), setup),
+                 {"changed.csv:1: column slip_ratio is missing"});
+  const std::string head = "run_id,load_n,slip_ratio,slip_angle_deg,fx_n,sinkage_m\n";
+  expect_refused(diagnose(folder_.write("one.csv", head + "a,64.7,0.1,0,3,0.012\n"), setup),
+                 {"one.csv: "});
+  expect_refused(diagnose(folder_.write("percent.csv", head + "a,64.7,30,0,3,0.012\n"), setup),
+                 {"percent.csv:2: slip_ratio: 30 is not valid (allowed: -1 to 1)", "per cent"});
+  expect_refused(diagnose(folder_.write("nan.csv", head + "a,64.7,0.3,0,nan,0.012\n"), setup),
+                 {"nan.csv:2: fx_n: nan is not valid"});
+  expect_refused(diagnose(folder_.write("mm.csv", head + "a,64.7,0.3,0,4,12.5\n"), setup),
+                 {"mm.csv:2: sinkage_m: 12.5 is not valid", "suspected: sinkage_m in mm"});
+}
+
+TEST_F(Diagnose, ReplicatesThatAreAllTheSameAreNoNoise) {
+  std::string text = "run_id,load_n,slip_ratio,slip_angle_deg,fx_n\n";
+  for (const char* replicate : {"a", "b", "c"}) {
+    for (int i = 0; i < 12; ++i) {
+      text += std::string(replicate) + std::to_string(i) + ",64.7," + std::to_string(i * 0.05) +
+              ",0," + std::to_string(i) + ".5\n";
+    }
+  }
+  expect_refused(diagnose(folder_.write("same.csv", text), kScenario + "setup.yaml"),
+                 {"same.csv: ", "identical"});
+}
+
+TEST_F(Diagnose, ColumnsThatAreNotKnownAreKeptAndMentionedOnce) {
+  const std::string recording = changed("run_id,", "oven_deg,");
+  const std::string text = folder_.read("changed.csv");
+  std::string wider;
+  std::istringstream lines(text);
+  std::string line;
+  for (int i = 0; std::getline(lines, line); ++i) {
+    wider += line + (i == 0 ? ",run_id\n" : ",r" + std::to_string(i) + "\n");
+  }
+  const ProgramRun run = diagnose(folder_.write("wider.csv", wider), kScenario + "setup.yaml");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  const std::size_t at = run.errors.find("oven_deg kept and not used");
+  ASSERT_NE(at, std::string::npos) << run.errors;
+  EXPECT_EQ(run.errors.find("oven_deg", at + 1), std::string::npos);
+  EXPECT_TRUE(folder_.read("out/residuals.csv").starts_with("oven_deg,"));
+}
+
+TEST_F(Diagnose, CtrlCLeavesWholeFilesMarkedInterrupted) {
+  const std::string command =
+      "timeout --preserve-status -s INT 0.5 '" REGOPLAN_PROGRAM "' diagnose '" + kScenario +
+      "recording.csv' --setup '" + kScenario + "setup.yaml' --quiet --out" + quoted("out");
+  const int status = std::system(command.c_str());
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) GTEST_SKIP() << "done before Ctrl-C came";
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  const auto d = nlohmann::json::parse(folder_.read("out/diagnosis.json"));
+  EXPECT_EQ(d["interrupted"], true);
+  EXPECT_NE(folder_.read("out/report.html").find("The diagnosis was interrupted"),
+            std::string::npos);
+  EXPECT_FALSE(folder_.read("out/corrected-model.yaml").empty());
+}
+
+}  // namespace
+}  // namespace regoplan

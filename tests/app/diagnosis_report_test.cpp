@@ -1,0 +1,86 @@
+#include "app/diagnosis_report.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/browser_page.h"
+#include "tests/app/diagnosis_fixture.h"
+
+namespace regoplan {
+namespace {
+
+TEST(DiagnosisReport, BeginsWithTheFinding) {
+  const DiagnosisRun run = claimed_diagnosis();
+  const std::string page = diagnosis_report(run);
+  EXPECT_NE(page.find("<h1 id=\"headline\">" + run.diagnosis.sentence + "</h1>"),
+            std::string::npos);
+  EXPECT_NE(page.find("these data cannot tell some explanations apart"), std::string::npos);
+  EXPECT_NE(page.find("explains 97 % of the excess misfit"), std::string::npos);
+}
+
+TEST(DiagnosisReport, SaysThatItWasInterrupted) {
+  DiagnosisRun run = claimed_diagnosis();
+  run.diagnosis = {.interrupted = true};
+  const std::string page = diagnosis_report(run);
+  EXPECT_NE(page.find("The diagnosis was interrupted"), std::string::npos);
+}
+
+TEST(DiagnosisReport, TextOfTheRecordingIsNeverMarkup) {
+  const std::string page = diagnosis_report(claimed_diagnosis());
+  EXPECT_EQ(page.find("<b>markup</b>"), std::string::npos);
+}
+
+class DiagnosisReportInTheBrowser : public InTheBrowser {};
+
+TEST_F(DiagnosisReportInTheBrowser, DrawsAClaimFromTheFindingDownToTheNumbers) {
+  const std::string page = drawn(diagnosis_report(claimed_diagnosis()));
+  expect_drawn_without_error(page);
+  for (const char* text : {"slip sinkage or grousers", "slip ratio 0.3 to 0.4", "95.3", "42.3",
+                           "beyond", "measure torque", "held out by slip band", "Drawbar pull Fx",
+                           "n = n0 + n1 s + n2 s^2 (s &gt; 0)"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+  // two channels: three maps and a panel for each of the two slip angles
+  std::size_t pictures = 0;
+  for (std::size_t at = page.find("role=\"img\""); at != std::string::npos;
+       at = page.find("role=\"img\"", at + 1)) {
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 2u * (3 + 2));
+}
+
+TEST_F(DiagnosisReportInTheBrowser, DrawsEveryVerdictWithoutAnError) {
+  const std::string consistent = drawn(diagnosis_report(consistent_diagnosis()));
+  expect_drawn_without_error(consistent);
+  EXPECT_NE(consistent.find("Nothing is claimed"), std::string::npos);
+  EXPECT_NE(consistent.find("Smallest shown"), std::string::npos);
+  const std::string unexplained = drawn(diagnosis_report(unexplained_diagnosis()));
+  expect_drawn_without_error(unexplained);
+  EXPECT_NE(unexplained.find("gaussian_bumps"), std::string::npos);
+}
+
+TEST_F(DiagnosisReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  DiagnosisRun run = claimed_diagnosis();
+  Diagnosis& d = run.diagnosis;
+  for (std::size_t i = 0; i < d.residuals.size(); i += 3) {
+    d.residuals[i].noise = d.residuals[i].held_out = kNaN;
+    d.residuals[i].held_out_standard_deviation = kNaN;
+  }
+  d.residuals[1].corrected = d.residuals[1].baseline = kNaN;
+  d.where[0].ci95 = {kNaN, kNaN};
+  d.fit[0].noise_floor = d.fit[1].corrected_rmse = kNaN;
+  d.claims[0].parameters["n1"].standard_deviation = kNaN;
+  expect_drawn_without_error(drawn(diagnosis_report(run)));
+}
+
+TEST_F(DiagnosisReportInTheBrowser, DrawsADiagnosisThatWasInterruptedAtOnce) {
+  DiagnosisRun run = claimed_diagnosis();
+  run.diagnosis = {.interrupted = true};
+  expect_drawn_without_error(drawn(diagnosis_report(run)));
+}
+
+}  // namespace
+}  // namespace regoplan
