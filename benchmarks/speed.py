@@ -6,8 +6,8 @@
     benchmarks/speed.py --record         and add the ratios to the history under this commit
 
 A ratio is the CPU time of a baseline over that of a benchmark, both of the same run: 10 means ten
-times as fast. Baselines and what is measured against them stand in RATIOS; the history, a line for
-each commit and ratio, in benchmarks/speed_history.csv.
+times as fast. What is measured against which baseline stands in speed_baselines.json; the history, a
+line for each commit and ratio, in speed_history.csv.
 """
 
 import argparse
@@ -43,7 +43,7 @@ def build_and_run(program):
 
 
 def ratios_of(program, times):
-    """Every benchmark against its program's baseline: the one whose name ends in it."""
+    """(program, benchmark, baseline, ratio) of every benchmark that has a baseline."""
     rows = []
     for name, time in sorted(times.items()):
         baseline = baseline_of(program, name, times)
@@ -53,13 +53,15 @@ def ratios_of(program, times):
 
 
 def baseline_of(program, name, times):
-    for prefix, baseline in BASELINES.get(program, []):
-        if name.startswith(prefix) and baseline in times:
-            return baseline
+    """The first that fits; `{case}` in it is what follows the first slash of the name."""
+    case = name.partition("/")[2]
+    for prefix, baseline in BASELINES[program]:
+        if name.startswith(prefix) and baseline.format(case=case) in times:
+            return baseline.format(case=case)
     return None
 
 
-# program: [(what begins so, its baseline), ...], the first that fits counts
+# program: [(what begins so, its baseline), ...]
 BASELINES = json.loads((ROOT / "benchmarks" / "speed_baselines.json").read_text())
 
 
