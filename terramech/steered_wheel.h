@@ -76,11 +76,28 @@ inline WheelMotion wheel_motion(const WheelMount& mount, const SteeredWheel& whe
           .rim_speed_mps = rim_speed_mps};
 }
 
+/// Sums over the wheels of a vehicle, each side by itself and then the two: where both sides name
+/// their wheels in the same order, the sums of mirrored motions mirror to the last bit.
+template <class Sum>
+class SumBySide {
+ public:
+  explicit SumBySide(const Sum& zero) : sums_{zero, zero, zero} {}
+  Sum& at(const WheelMount& mount) { return sums_[mount.y_m > 0 ? 0U : mount.y_m < 0 ? 1U : 2U]; }
+  Sum total() const { return (sums_[0] + sums_[1]) + sums_[2]; }
+
+ private:
+  std::array<Sum, 3> sums_;  ///< left, right, between
+};
+
 /// Horizontal force and yaw moment on the vehicle's origin, body frame.
 struct BodyForce {
   double forward_n = 0;
   double left_n = 0;
   double yaw_nm = 0;
+
+  friend BodyForce operator+(const BodyForce& a, const BodyForce& b) {
+    return {a.forward_n + b.forward_n, a.left_n + b.left_n, a.yaw_nm + b.yaw_nm};
+  }
 
   /// Adds a wheel's force (fx, -fy), turned from its heading into the body frame.
   void add(const WheelMount& mount, const SteeredWheel& wheel, const WheelForces& forces) {

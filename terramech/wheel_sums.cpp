@@ -132,7 +132,7 @@ double VehicleWheels::shared_torque_nm(const BodyMotion& motion, const WheelSett
   if (vehicle_.drive_law != DriveLaw::kEqualTorque) return 0;
   double most_nm = 0, axle_mps = 0;
   const auto excess_mps = [&](double torque_nm) {
-    double sum = 0;
+    SumBySide<double> sum(0);
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       if (!vehicle_.wheels[i].driven) continue;
       const double load = sharing_.load_n(i, reaction);
@@ -143,9 +143,10 @@ double VehicleWheels::shared_torque_nm(const BodyMotion& motion, const WheelSett
                        setting.rim_speed * setting.wheels[i].rim_speed_per_speed);
       most_nm = std::max(most_nm, load * vehicle_.wheel.radius_m);
       axle_mps = std::max(axle_mps, std::abs(at.vx_mps));
-      sum += response(i, law, load, at, torque_nm).rim_speed_mps - at.rim_speed_mps;
+      sum.at(vehicle_.wheels[i]) +=
+          response(i, law, load, at, torque_nm).rim_speed_mps - at.rim_speed_mps;
     }
-    return sum;
+    return sum.total();
   };
   const double limit = vehicle_.torque_max_nm.value_or(std::numeric_limits<double>::infinity());
   double low = 0, f_low = excess_mps(0);
@@ -175,6 +176,8 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
                               const GroundPatch& patch, const GroundReaction& reaction) const {
   const double shared = shared_torque_nm(motion, setting, patch, reaction);
   WheelSums sums;
+  SumBySide<BodyForce> force({});
+  SumBySide<double> drive_power_w(0);
   sums.contact.load_min_n = reaction.normal_n;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     const double load = sharing_.load_n(i, reaction);
@@ -197,13 +200,15 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
       at.rim_speed_mps = response.rim_speed_mps;
       sums.as_commanded = false;
     }
-    sums.force.add(mount, wheel, forces);
+    force.at(mount).add(mount, wheel, forces);
     add_contact(sums.contact, vehicle_.wheel.radius_m, forces.status, forces.sinkage_m,
                 forces.torque_nm);
     sums.slips.add(at);
-    sums.drive_power_w +=
+    drive_power_w.at(mount) +=
         std::max(forces.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
   }
+  sums.force = force.total();
+  sums.drive_power_w = drive_power_w.total();
   return sums;
 }
 
@@ -226,12 +231,15 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     };
     const auto& [vx, vy, r] = motion;
     result.slopes.col(0) = moved({vx + h, vy, r}) / h;
-    result.slopes.col(1) = moved({vx, vy + h, r}) / h;
-    result.slopes.col(2) = moved({vx, vy, r + h}) / h;
+    // To both sides, so that mirrored motions have mirrored slopes.
+    result.slopes.col(1) = (moved({vx, vy + h, r}) - moved({vx, vy - h, r})) / (2 * h);
+    result.slopes.col(2) = (moved({vx, vy, r + h}) - moved({vx, vy, r - h})) / (2 * h);
     return result;
   }
   WheelSums& sums = result.sums;
-  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
+  SumBySide<Eigen::Vector3d> force(Eigen::Vector3d::Zero()), by_setting(Eigen::Vector3d::Zero());
+  SumBySide<Eigen::Matrix3d> slopes(Eigen::Matrix3d::Zero());
+  SumBySide<double> drive_power_w(0);
   sums.contact.load_min_n = reaction.normal_n;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     const double load = sharing_.load_n(i, reaction);
@@ -253,17 +261,21 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
       const Response here = response(i, law, load, at, 0);
       const double h = 1e-4 * std::max({std::abs(at.vx_mps), std::abs(at.vy_mps),
                                         std::abs(at.rim_speed_mps), kStandstill});
+      // Outward, so that mirrored and reversed motions have mirrored and reversed slopes.
+      const double hx = std::copysign(h, at.vx_mps != 0 ? at.vx_mps : at.rim_speed_mps);
+      const double hy = std::copysign(h, at.vy_mps);
       const WheelForces ahead =
-          response(i, law, load, {at.vx_mps + h, at.vy_mps, at.rim_speed_mps}, 0).forces;
+          response(i, law, load, {at.vx_mps + hx, at.vy_mps, at.rim_speed_mps}, 0).forces;
       const WheelForces aside =
-          response(i, law, load, {at.vx_mps, at.vy_mps + h, at.rim_speed_mps}, 0).forces;
+          response(i, law, load, {at.vx_mps, at.vy_mps + hy, at.rim_speed_mps}, 0).forces;
       as_commanded = as_commanded && here.as_commanded;
       f = {.x = here.forces.fx_n,
            .y = -here.forces.fy_n,
-           .x_by_vx = (ahead.fx_n - here.forces.fx_n) / h,
-           .x_by_vy = (aside.fx_n - here.forces.fx_n) / h,
-           .y_by_vx = (here.forces.fy_n - ahead.fy_n) / h,
-           .y_by_vy = (here.forces.fy_n - aside.fy_n) / h,
+           .x_by_vx = (ahead.fx_n - here.forces.fx_n) / hx,
+           // Fx is even in the lateral motion.
+           .x_by_vy = at.vy_mps == 0 ? 0 : (aside.fx_n - here.forces.fx_n) / hy,
+           .y_by_vx = (here.forces.fy_n - ahead.fy_n) / hx,
+           .y_by_vy = (here.forces.fy_n - aside.fy_n) / hy,
            .torque_nm = here.forces.torque_nm,
            .sinkage_m = here.forces.sinkage_m,
            .status = here.forces.status};
@@ -276,27 +288,29 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     result.smooth = result.smooth && as_commanded;
 
     const Levers lever(mount, wheel);
-    const Eigen::Vector3d force = f.x * lever.along + f.y * lever.across;
-    sums.force.forward_n += force[0];
-    sums.force.left_n += force[1];
-    sums.force.yaw_nm += force[2];
+    force.at(mount) += f.x * lever.along + f.y * lever.across;
     const Eigen::Vector3d x_by = f.x_by_vx * lever.along + f.x_by_vy * lever.across;
     const Eigen::Vector3d y_by = f.y_by_vx * lever.along + f.y_by_vy * lever.across;
-    for (int k = 0; k < 3; ++k) slopes.col(k) += x_by[k] * lever.along + y_by[k] * lever.across;
+    slopes.at(mount) += lever.along * x_by.transpose() + lever.across * y_by.transpose();
     if (result.smooth) {
       const SteeredWheel& to = next.wheels[i];
       const double turn = wheel.cos_steer * to.sin_steer - wheel.sin_steer * to.cos_steer;
       const double faster = next.rim_speed * to.rim_speed_per_speed - at.rim_speed_mps;
       const double vx = at.vy_mps * turn, vy = -at.vx_mps * turn;
-      result.by_setting +=
+      by_setting.at(mount) +=
           (f.x_by_vx * vx + f.x_by_vy * vy + f.x_by_rim * faster - f.y * turn) * lever.along +
           (f.y_by_vx * vx + f.y_by_vy * vy + f.y_by_rim * faster + f.x * turn) * lever.across;
     }
     add_contact(sums.contact, vehicle_.wheel.radius_m, f.status, f.sinkage_m, f.torque_nm);
     sums.slips.add(at);
-    sums.drive_power_w += std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
+    drive_power_w.at(mount) +=
+        std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
   }
-  result.slopes = slopes;
+  const Eigen::Vector3d force_sum = force.total();
+  sums.force = {.forward_n = force_sum[0], .left_n = force_sum[1], .yaw_nm = force_sum[2]};
+  sums.drive_power_w = drive_power_w.total();
+  result.slopes = slopes.total();
+  if (result.smooth) result.by_setting = by_setting.total();
   return result;
 }
 
