@@ -78,16 +78,21 @@ inline WheelMotion wheel_motion(const WheelMount& mount, const SteeredWheel& whe
 
 /// Sums over the wheels of a vehicle, each side by itself and then the two: where both sides name
 /// their wheels in the same order, the sums of mirrored motions mirror to the last bit.
-template <class Sum>
-class SumBySide {
- public:
-  explicit SumBySide(const Sum& zero) : sums_{zero, zero, zero} {}
-  Sum& at(const WheelMount& mount) { return sums_[mount.y_m > 0 ? 0U : mount.y_m < 0 ? 1U : 2U]; }
-  Sum total() const { return (sums_[0] + sums_[1]) + sums_[2]; }
-
- private:
-  std::array<Sum, 3> sums_;  ///< left, right, between
-};
+/// \param add adds wheel i to a sum, add(sum, i)
+template <class Sum, class Add>
+[[gnu::always_inline]] inline Sum sum_by_side(const Vehicle& vehicle, const Sum& zero,
+                                              const Add& add) {
+  Sum total = zero;
+  for (const int side : {1, -1, 0}) {
+    Sum sum = zero;
+    for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+      const double y = vehicle.wheels[i].y_m;
+      if ((y > 0) - (y < 0) == side) add(sum, i);
+    }
+    total = total + sum;
+  }
+  return total;
+}
 
 /// Horizontal force and yaw moment on the vehicle's origin, body frame.
 struct BodyForce {

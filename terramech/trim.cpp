@@ -114,18 +114,19 @@ std::optional<SteadyManoeuvre::Residual> SteadyManoeuvre::residual(const Point& 
   const BodyMotion body = body_motion(at);
   const GroundReaction ground = reaction(at, line);
   const auto steered = wheels(at);
-  SumBySide<BodyForce> sums({});
-  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+  bool carried = true;  // and every wheel has forces
+  const BodyForce sum = sum_by_side(vehicle_, BodyForce{}, [&](BodyForce& of_side, std::size_t i) {
     const WheelMount& mount = vehicle_.wheels[i];
     const double load = sharing_.load_n(i, ground);
     WheelMotion motion = wheel_motion(mount, steered[i], body, 0);
-    if (!(load > 0) || !std::isfinite(motion.vx_mps)) return std::nullopt;
+    carried = carried && load > 0 && std::isfinite(motion.vx_mps);
+    if (!carried) return;
     motion.rim_speed_mps = rim_speed_mps(i, at, steered[i], load, motion);
     const WheelForces forces = laws_[i].forces(load, motion);
-    if (!has_forces(forces.status)) return std::nullopt;
-    sums.at(mount).add(mount, steered[i], forces);
-  }
-  const BodyForce sum = sums.total();
+    carried = has_forces(forces.status);
+    of_side.add(mount, steered[i], forces);
+  });
+  if (!carried) return std::nullopt;
   return Residual{(sum.forward_n - ground.forward_n) / normal_n_,
                   (sum.left_n - ground.left_n) / normal_n_,
                   (sum.yaw_nm - line.at(at[3]).yaw_nm) / (normal_n_ * length_m_)};
@@ -155,8 +156,8 @@ SteadyManoeuvre::Slopes SteadyManoeuvre::slopes_by_law(const Point& at,
   less_at[1] -= kTurn;
   const auto steered = wheels(at), steered_more = wheels(more_at), steered_less = wheels(less_at);
   const double factor = rim_pace() * (1 + kAngleScale * at[2]);
-  SumBySide<Slopes> sums(Slopes::Zero());
-  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+  const Slopes zero = Slopes::Zero();
+  Slopes slopes = sum_by_side(vehicle_, zero, [&](Slopes& of_side, std::size_t i) {
     const WheelMount& mount = vehicle_.wheels[i];
     const SteeredWheel &wheel = steered[i], &more = steered_more[i], &less = steered_less[i];
     const WheelMotion motion = wheel_motion(mount, wheel, body, factor * wheel.rim_speed_per_speed);
@@ -170,7 +171,7 @@ SteadyManoeuvre::Slopes SteadyManoeuvre::slopes_by_law(const Point& at,
       sum.add(
           mount, wheel,
           {.fx_n = change(f.fx) + f.fy.value_n * turn, .fy_n = change(f.fy) - f.fx.value_n * turn});
-      sums.at(mount).col(k) +=
+      of_side.col(k) +=
           scale / normal_n_ * Residual{sum.forward_n, sum.left_n, sum.yaw_nm / length_m_};
     };
     add(0, kAngleScale, wheel_motion(mount, wheel, body_by_first, 0),
@@ -185,8 +186,7 @@ SteadyManoeuvre::Slopes SteadyManoeuvre::slopes_by_law(const Point& at,
     add(1, 1, {motion.vy_mps * turn, -motion.vx_mps * turn, faster}, 0, turn);
     add(2, 1, {0, 0, rim_pace() * kAngleScale * wheel.rim_speed_per_speed}, 0, 0);
     add(3, 1, {}, sharing_.load_n(i, ground_by_p), 0);
-  }
-  Slopes slopes = sums.total();
+  });
   slopes.col(0) -=
       kAngleScale / normal_n_ * Residual{ground_by_first.forward_n, ground_by_first.left_n, 0};
   slopes.col(3) -=
@@ -293,25 +293,24 @@ Trim SteadyManoeuvre::trim(const Point& at, const ForceLine& line) const {
             .body_slip_angle_rad = on_the_spot_ ? 0 : kAngleScale * at[0],
             .steer_curvature_1pm = steering(at).curvature_1pm,
             .wheels = {}};
-  double driven = 0;
-  SumBySide<double> factors(0);
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
-    const SteeredWheel& wheel = steered[i];
     const double load = sharing_.load_n(i, ground);
-    WheelMotion motion = wheel_motion(vehicle_.wheels[i], wheel, body, 0);
-    motion.rim_speed_mps = rim_speed_mps(i, at, wheel, load, motion);
+    WheelMotion motion = wheel_motion(vehicle_.wheels[i], steered[i], body, 0);
+    motion.rim_speed_mps = rim_speed_mps(i, at, steered[i], load, motion);
     trim.wheels.push_back({.load_n = load,
-                           .steer_rad = wheel.steer_rad(),
+                           .steer_rad = steered[i].steer_rad(),
                            .slip = slip_ratio(motion),
                            .slip_angle_rad = slip_angle_rad(motion),
                            .motion = motion,
                            .forces = laws_[i].forces(load, motion)});
-    if (!vehicle_.wheels[i].driven) continue;
-    factors.at(vehicle_.wheels[i]) +=
-        motion.rim_speed_mps / (rim_pace() * wheel.rim_speed_per_speed);
-    ++driven;
   }
-  trim.drive_factor = factors.total() / driven;
+  double driven = 0;
+  const double factors = sum_by_side(vehicle_, 0.0, [&](double& sum, std::size_t i) {
+    if (!vehicle_.wheels[i].driven) return;
+    sum += trim.wheels[i].motion.rim_speed_mps / (rim_pace() * steered[i].rim_speed_per_speed);
+    ++driven;
+  });
+  trim.drive_factor = factors / driven;
   return trim;
 }
 
