@@ -117,12 +117,13 @@ Command add_evaluate_command(CLI::App& program) {
       "Writes evaluation.json and report.html; with --chart a chart of what is safe.");
   parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, limits");
   parser->add_option("PATH.csv", request.path_files,
-                     "points x_m, y_m, optional speed_mps; or a candidate-K.csv of plan");
+                     "points x_m, y_m, optional speed_mps (negative: all of it in reverse); or a "
+                     "candidate-K.csv of plan");
   parser->add_option("--out", request.folder, "folder for the results")->type_name("DIR");
   parser
       ->add_option("--manoeuvres", request.manoeuvre_file,
                    "list of {kind: steady_turn | lane_change | slalom | slope_traverse | "
-                   "braking_in_a_turn, ...}")
+                   "braking_in_a_turn | point_turn, ...}")
       ->type_name("FILE.yaml");
   parser
       ->add_option("--model", options->overrides.model_file,

@@ -128,8 +128,10 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
       }
       const PreparedManoeuvre prepared = prepare(manoeuvre, limits, problem);
       const World plane(prepared.problem, WorldUse::kVerdict, 1);
-      result.paths.push_back(
-          evaluated(evaluate(plane, prepared.path, result.settings), prepared.problem));
+      PathEvaluation evaluation =
+          std::visit([&](const auto& course) { return evaluate(plane, course, result.settings); },
+                     prepared.course);
+      result.paths.push_back(evaluated(std::move(evaluation), prepared.problem));
       result.paths.back().on_the_map = false;
     }
     result.interrupted = stop.stop_requested();

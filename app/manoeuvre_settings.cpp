@@ -85,28 +85,32 @@ void read_shape(SettingsMapping& mapping, Manoeuvre& m) {
     case ManoeuvreKind::kSlopeTraverse:
       m.length_m = mapping.number_or("length_m", {.min = 1, .max = 1e4}, 20);
       break;
+    case ManoeuvreKind::kPointTurn:
+      m.angle_rad =
+          mapping.number_or("angle_deg", {.min = 0, .max = 3600, .min_excluded = true}, 90) *
+          kDegree;
+      break;
   }
 }
 
 std::vector<Manoeuvre> read_one(const SettingsNode& node, const PlanningProblem& problem,
                                 const std::filesystem::path& folder) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
-    constexpr std::array kKinds{ManoeuvreKind::kSteadyTurn, ManoeuvreKind::kLaneChange,
-                                ManoeuvreKind::kSlalom, ManoeuvreKind::kSlopeTraverse,
-                                ManoeuvreKind::kBrakingInATurn};
+    constexpr std::array kKinds{ManoeuvreKind::kSteadyTurn,     ManoeuvreKind::kLaneChange,
+                                ManoeuvreKind::kSlalom,         ManoeuvreKind::kSlopeTraverse,
+                                ManoeuvreKind::kBrakingInATurn, ManoeuvreKind::kPointTurn};
     std::vector<std::string> kinds;
     for (const ManoeuvreKind kind : kKinds) kinds.emplace_back(name(kind));
     const SettingsNode& kind_node = mapping.required("kind");
-    if (kind_node.kind() == SettingsNode::Kind::kScalar && kind_node.text() == "point_turn") {
-      throw kind_node.error("point_turn: no vehicle can turn on the spot in this version");
-    }
     Manoeuvre base{.kind = kKinds.at(kind_node.choice(kinds))};
     const SettingsNode* given_name = mapping.optional("name");
     const std::string base_name = given_name ? given_name->text() : std::string(name(base.kind));
     const std::vector<Vehicle> all_vehicles = vehicles(mapping, problem, folder);
     const std::vector<MapSoil> all_soils = soils(mapping, problem);
+    const bool turns = base.kind == ManoeuvreKind::kPointTurn;
     const std::vector<double> speeds =
-        numbers(mapping, "speed_mps", kAbove0, problem.speed_max_mps);
+        turns ? numbers(mapping, "turn_rate_deg_s", kAbove0, 1)
+              : numbers(mapping, "speed_mps", kAbove0, problem.speed_max_mps);
     const bool across = base.kind == ManoeuvreKind::kSlopeTraverse;
     const std::vector<double> slopes =
         numbers(mapping, "slope_deg", {.min = 0, .max = 60}, across ? 10 : 0);
@@ -126,10 +130,10 @@ std::vector<Manoeuvre> read_one(const SettingsNode& node, const PlanningProblem&
             one.vehicle = vehicle;
             one.soil = soil;
             one.slope_rad = slope * kDegree;
-            one.speed_mps = speed;
+            (turns ? one.turn_rate_rad_s : one.speed_mps) = turns ? speed * kDegree : speed;
             if (one.braking_mps2 == 0) one.braking_mps2 = vehicle.acceleration_max_mps2;
-            one.name = fmt::format("{}: {}, {}, {} m/s, {} deg", base_name, vehicle.name, soil.name,
-                                   speed, slope);
+            one.name = fmt::format("{}: {}, {}, {} {}, {} deg", base_name, vehicle.name, soil.name,
+                                   speed, turns ? "deg/s" : "m/s", slope);
             all.push_back(std::move(one));
           }
         }

@@ -219,15 +219,30 @@ GivenPath candidate_path(const PathTable& table, const Vehicle& vehicle, double 
           .notices = {}};
 }
 
-/// Speeds that stand in the table, as far as the vehicle's acceleration follows them.
+/// Whether all speeds of a table are meant backwards: the first that is not 0 tells.
+bool drives_in_reverse(const PathTable& table) {
+  for (std::size_t i = 0; table.has("speed_mps") && i < table.rows(); ++i) {
+    const double speed = table.number(i, "speed_mps", kAnyNumber);
+    if (speed != 0) return speed < 0;
+  }
+  return false;
+}
+
+/// Speeds that stand in the table, without their sign, as far as the vehicle's acceleration follows
+/// them.
 SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const Vehicle& vehicle,
                          double speed_max_mps, std::vector<std::string>& notices) {
   std::vector<SpeedProfile::Node> nodes;
+  const bool reverse = drives_in_reverse(table);
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const bool end = i == 0 || i + 1 == table.rows();
+    const char* ends = end ? "" : "; 0 only at the ends";
     const double speed =
-        table.number(i, "speed_mps", {.min = 0, .max = speed_max_mps, .min_excluded = !end},
-                     fmt::format(", the largest speed{}", end ? "" : "; 0 only at the ends"));
+        reverse
+            ? -table.number(i, "speed_mps", {.min = -speed_max_mps, .max = 0, .max_excluded = !end},
+                            fmt::format(", all of a path in one direction{}", ends))
+            : table.number(i, "speed_mps", {.min = 0, .max = speed_max_mps, .min_excluded = !end},
+                           fmt::format(", the largest speed{}", ends));
     const double s = curve.point_arc_m()[i];
     if (!nodes.empty() && !(s > nodes.back().s_m)) {
       nodes.back().speed_mps = speed;  // of points too near to each other the last counts
@@ -271,7 +286,10 @@ GivenPath point_path(const PathTable& table, const PlanningProblem& problem, dou
                            : limited_by_acceleration(
                                  {{0, speed_max_mps}, {curve.length_m(), speed_max_mps}},
                                  problem.start.speed_mps, 0, problem.vehicle.acceleration_max_mps2);
-  return {.path = {.name = table.file(), .curve = std::move(curve), .speed = std::move(speed)},
+  return {.path = {.name = table.file(),
+                   .curve = std::move(curve),
+                   .speed = std::move(speed),
+                   .reverse = drives_in_reverse(table)},
           .recorded_margin_min = {},
           .notices = std::move(notices)};
 }

@@ -17,12 +17,11 @@ struct GivenPath {
 };
 
 /// Reads a CSV table of points `x_m, y_m`, optional `speed_mps`; other columns are ignored with one
-/// notice. Without speeds, the path is driven as fast as `speed_max_mps` and the vehicle's
-/// acceleration allow, from the problem's start speed to rest. A table with the columns of a
-/// candidate of `plan` is that candidate: its own record of curvature, speed and acceleration is
-/// what is judged.
-/// \throws InputError naming file, line, column and value: NaN, a speed above `speed_max_mps`, a
-/// single point, no length
+/// notice. Negative speeds: the vehicle drives all of it backwards. Without speeds, the path is
+/// driven as fast as `speed_max_mps` and the vehicle's acceleration allow, from the problem's start
+/// speed to rest. A table with the columns of a candidate of `plan` is that candidate: its own
+/// record of curvature, speed and acceleration is what is judged. \throws InputError naming file,
+/// line, column and value: NaN, a speed above `speed_max_mps`, a single point, no length
 GivenPath read_path(const std::string& file, const PlanningProblem& problem, double speed_max_mps);
 
 }  // namespace regoplan

@@ -10,6 +10,7 @@ struct ValueRange {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool min_excluded = false;
+  bool max_excluded = false;
 
   /// Never true for NaN or an infinity.
   bool contains(double value) const;

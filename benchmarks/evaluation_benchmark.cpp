@@ -87,7 +87,7 @@ void whole_evaluation(benchmark::State& state) {
   const WindingPath path;
   PathEvaluation last;
   for (auto _ : state) {
-    last = evaluate(path.world, path.prepared.path,
+    last = evaluate(path.world, std::get<ReferencePath>(path.prepared.course),
                     {.soil_draws = static_cast<int>(state.range(0)), .threads = 2});
   }
   report(state, last);
@@ -98,7 +98,8 @@ BENCHMARK(whole_evaluation)->Arg(2)->Arg(1000)->Unit(benchmark::kMillisecond)->U
 void closed_loop_run(benchmark::State& state) {
   const WindingPath path;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(track(path.world, path.prepared.path, {}, 1));
+    benchmark::DoNotOptimize(
+        track(path.world, std::get<ReferencePath>(path.prepared.course), {}, 1));
   }
 }
 BENCHMARK(closed_loop_run)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -13,11 +13,6 @@
 namespace regoplan {
 namespace {
 
-struct Station {
-  double s_m = 0, time_s = 0;
-  VehicleState state;
-};
-
 std::vector<Station> stations_of(const ReferencePath& path, const Vehicle& vehicle) {
   std::vector<Station> stations;
   for (const RecordedMoment& moment : path.recorded) {
@@ -120,8 +115,8 @@ std::optional<CorneringLimit> cornering_limit(const World& world, const VehicleS
   for (std::size_t i = 0; i < problem.vehicle.wheels.size(); ++i) {
     laws.push_back(world.soil_laws()[static_cast<std::size_t>(patch.soil.at(i))]);
   }
-  const SteadyManoeuvre manoeuvre(problem.vehicle, dynamics.sharing(), laws, question.curvature_1pm,
-                                  question.normal_n, question.reverse);
+  const SteadyManoeuvre manoeuvre =
+      manoeuvre_of(problem.vehicle, dynamics.sharing(), laws, question);
   const SupplyResult result =
       cornering_supply(manoeuvre, question.force.forward_n, trim_limits(problem), true);
   if (!result.supply) return std::nullopt;
@@ -207,17 +202,30 @@ std::string sentence(const Refusal& refusal) {
 
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings) {
-  const PlanningProblem& problem = verdict.problem();
-  PathEvaluation evaluation{.name = path.name,
-                            .length_m = path.curve.length_m(),
-                            .duration_s = path.speed.duration_s(path.curve.length_m()),
-                            .speed_max_mps = path.speed.speed_max_mps()};
-  const std::vector<Station> stations = stations_of(path, problem.vehicle);
-  judge_steady(evaluation, verdict, stations, settings.threads);
+  const Vehicle& vehicle = verdict.problem().vehicle;
+  const double allowed_m = settings.deviation_max_m.value_or(default_deviation_max_m(vehicle));
+  return judged(verdict,
+                {.name = path.name,
+                 .length_m = path.curve.length_m(),
+                 .duration_s = path.speed.duration_s(path.curve.length_m()),
+                 .speed_max_mps = path.speed.speed_max_mps(),
+                 .stations = stations_of(path, vehicle),
+                 .run = track(verdict, path, settings.steering, allowed_m),
+                 .deviation_allowed_m = allowed_m},
+                settings);
+}
 
-  evaluation.deviation_allowed_m =
-      settings.deviation_max_m.value_or(default_deviation_max_m(problem.vehicle));
-  evaluation.tracking = track(verdict, path, settings.steering, evaluation.deviation_allowed_m);
+PathEvaluation judged(const World& verdict, const DrivenCourse& course,
+                      const EvaluationSettings& settings) {
+  const PlanningProblem& problem = verdict.problem();
+  PathEvaluation evaluation{.name = course.name,
+                            .length_m = course.length_m,
+                            .duration_s = course.duration_s,
+                            .speed_max_mps = course.speed_max_mps,
+                            .tracking = course.run,
+                            .deviation_allowed_m = course.deviation_allowed_m};
+  const std::vector<Station>& stations = course.stations;
+  judge_steady(evaluation, verdict, stations, settings.threads);
   add_strains(evaluation.points, evaluation.s_m, evaluation.tracking);
   const std::optional<Refusal> when_driven =
       refusal_of(evaluation.tracking, evaluation.deviation_allowed_m);

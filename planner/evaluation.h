@@ -68,6 +68,25 @@ struct PathEvaluation {
   std::vector<std::string> notices;
 };
 
+/// A place of a course, as the steady manoeuvre that is commanded there.
+struct Station {
+  double s_m = 0, time_s = 0;
+  VehicleState state;
+};
+
+/// A course told by its stations, and how it went when it was driven.
+struct DrivenCourse {
+  std::string name;
+  double length_m = 0;
+  double duration_s = 0;
+  double speed_max_mps = 0;
+  std::vector<Station> stations;  ///< at least two
+  TrackingRun run;
+  double deviation_allowed_m = 0;
+};
+PathEvaluation judged(const World& verdict, const DrivenCourse& course,
+                      const EvaluationSettings& settings);
+
 /// Judges a path twice: as the sequence of steady manoeuvres that it commands, at stations at most
 /// half a metre apart (at the moments of its record, where it has one), and by driving it in closed
 /// loop. Feasible where both hold.

@@ -99,6 +99,8 @@ std::vector<PathPoint> points_of(const Manoeuvre& m) {
     case ManoeuvreKind::kSlopeTraverse:
       require_above_0("length_m", m.length_m);
       return {{0, 0}, {m.length_m / 2, 0}, {m.length_m, 0}};
+    case ManoeuvreKind::kPointTurn:
+      return {{0, 0}};
   }
   return {};
 }
@@ -112,11 +114,45 @@ SpeedProfile speed_of(const Manoeuvre& m, const PathCurve& curve) {
   return SpeedProfile({{0, m.speed_mps}, {length - braking_m, m.speed_mps}, {length, 0}});
 }
 
+/// \throws InputError saying what keeps the vehicle from it
+void require_turn_on_the_spot(const Manoeuvre& m) {
+  require_above_0("angle_deg", m.angle_rad);
+  require_above_0("turn_rate_deg_s", m.turn_rate_rad_s);
+  if (!can_turn_on_the_spot(m.vehicle)) {
+    throw InputError(fmt::format(
+        "point_turn: {} cannot turn on the spot: it takes drive_law kinematic, and every wheel "
+        "that "
+        "does not reach the angle for it, or does not steer, abreast of the turn centre (steering: "
+        "skid drags them)",
+        m.vehicle.name));
+  }
+  const double rate_max = m.vehicle.speed_max_mps / longest_arm_m(m.vehicle);
+  if (m.turn_rate_rad_s > rate_max) {
+    constexpr double kDegree = std::numbers::pi / 180;
+    throw ValueError("turn_rate_deg_s", m.turn_rate_rad_s / kDegree,
+                     fmt::format("above 0 to {:.4g}, where the outermost wheel of {} goes {} m/s",
+                                 rate_max / kDegree, m.vehicle.name, m.vehicle.speed_max_mps));
+  }
+}
+
+std::variant<ReferencePath, SpotTurn> course_of(const Manoeuvre& m,
+                                                const std::vector<PathPoint>& points) {
+  if (m.kind == ManoeuvreKind::kPointTurn) {
+    return SpotTurn{.name = m.name,
+                    .centre_x_m = m.vehicle.turn_centre_x_m,
+                    .angle_rad = m.to_the_right ? -m.angle_rad : m.angle_rad,
+                    .rate_rad_s = m.turn_rate_rad_s};
+  }
+  PathCurve curve(points);
+  SpeedProfile speed = speed_of(m, curve);
+  return ReferencePath{.name = m.name, .curve = std::move(curve), .speed = std::move(speed)};
+}
+
 /// The plane, wide enough for the vehicle around all of the path.
 TerrainMap plane_under(const Manoeuvre& m, const std::vector<PathPoint>& points) {
   const BodyBox& body = m.vehicle.body;
-  const double around_m =
-      3 + 2 * std::max({body.x_max_m, -body.x_min_m, body.y_max_m, -body.y_min_m});
+  const double around_m = 3 + 2 * std::abs(m.vehicle.turn_centre_x_m) +
+                          2 * std::max({body.x_max_m, -body.x_min_m, body.y_max_m, -body.y_min_m});
   const auto [west, east] =
       std::minmax_element(points.begin(), points.end(),
                           [](const PathPoint& a, const PathPoint& b) { return a.x_m < b.x_m; });
@@ -163,6 +199,8 @@ std::string_view name(ManoeuvreKind kind) {
       return "slope_traverse";
     case ManoeuvreKind::kBrakingInATurn:
       return "braking_in_a_turn";
+    case ManoeuvreKind::kPointTurn:
+      return "point_turn";
   }
   return "";
 }
@@ -170,29 +208,32 @@ std::string_view name(ManoeuvreKind kind) {
 PreparedManoeuvre prepare(const Manoeuvre& manoeuvre, const Limits& limits,
                           const PlanningProblem& base) {
   const Vehicle& vehicle = manoeuvre.vehicle;
-  if (!(manoeuvre.speed_mps > 0 && manoeuvre.speed_mps <= vehicle.speed_max_mps)) {
+  const bool turns = manoeuvre.kind == ManoeuvreKind::kPointTurn;
+  if (turns) {
+    require_turn_on_the_spot(manoeuvre);
+  } else if (!(manoeuvre.speed_mps > 0 && manoeuvre.speed_mps <= vehicle.speed_max_mps)) {
     throw ValueError(
         "speed_mps", manoeuvre.speed_mps,
         fmt::format("above 0 to {}, the largest of {}", vehicle.speed_max_mps, vehicle.name));
   }
+  const double speed_mps =
+      turns ? manoeuvre.turn_rate_rad_s * longest_arm_m(vehicle) : manoeuvre.speed_mps;
   const std::vector<PathPoint> points = points_of(manoeuvre);
-  PathCurve curve(points);
-  SpeedProfile speed = speed_of(manoeuvre, curve);
   return {.problem = {.map = plane_under(manoeuvre, points),
                       .vehicle = vehicle,
                       .wheel_variant = base.wheel_variant,
                       .mechanisms = base.mechanisms,
                       .generic = base.generic,
                       .gravity_mps2 = base.gravity_mps2,
-                      .start = {.speed_mps = manoeuvre.speed_mps},
+                      .start = {.speed_mps = turns ? 0 : speed_mps},
                       .goal = {.x_m = points.back().x_m,
                                .y_m = points.back().y_m,
                                .radius_m = 1,
                                .heading_rad = {}},
-                      .speed_max_mps = manoeuvre.speed_mps * kSpeedTolerance,
+                      .speed_max_mps = speed_mps * kSpeedTolerance,
                       .limits = limits,
                       .search = base.search},
-          .path = {.name = manoeuvre.name, .curve = std::move(curve), .speed = std::move(speed)}};
+          .course = course_of(manoeuvre, points)};
 }
 
 }  // namespace regoplan

@@ -2,9 +2,11 @@
 
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "planner/path_tracking.h"
+#include "planner/spot_turn.h"
 
 namespace regoplan {
 
@@ -15,6 +17,7 @@ enum class ManoeuvreKind {
   kSlalom,
   kSlopeTraverse,
   kBrakingInATurn,
+  kPointTurn,
 };
 std::string_view name(ManoeuvreKind kind);  ///< `steady_turn`, ...
 
@@ -29,25 +32,27 @@ struct Manoeuvre {
   double slope_rad = 0;          ///< of the plane
   double slope_heading_rad = 0;  ///< uphill, from the heading at the start, left positive
 
-  double radius_m = 0;        ///< steady turn, braking in a turn
-  double angle_rad = 0;       ///< of the turn at full curvature, braking aside
-  bool to_the_right = false;  ///< the turn, the lane change or the first bow
-  double offset_m = 0;        ///< lane change
-  double length_m = 0;        ///< lane change, slope traverse
-  double amplitude_m = 0;     ///< slalom
-  double wavelength_m = 0;    ///< slalom
-  double waves = 0;           ///< slalom
-  double braking_mps2 = 0;    ///< braking in a turn
+  double radius_m = 0;         ///< steady turn, braking in a turn
+  double angle_rad = 0;        ///< of the turn at full curvature, braking aside; point turn
+  bool to_the_right = false;   ///< the turn, the lane change or the first bow
+  double offset_m = 0;         ///< lane change
+  double length_m = 0;         ///< lane change, slope traverse
+  double amplitude_m = 0;      ///< slalom
+  double wavelength_m = 0;     ///< slalom
+  double waves = 0;            ///< slalom
+  double braking_mps2 = 0;     ///< braking in a turn
+  double turn_rate_rad_s = 0;  ///< point turn, in place of the speed
 };
 
-/// A manoeuvre as a problem of its own: its plane as a small map, and its path.
+/// A manoeuvre as a problem of its own: its plane as a small map, and its path or turn.
 struct PreparedManoeuvre {
   PlanningProblem problem;
-  ReferencePath path;
+  std::variant<ReferencePath, SpotTurn> course;
 };
 
 /// \param limits that its states keep \param base the rest: gravity, wheel variant, search
-/// \throws ValueError for a speed above the vehicle's, or one of its numbers that is not positive
+/// \throws ValueError for a speed above the vehicle's, or one of its numbers that is not positive;
+/// InputError for a point turn of a vehicle that cannot turn on the spot
 PreparedManoeuvre prepare(const Manoeuvre& manoeuvre, const Limits& limits,
                           const PlanningProblem& base);
 

@@ -40,7 +40,8 @@ class Tracker {
         path_(path),
         law_(law),
         deviation_max_m_(deviation_max_m),
-        speed_top_mps_(path.speed.speed_max_mps()) {
+        speed_top_mps_(path.speed.speed_max_mps()),
+        direction_(path.reverse ? -1 : 1) {
     constexpr double kTravel_m = 0.05, kLongest_s = 0.25;
     run_.step_s = std::min(kTravel_m / speed_top_mps_, kLongest_s);
     now_.state = path.recorded.empty() ? path.state_at(vehicle_, 0) : path.recorded.front().state;
@@ -94,7 +95,7 @@ class Tracker {
       run_.deviation_max_m = std::abs(now_.offset_m);
       run_.deviation_at = {state.x_m, state.y_m};
     }
-    const double rim = state.rim_speed_mps;
+    const double rim = direction_ * state.rim_speed_mps;
     if (std::abs(rim) > 0.05 * speed_top_mps_) {
       const double share = run_.step_s / (run_.step_s + law_.slip_memory_s);
       const double ratio = std::clamp(speed() / rim, 0.5, 1.5);
@@ -109,31 +110,28 @@ class Tracker {
     const double length =
         std::max(law_.lookahead_wheelbases * wheelbase_m(vehicle_), law_.lookahead_s * v);
     // At rest there is no course; the heading tells where it will go.
+    const BodyMotion& motion = now_.state.motion;
     const double slip_angle =
         v > 0.01 * speed_top_mps_
-            ? std::atan2(now_.state.motion.vy_mps, now_.state.motion.vx_mps)
+            ? std::atan2(direction_ * motion.vy_mps, direction_ * motion.vx_mps)
             : kinematic_body_slip_angle_rad(vehicle_, now_.state.curvature_1pm);
-    const double course = angle_between(now_.state.yaw_rad + slip_angle, place.heading_rad);
-    const double curvature = path_.curvature_1pm(ahead_m) - now_.offset_m / (length * length) -
-                             2 * law_.damping * course / length;
+    const double heading = now_.state.yaw_rad + (path_.reverse ? std::numbers::pi : 0);
+    const double course = angle_between(heading + slip_angle, place.heading_rad);
+    const double curvature =
+        path_.curvature_1pm(ahead_m) -
+        direction_ * (now_.offset_m / (length * length) + 2 * law_.damping * course / length);
     // From rest, the speed a little farther on: at rest itself the path says to stay.
     const double a = vehicle_.acceleration_max_mps2, dt = run_.step_s;
     const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * dt);
     const double target =
         std::max(creep_mps, path_.speed.at(now_.s_m + v * dt + a * dt * dt / 2).speed_mps);
-    return {.speed_target_mps = target / speed_per_rim_,
+    return {.speed_target_mps = direction_ * target / speed_per_rim_,
             .curvature_target_1pm =
                 std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm)};
   }
 
   void record(bool always) {
-    WheelStrain& most = run_.strain_max;
-    const WheelStrain& strain = now_.strain;
-    if (std::abs(strain.slip) > std::abs(most.slip)) most.slip = strain.slip;
-    if (std::abs(strain.slip_angle_rad) > std::abs(most.slip_angle_rad)) {
-      most.slip_angle_rad = strain.slip_angle_rad;
-    }
-    most.sinkage_m = std::max(most.sinkage_m, strain.sinkage_m);
+    run_.strain_max = largest_of(run_.strain_max, now_.strain);
     if (!always && now_.s_m < run_.moments.back().s_m + TrackingRun::kRecordEvery_m) return;
     run_.moments.push_back(now_);
   }
@@ -151,6 +149,7 @@ class Tracker {
   SteeringLaw law_;
   double deviation_max_m_;
   double speed_top_mps_;
+  double direction_;  ///< 1 ahead, -1 in reverse
   TrackingRun::Moment now_;
   double speed_per_rim_ = 1;
   TrackingRun run_;
@@ -159,7 +158,7 @@ class Tracker {
 }  // namespace
 
 double ReferencePath::curvature_1pm(double s_m) const {
-  if (recorded.empty()) return curve.at(s_m).curvature_1pm;
+  if (recorded.empty()) return (reverse ? -1 : 1) * curve.at(s_m).curvature_1pm;
   const auto above =
       std::upper_bound(recorded.begin(), recorded.end(), s_m,
                        [](double s, const RecordedMoment& moment) { return s < moment.s_m; });
@@ -176,16 +175,28 @@ VehicleState ReferencePath::state_at(const Vehicle& vehicle, double s_m) const {
   const double slip_free = kinematic_body_slip_angle_rad(
       vehicle, std::clamp(curvature, -vehicle.curvature_max_1pm, vehicle.curvature_max_1pm));
   const SpeedProfile::Value value = speed.at(s_m);
-  const double v = value.speed_mps;
+  const double direction = reverse ? -1 : 1, v = direction * value.speed_mps;
+  const double behind = reverse ? std::numbers::pi : 0;
   return {.x_m = place.x_m,
           .y_m = place.y_m,
-          .yaw_rad = angle_between(place.heading_rad - slip_free, 0),
+          .yaw_rad = angle_between(place.heading_rad - slip_free, behind),
           .motion = {.vx_mps = v * std::cos(slip_free),
                      .vy_mps = v * std::sin(slip_free),
                      .yaw_rate_rad_s = v * curvature},
           .curvature_1pm = curvature,
           .rim_speed_mps = v,
-          .rim_acceleration_mps2 = value.acceleration_mps2};
+          .rim_acceleration_mps2 = direction * value.acceleration_mps2};
+}
+
+WheelStrain largest_of(const WheelStrain& a, const WheelStrain& b) {
+  const auto larger = [](double one, double other) {
+    return std::abs(other) > std::abs(one) ? other : one;
+  };
+  return {.slip = larger(a.slip, b.slip),
+          .slip_angle_rad = larger(a.slip_angle_rad, b.slip_angle_rad),
+          .sinkage_m = std::max(a.sinkage_m, b.sinkage_m),
+          .load_min_n = std::min(a.load_min_n, b.load_min_n),
+          .torque_max_nm = larger(a.torque_max_nm, b.torque_max_nm)};
 }
 
 double wheelbase_m(const Vehicle& vehicle) {

@@ -24,7 +24,10 @@ struct ReferencePath {
   PathCurve curve;
   SpeedProfile speed;
   std::vector<RecordedMoment> recorded = {};
+  bool reverse = false;  ///< all of it is driven backwards
 
+  /// Commanded curvature, as the vehicle counts it: in reverse a path that bends to the left of the
+  /// way lies to the right of the vehicle.
   double curvature_1pm(double s_m) const;
   /// The vehicle on the path at s_m, slip-free: it heads where Ackermann steering has it head.
   VehicleState state_at(const Vehicle& vehicle, double s_m) const;
@@ -33,9 +36,10 @@ struct ReferencePath {
 /// The steering law:
 ///   commanded curvature = curvature of the path a reaction length ahead
 ///                         - offset / L^2 - 2 damping (course - heading of the path) / L
-/// with the offset to the left of the nearest place of the path, the course that of the velocity,
-/// and L the longer of `lookahead_wheelbases` wheelbases and the way of `lookahead_s`. Rim speed:
-/// the path's speed over the ratio of speed and rim speed that the wheels have lately had.
+/// (in reverse, what the vehicle is told has the other sign) with the offset to the left of the
+/// nearest place of the path, the course that of the velocity, and L the longer of
+/// `lookahead_wheelbases` wheelbases and the way of `lookahead_s`. Rim speed: the path's speed over
+/// the ratio of speed and rim speed that the wheels have lately had.
 struct SteeringLaw {
   double lookahead_wheelbases = 1;
   double lookahead_s = 0.8;
@@ -77,6 +81,9 @@ struct TrackingRun {
 
   static constexpr double kRecordEvery_m = 0.5;
 };
+
+/// The larger of each strain.
+WheelStrain largest_of(const WheelStrain& a, const WheelStrain& b);
 
 /// Drives a path in closed loop, with the limits of states checked at every step: bounds, unknown
 /// ground, obstacles, slope, sinkage, slip, slip angle. Margins are not judged: they belong to the

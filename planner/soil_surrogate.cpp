@@ -88,8 +88,7 @@ PlaceProbe::PlaceProbe(const PlanningProblem& problem, const VehicleState& state
   const VehicleDynamics dynamics(
       vehicle_, laws, [&patch](double, double, double) { return patch; }, problem.gravity_mps2);
   const SupplyQuestion question = question_of(dynamics, state, patch);
-  const SteadyManoeuvre manoeuvre(vehicle_, dynamics.sharing(), laws, question.curvature_1pm,
-                                  question.normal_n, question.reverse, question.crab_rad);
+  const SteadyManoeuvre manoeuvre = manoeuvre_of(vehicle_, dynamics.sharing(), laws, question);
   const auto add = [&](Eigen::Index number, const Trim& trim) {
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       const TrimmedWheel& wheel = trim.wheels[i];
@@ -97,24 +96,24 @@ PlaceProbe::PlaceProbe(const PlanningProblem& problem, const VehicleState& state
       wheels_.push_back({.trim = number,
                          .mount = i,
                          .soil = static_cast<std::size_t>(patch.soil.at(i)),
-                         .steered = steered_wheel(vehicle_, vehicle_.wheels[i],
-                                                  {.curvature_1pm = trim.steer_curvature_1pm,
-                                                   .crab_rad = question.crab_rad}),
+                         .steered = {.cos_steer = std::cos(wheel.steer_rad),
+                                     .sin_steer = std::sin(wheel.steer_rad)},
                          .load_n = wheel.load_n,
-                         .motion = motion_at(wheel.slip, wheel.slip_angle_rad)});
+                         .motion = wheel.motion});
     }
   };
   const TrimLimits limits = trim_limits(problem);
   constexpr double kBeyondReach = 20;
   const double normal = question.normal_n;
-  const auto along = [&](double forward_n, double left_n) {
+  const auto along = [&](const PathForce& direction) {
     return ForceLine{.from = {.forward_n = question.force.forward_n, .left_n = 0},
-                     .per_unit = {.forward_n = forward_n, .left_n = left_n}};
+                     .per_unit = {.forward_n = normal * direction.forward_n,
+                                  .left_n = normal * direction.left_n,
+                                  .yaw_nm = normal * direction.yaw_nm}};
   };
-  const auto start = manoeuvre.solve_from_rolling(along(0, normal));
+  const ForceLine lines[] = {along({.left_n = 1}), along({.left_n = -1}), along(manoeuvre.ahead())};
+  const auto start = manoeuvre.solve_from_rolling(lines[0]);
   if (!start) return;
-  const ForceLine lines[] = {along(0, normal), along(0, -normal),
-                             along(question.reverse ? -normal : normal, 0)};
   for (Eigen::Index k = 0; k < kTrims; ++k) {
     const BranchEnd end = follow_branch(manoeuvre, *start, lines[k], kBeyondReach, limits);
     add(k, manoeuvre.trim(end.point, lines[k]));

@@ -27,7 +27,10 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
   const GroundPatch here = ground_(state.x_m, state.y_m, state.yaw_rad);
   if (!here.known) return std::nullopt;
 
-  const WheelSetting setting_start = setting(start), setting_end = setting(end);
+  const WheelSetting setting_start = setting(start);
+  std::optional<WheelSetting> changed;
+  if (end.differ_from(start)) changed = setting(end);
+  const WheelSetting& setting_end = changed ? *changed : setting_start;
   const PatchAxes axes(here, gravity_mps2_);
   const Eigen::Vector3d pose{state.x_m, state.y_m, state.yaw_rad};
   const Eigen::Vector3d v = vector_of(state.motion);

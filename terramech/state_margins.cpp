@@ -15,20 +15,19 @@ SupplyAnswer SolvedSupply::answer(const SupplyQuestion& question) const {
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     laws.push_back(soil_laws_[static_cast<std::size_t>(question.patch->soil[i])]);
   }
-  const SteadyManoeuvre manoeuvre(vehicle_, sharing_, laws, question.curvature_1pm,
-                                  question.normal_n, question.reverse, question.crab_rad);
+  const SteadyManoeuvre manoeuvre = manoeuvre_of(vehicle_, sharing_, laws, question);
   const SupplyResult result = cornering_supply(manoeuvre, question.force.forward_n, limits_);
   SupplyAnswer answer{.supply = {}, .no_supply = result.reason, .traction_n = {}};
   if (result.supply) {
     answer.supply = SupplyInterval{.right_n = result.supply->right.force_n,
                                    .left_n = result.supply->left.force_n};
-    answer.traction_n = largest_traction_n(manoeuvre, question.force, limits_, question.reverse);
+    answer.traction_n = largest_traction_n(manoeuvre, question.force, limits_);
   }
   return answer;
 }
 
 SupplyAnswer TabledSupply::answer(const SupplyQuestion& question, std::size_t wheels) const {
-  if (question.reverse || question.crab_rad != 0) return {};
+  if (question.reverse || question.crab_rad != 0 || question.turn != 0) return {};
   SupplyAnswer least;
   for (std::size_t i = 0; i < wheels; ++i) {
     const bool first = i == 0;
@@ -54,10 +53,39 @@ SupplyAnswer TabledSupply::answer(const SupplyQuestion& question, std::size_t wh
   return least;
 }
 
+namespace {
+
+bool drives_in_reverse(const VehicleState& state) {
+  if (state.rim_speed_mps != 0) return state.rim_speed_mps < 0;
+  if (state.motion.vx_mps != 0) return state.motion.vx_mps < 0;
+  return state.rim_acceleration_mps2 < 0;
+}
+
+}  // namespace
+
+SteadyManoeuvre manoeuvre_of(const Vehicle& vehicle, const LoadSharing& sharing,
+                             std::span<const WheelLaw> laws, const SupplyQuestion& question) {
+  if (question.turn != 0) {
+    return SteadyManoeuvre::turn_on_the_spot(vehicle, sharing, laws, question.normal_n,
+                                             question.turn > 0);
+  }
+  return {vehicle,          sharing,          laws, question.curvature_1pm, question.normal_n,
+          question.reverse, question.crab_rad};
+}
+
 SupplyQuestion question_of(const VehicleDynamics& dynamics, const VehicleState& state,
                            const GroundPatch& patch) {
   const Vehicle& vehicle = dynamics.vehicle();
   const PatchAxes axes(patch, dynamics.gravity_mps2());
+  if (state.turn_rate_rad_s != 0) {
+    const double centripetal =
+        state.turn_rate_rad_s * state.turn_rate_rad_s * vehicle.turn_centre_x_m;
+    return {.force = {.forward_n = vehicle.mass_kg * (centripetal - axes.gravity_forward_mps2),
+                      .left_n = -vehicle.mass_kg * axes.gravity_left_mps2},
+            .normal_n = vehicle.mass_kg * axes.gravity_normal_mps2,
+            .turn = state.turn_rate_rad_s > 0 ? 1 : -1,
+            .patch = &patch};
+  }
   const double slip_free =
       kinematic_body_slip_angle_rad(vehicle, state.curvature_1pm) + state.crab_rad;
   const double c = std::cos(slip_free), s = std::sin(slip_free);
@@ -70,7 +98,7 @@ SupplyQuestion question_of(const VehicleDynamics& dynamics, const VehicleState& 
                     .left_n = cornering_demand_n(vehicle.mass_kg, speed, state.curvature_1pm,
                                                  gravity_left)},
           .normal_n = vehicle.mass_kg * axes.gravity_normal_mps2,
-          .reverse = state.rim_speed_mps < 0,
+          .reverse = drives_in_reverse(state),
           .patch = &patch};
 }
 
@@ -99,8 +127,10 @@ StateMargins margins_of(const VehicleDynamics& dynamics, const SupportPolygon& p
         cornering_margin(force.left_n, answer.supply->right_n, answer.supply->left_n, weight);
   }
   if (answer.traction_n) {
-    const double needed = question.reverse ? -force.forward_n : force.forward_n;
-    margins.traction = (*answer.traction_n - needed) / weight;
+    const double needed_n = question.turn != 0 ? 0
+                            : question.reverse ? -force.forward_n
+                                               : force.forward_n;
+    margins.traction = (*answer.traction_n - needed_n) / weight;
   }
   return margins;
 }

@@ -14,6 +14,10 @@ namespace regoplan {
 /// speed, the commanded curvature and acceleration, the ground it stands on. The curvature that the
 /// vehicle happens to follow plays no part: one that ploughs straight on at full lock is short of
 /// cornering force.
+///
+/// Of a turn on the spot: forces are told along the heading and across it; demand is what holds the
+/// vehicle on its slope and on the circle of its centre of gravity, and the traction margin is the
+/// moment left beyond what scrub takes, over weight and the longest arm of a wheel.
 struct StateMargins {
   double demand_n = 0;
   std::optional<SupplyInterval> supply;
@@ -33,8 +37,16 @@ struct SupplyQuestion {
   PathForce force;  ///< demanded, forward and left
   double normal_n = 0;
   bool reverse = false;
+  int turn =
+      0;  ///< on the spot: 1 to the left, -1 to the right; then the force is along the heading
   const GroundPatch* patch = nullptr;  ///< the soil under each wheel
 };
+
+/// The steady manoeuvre that a question is about. \param laws one for each wheel; all must outlive
+/// it
+SteadyManoeuvre manoeuvre_of(const Vehicle& vehicle, const LoadSharing& sharing,
+                             std::span<const WheelLaw> laws, const SupplyQuestion& question);
+
 struct SupplyAnswer {
   std::optional<SupplyInterval> supply;
   NoSupply no_supply = NoSupply::kTraction;
@@ -57,8 +69,8 @@ class SolvedSupply {
   TrimLimits limits_;
 };
 
-/// Looks up the table of each soil under a wheel and takes the least. Forward and without crab: of
-/// other questions it knows nothing.
+/// Looks up the table of each soil under a wheel and takes the least. Forward along a path and
+/// without crab: of other questions it knows nothing.
 class TabledSupply {
  public:
   /// \param tables one for each soil; must outlive it
@@ -69,7 +81,8 @@ class TabledSupply {
   std::span<const SupplyTable> tables_;
 };
 
-/// What a state asks of the ground.
+/// What a state asks of the ground. It drives in reverse where its rims turn backwards; while they
+/// stand still, where it moves backwards; at rest, where it is to speed up backwards.
 SupplyQuestion question_of(const VehicleDynamics& dynamics, const VehicleState& state,
                            const GroundPatch& patch);
 

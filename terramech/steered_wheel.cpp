@@ -18,14 +18,15 @@ SteeredWheel wheel_on_the_spot(const Vehicle& vehicle, const WheelMount& mount) 
 namespace {
 
 void share_speed(const Vehicle& vehicle, std::array<SteeredWheel, kMaxWheels>& wheels) {
-  double sum = 0, driven = 0;
-  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    if (!vehicle.wheels[i].driven) continue;
-    sum += wheels[i].rim_speed_per_speed;
+  double driven = 0;
+  const double sum = sum_by_side(vehicle, 0.0, [&](double& of_side, std::size_t i) {
+    if (!vehicle.wheels[i].driven) return;
+    of_side += wheels[i].rim_speed_per_speed;
     ++driven;
-  }
+  });
+  const double mean = sum / driven;
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    if (vehicle.wheels[i].driven) wheels[i].rim_speed_per_speed = sum / driven;
+    if (vehicle.wheels[i].driven) wheels[i].rim_speed_per_speed = mean;
   }
 }
 

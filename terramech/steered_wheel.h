@@ -76,11 +76,33 @@ inline WheelMotion wheel_motion(const WheelMount& mount, const SteeredWheel& whe
           .rim_speed_mps = rim_speed_mps};
 }
 
+/// Sums over the wheels of a vehicle, each side by itself and then the two: where both sides name
+/// their wheels in the same order, the sums of mirrored motions mirror to the last bit.
+/// \param add adds wheel i to a sum, add(sum, i)
+template <class Sum, class Add>
+[[gnu::always_inline]] inline Sum sum_by_side(const Vehicle& vehicle, const Sum& zero,
+                                              const Add& add) {
+  Sum total = zero;
+  for (const int side : {1, -1, 0}) {
+    Sum sum = zero;
+    for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+      const double y = vehicle.wheels[i].y_m;
+      if ((y > 0) - (y < 0) == side) add(sum, i);
+    }
+    total = total + sum;
+  }
+  return total;
+}
+
 /// Horizontal force and yaw moment on the vehicle's origin, body frame.
 struct BodyForce {
   double forward_n = 0;
   double left_n = 0;
   double yaw_nm = 0;
+
+  friend BodyForce operator+(const BodyForce& a, const BodyForce& b) {
+    return {a.forward_n + b.forward_n, a.left_n + b.left_n, a.yaw_nm + b.yaw_nm};
+  }
 
   /// Adds a wheel's force (fx, -fy), turned from its heading into the body frame.
   void add(const WheelMount& mount, const SteeredWheel& wheel, const WheelForces& forces) {

@@ -14,6 +14,12 @@ struct VehicleDynamics::Commands {
   double rim_speed_mps = 0;
   bool on_the_spot = false;
   double turn_rate_rad_s = 0;
+
+  bool differ_from(const Commands& other) const {
+    return steering.curvature_1pm != other.steering.curvature_1pm ||
+           steering.crab_rad != other.steering.crab_rad || rim_speed_mps != other.rim_speed_mps ||
+           on_the_spot != other.on_the_spot || turn_rate_rad_s != other.turn_rate_rad_s;
+  }
 };
 
 /// gamma of both methods of integration.

@@ -47,7 +47,7 @@ SupplyResult cornering_supply(const SteadyManoeuvre& manoeuvre, double forward_n
 }
 
 std::optional<double> largest_traction_n(const SteadyManoeuvre& manoeuvre, const PathForce& force,
-                                         const TrimLimits& limits, bool reverse) {
+                                         const TrimLimits& limits) {
   const double normal = manoeuvre.normal_n();
   const ForceLine across{
       .from = {.forward_n = force.forward_n, .left_n = 0},
@@ -57,12 +57,14 @@ std::optional<double> largest_traction_n(const SteadyManoeuvre& manoeuvre, const
   const BranchEnd there =
       follow_branch(manoeuvre, *start, across, std::abs(force.left_n) / normal, limits);
   if (!there.reached_target) return std::nullopt;
-  const double travel = reverse ? -1 : 1;
-  const ForceLine along{.from = force, .per_unit = {.forward_n = travel * normal, .left_n = 0}};
+  const PathForce ahead = manoeuvre.ahead();
+  const ForceLine along{
+      .from = force,
+      .per_unit = {.forward_n = normal * ahead.forward_n, .yaw_nm = normal * ahead.yaw_nm}};
   SteadyManoeuvre::Point at = there.point;
   at[3] = 0;
   const BranchEnd end = follow_branch(manoeuvre, at, along, kBeyondReach, limits);
-  return travel * force.forward_n + end.p * normal;
+  return manoeuvre.ahead_n(force) + end.p * normal;
 }
 
 }  // namespace regoplan

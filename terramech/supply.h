@@ -40,6 +40,7 @@ struct SupplyResult {
   NoSupply reason = NoSupply::kTraction;  ///< counts where there is none
 };
 
+/// Of a turn on the spot: the forces to the vehicle's left.
 /// \param forward_n sum of the wheels' forces along the path (vehicle's forward): acceleration and
 /// slope \param find_folds also reports the folds beyond the limits
 SupplyResult cornering_supply(const SteadyManoeuvre& manoeuvre, double forward_n,
@@ -48,7 +49,9 @@ SupplyResult cornering_supply(const SteadyManoeuvre& manoeuvre, double forward_n
 /// The largest force along the direction of travel that trims with the given lateral force can
 /// give: along the branch connected to `force`, out to the first of fold and limits. Signed in the
 /// direction of travel; nothing where the lateral force itself has no trim within the limits.
+/// Of a turn on the spot: the largest moment beyond what scrub takes, with the given forces along
+/// and across held, over the longest arm of a wheel.
 std::optional<double> largest_traction_n(const SteadyManoeuvre& manoeuvre, const PathForce& force,
-                                         const TrimLimits& limits, bool reverse = false);
+                                         const TrimLimits& limits);
 
 }  // namespace regoplan

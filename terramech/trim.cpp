@@ -17,14 +17,6 @@ constexpr double kAngleScale = 0.2;  // radians, and share of the drive factor, 
 constexpr double kConverged = 1e-7;
 constexpr double kAccepted = 1e-4;
 
-double longest_arm_m(const Vehicle& vehicle) {
-  double longest = 0;
-  for (const WheelMount& mount : vehicle.wheels) {
-    longest = std::max(longest, std::hypot(mount.x_m, mount.y_m));
-  }
-  return longest;
-}
-
 }  // namespace
 
 SteadyManoeuvre::SteadyManoeuvre(const Vehicle& vehicle, const LoadSharing& sharing,
@@ -43,7 +35,36 @@ SteadyManoeuvre::SteadyManoeuvre(const Vehicle& vehicle, const LoadSharing& shar
   laws_have_slopes_ = std::ranges::all_of(laws, [](const WheelLaw& l) { return l.has_slopes(); });
 }
 
+SteadyManoeuvre SteadyManoeuvre::turn_on_the_spot(const Vehicle& vehicle,
+                                                  const LoadSharing& sharing,
+                                                  std::span<const WheelLaw> laws, double normal_n,
+                                                  bool to_the_left) {
+  SteadyManoeuvre turn(vehicle, sharing, laws, 0, normal_n, !to_the_left);
+  turn.on_the_spot_ = true;
+  return turn;
+}
+
+PathForce SteadyManoeuvre::ahead() const {
+  if (on_the_spot_) return {.yaw_nm = direction_ * length_m_};
+  return {.forward_n = direction_};
+}
+
+double SteadyManoeuvre::ahead_n(const PathForce& force) const {
+  return direction_ * (on_the_spot_ ? force.yaw_nm / length_m_ : force.forward_n);
+}
+
+/// Slip-free, the vehicle's origin goes at 1 m/s, or the end of the longest arm turns at 1 m/s.
+double SteadyManoeuvre::rim_pace() const {
+  return on_the_spot_ ? direction_ / length_m_ : direction_;
+}
+
 BodyMotion SteadyManoeuvre::body_motion(const Point& at) const {
+  if (on_the_spot_) {
+    const double yaw_rate = rim_pace();
+    return {.vx_mps = kAngleScale * at[0],
+            .vy_mps = kAngleScale * at[1] - yaw_rate * vehicle_.turn_centre_x_m,
+            .yaw_rate_rad_s = yaw_rate};
+  }
   const double slip_angle = kAngleScale * at[0];
   return {.vx_mps = direction_ * std::cos(slip_angle),
           .vy_mps = direction_ * std::sin(slip_angle),
@@ -51,11 +72,12 @@ BodyMotion SteadyManoeuvre::body_motion(const Point& at) const {
 }
 
 SteeringCommand SteadyManoeuvre::steering(const Point& at) const {
+  if (on_the_spot_) return {};
   return {.curvature_1pm = kAngleScale * at[1] / length_m_, .crab_rad = crab_rad_};
 }
 
 std::array<SteeredWheel, kMaxWheels> SteadyManoeuvre::wheels(const Point& at) const {
-  return steered_wheels(vehicle_, steering(at));
+  return on_the_spot_ ? wheels_on_the_spot(vehicle_) : steered_wheels(vehicle_, steering(at));
 }
 
 double SteadyManoeuvre::rim_speed_mps(std::size_t wheel, const Point& at,
@@ -63,7 +85,7 @@ double SteadyManoeuvre::rim_speed_mps(std::size_t wheel, const Point& at,
                                       const WheelMotion& motion) const {
   const bool driven = vehicle_.wheels[wheel].driven;
   if (driven && vehicle_.drive_law != DriveLaw::kEqualTorque) {
-    return direction_ * (1 + kAngleScale * at[2]) * steered.rim_speed_per_speed;
+    return rim_pace() * (1 + kAngleScale * at[2]) * steered.rim_speed_per_speed;
   }
   const double mean_load = normal_n_ / static_cast<double>(vehicle_.wheels.size());
   const double torque =
@@ -78,6 +100,9 @@ double SteadyManoeuvre::rim_speed_mps(std::size_t wheel, const Point& at,
 
 GroundReaction SteadyManoeuvre::reaction(const Point& at, const ForceLine& line) const {
   const PathForce force = line.at(at[3]);
+  if (on_the_spot_) {
+    return {.normal_n = normal_n_, .forward_n = force.forward_n, .left_n = force.left_n};
+  }
   const double c = std::cos(kAngleScale * at[0]), s = std::sin(kAngleScale * at[0]);
   return {.normal_n = normal_n_,
           .forward_n = c * force.forward_n - s * force.left_n,
@@ -89,19 +114,22 @@ std::optional<SteadyManoeuvre::Residual> SteadyManoeuvre::residual(const Point& 
   const BodyMotion body = body_motion(at);
   const GroundReaction ground = reaction(at, line);
   const auto steered = wheels(at);
-  BodyForce sum;
-  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+  bool carried = true;  // and every wheel has forces
+  const BodyForce sum = sum_by_side(vehicle_, BodyForce{}, [&](BodyForce& of_side, std::size_t i) {
     const WheelMount& mount = vehicle_.wheels[i];
     const double load = sharing_.load_n(i, ground);
     WheelMotion motion = wheel_motion(mount, steered[i], body, 0);
-    if (!(load > 0) || !std::isfinite(motion.vx_mps)) return std::nullopt;
+    carried = carried && load > 0 && std::isfinite(motion.vx_mps);
+    if (!carried) return;
     motion.rim_speed_mps = rim_speed_mps(i, at, steered[i], load, motion);
     const WheelForces forces = laws_[i].forces(load, motion);
-    if (!has_forces(forces.status)) return std::nullopt;
-    sum.add(mount, steered[i], forces);
-  }
+    carried = has_forces(forces.status);
+    of_side.add(mount, steered[i], forces);
+  });
+  if (!carried) return std::nullopt;
   return Residual{(sum.forward_n - ground.forward_n) / normal_n_,
-                  (sum.left_n - ground.left_n) / normal_n_, sum.yaw_nm / (normal_n_ * length_m_)};
+                  (sum.left_n - ground.left_n) / normal_n_,
+                  (sum.yaw_nm - line.at(at[3]).yaw_nm) / (normal_n_ * length_m_)};
 }
 
 /// From the slopes of the wheels' forces, where a small change of the steering turns a wheel and
@@ -109,22 +137,29 @@ std::optional<SteadyManoeuvre::Residual> SteadyManoeuvre::residual(const Point& 
 SteadyManoeuvre::Slopes SteadyManoeuvre::slopes_by_law(const Point& at,
                                                        const ForceLine& line) const {
   const BodyMotion body = body_motion(at);
-  const BodyMotion body_by_angle{.vx_mps = -body.vy_mps, .vy_mps = body.vx_mps};
   const GroundReaction ground = reaction(at, line);
-  const double c = std::cos(kAngleScale * at[0]), s = std::sin(kAngleScale * at[0]);
+  const double angle = on_the_spot_ ? 0 : kAngleScale * at[0];
+  const double c = std::cos(angle), s = std::sin(angle);
   const PathForce& along = line.per_unit;
-  const GroundReaction ground_by_angle{.forward_n = -ground.left_n, .left_n = ground.forward_n};
+  // By the first unknown: body slip angle, or speed forward.
+  const BodyMotion body_by_first = on_the_spot_
+                                       ? BodyMotion{.vx_mps = 1}
+                                       : BodyMotion{.vx_mps = -body.vy_mps, .vy_mps = body.vx_mps};
+  const GroundReaction ground_by_first =
+      on_the_spot_ ? GroundReaction{}
+                   : GroundReaction{.forward_n = -ground.left_n, .left_n = ground.forward_n};
   const GroundReaction ground_by_p{.forward_n = c * along.forward_n - s * along.left_n,
                                    .left_n = s * along.forward_n + c * along.left_n};
   constexpr double kTurn = 1e-6;
-  Point turned = at;
-  turned[1] += kTurn;
-  const auto steered = wheels(at), steered_more = wheels(turned);
-  const double factor = direction_ * (1 + kAngleScale * at[2]);
-  Slopes slopes = Slopes::Zero();
-  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+  Point more_at = at, less_at = at;
+  more_at[1] += kTurn;
+  less_at[1] -= kTurn;
+  const auto steered = wheels(at), steered_more = wheels(more_at), steered_less = wheels(less_at);
+  const double factor = rim_pace() * (1 + kAngleScale * at[2]);
+  const Slopes zero = Slopes::Zero();
+  Slopes slopes = sum_by_side(vehicle_, zero, [&](Slopes& of_side, std::size_t i) {
     const WheelMount& mount = vehicle_.wheels[i];
-    const SteeredWheel &wheel = steered[i], &more = steered_more[i];
+    const SteeredWheel &wheel = steered[i], &more = steered_more[i], &less = steered_less[i];
     const WheelMotion motion = wheel_motion(mount, wheel, body, factor * wheel.rim_speed_per_speed);
     const SlopedForces f = laws_[i].forces_with_slopes(sharing_.load_n(i, ground), motion);
     const auto add = [&](int k, double scale, const WheelMotion& moved, double load, double turn) {
@@ -136,21 +171,26 @@ SteadyManoeuvre::Slopes SteadyManoeuvre::slopes_by_law(const Point& at,
       sum.add(
           mount, wheel,
           {.fx_n = change(f.fx) + f.fy.value_n * turn, .fy_n = change(f.fy) - f.fx.value_n * turn});
-      slopes.col(k) +=
+      of_side.col(k) +=
           scale / normal_n_ * Residual{sum.forward_n, sum.left_n, sum.yaw_nm / length_m_};
     };
-    add(0, kAngleScale, wheel_motion(mount, wheel, body_by_angle, 0),
-        sharing_.load_n(i, ground_by_angle), 0);
+    add(0, kAngleScale, wheel_motion(mount, wheel, body_by_first, 0),
+        sharing_.load_n(i, ground_by_first), 0);
+    if (on_the_spot_) {
+      add(1, kAngleScale, wheel_motion(mount, wheel, {.vy_mps = 1}, 0), 0, 0);
+    }
     const double turn =
-        (wheel.cos_steer * more.sin_steer - wheel.sin_steer * more.cos_steer) / kTurn;
-    const double faster = factor * (more.rim_speed_per_speed - wheel.rim_speed_per_speed) / kTurn;
+        (less.cos_steer * more.sin_steer - less.sin_steer * more.cos_steer) / (2 * kTurn);
+    const double faster =
+        factor * (more.rim_speed_per_speed - less.rim_speed_per_speed) / (2 * kTurn);
     add(1, 1, {motion.vy_mps * turn, -motion.vx_mps * turn, faster}, 0, turn);
-    add(2, 1, {0, 0, direction_ * kAngleScale * wheel.rim_speed_per_speed}, 0, 0);
+    add(2, 1, {0, 0, rim_pace() * kAngleScale * wheel.rim_speed_per_speed}, 0, 0);
     add(3, 1, {}, sharing_.load_n(i, ground_by_p), 0);
-  }
+  });
   slopes.col(0) -=
-      kAngleScale / normal_n_ * Residual{ground_by_angle.forward_n, ground_by_angle.left_n, 0};
-  slopes.col(3) -= Residual{ground_by_p.forward_n, ground_by_p.left_n, 0} / normal_n_;
+      kAngleScale / normal_n_ * Residual{ground_by_first.forward_n, ground_by_first.left_n, 0};
+  slopes.col(3) -=
+      Residual{ground_by_p.forward_n, ground_by_p.left_n, along.yaw_nm / length_m_} / normal_n_;
   return slopes;
 }
 
@@ -160,13 +200,26 @@ std::optional<SteadyManoeuvre::Slopes> SteadyManoeuvre::slopes(
   if (!residual_at) residual_at = residual(at, line);
   if (!residual_at) return std::nullopt;
   constexpr double kStep = 1e-3;
+  // Unknowns that have a side to the side that they lie on, so that mirrored manoeuvres have
+  // mirrored slopes; straight on, to both.
+  const double side = on_the_spot_ ? direction_
+                      : at[0] != 0 ? at[0]
+                      : at[1] != 0 ? at[1]
+                                   : curvature_1pm_;
   Slopes slopes;
   for (int k = 0; k < 4; ++k) {
+    const bool has_side = k == 1 || (k == 0 && !on_the_spot_);
     Point moved = at;
-    moved[k] += kStep;
+    moved[k] += has_side && side < 0 ? -kStep : kStep;
     const auto there = residual(moved, line);
     if (!there) return std::nullopt;
-    slopes.col(k) = (*there - *residual_at) / kStep;
+    slopes.col(k) = (*there - *residual_at) / (moved[k] - at[k]);
+    if (has_side && side == 0) {
+      moved[k] = at[k] - kStep;
+      const auto other = residual(moved, line);
+      if (!other) return std::nullopt;
+      slopes.col(k) = (*there - *other) / (2 * kStep);
+    }
   }
   return slopes;
 }
@@ -196,7 +249,8 @@ std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve(const Point& guess,
 
 std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve_from_rolling(
     const ForceLine& line) const {
-  // Outward from free rolling on either side, the first sign change of the missing forward force.
+  // Outward from free rolling on either side, the first sign change of the missing drive: of the
+  // forward force, or of the moment that turns on the spot.
   constexpr std::array<double, 12> kDriving{1.0, 1.03, 1.07, 1.12, 1.2,  1.3,
                                             1.4, 1.55, 1.75, 2.0,  2.35, 2.8};
   // Over the mean load and the wheel's radius.
@@ -205,8 +259,9 @@ std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve_from_rolling(
   const bool by_torque = vehicle_.drive_law == DriveLaw::kEqualTorque;
   const double slip_angle = kinematic_body_slip_angle_rad(vehicle_, curvature_1pm_) + crab_rad_;
   const auto point_at = [&](double drive) {
-    return Point{slip_angle / kAngleScale, curvature_1pm_ * length_m_ / kAngleScale,
-                 (by_torque ? drive : drive - 1) / kAngleScale, 0};
+    const double unknown = (by_torque ? drive : drive - 1) / kAngleScale;
+    if (on_the_spot_) return Point{0, 0, unknown, 0};
+    return Point{slip_angle / kAngleScale, curvature_1pm_ * length_m_ / kAngleScale, unknown, 0};
   };
   const auto drive_at = [&](std::size_t i, bool brakes) {
     if (by_torque) return brakes ? -kTorque[i] : kTorque[i];
@@ -214,17 +269,18 @@ std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve_from_rolling(
   };
   const auto rolling = residual(point_at(drive_at(0, false)), line);
   if (!rolling) return std::nullopt;
-  const bool must_brake = direction_ * (*rolling)[0] > 0;
-  double before = (*rolling)[0];
+  const int driven = on_the_spot_ ? 2 : 0;
+  const bool must_brake = direction_ * (*rolling)[driven] > 0;
+  double before = (*rolling)[driven];
   for (std::size_t i = 1; i < kDriving.size(); ++i) {
     const double drive = drive_at(i, must_brake), drive_before = drive_at(i - 1, must_brake);
     const auto missing = residual(point_at(drive), line);
     if (!missing) return std::nullopt;
-    if (before * (*missing)[0] <= 0) {
-      const double share = before / (before - (*missing)[0]);
+    if (before * (*missing)[driven] <= 0) {
+      const double share = before / (before - (*missing)[driven]);
       return solve(point_at(drive_before + share * (drive - drive_before)), line);
     }
-    before = (*missing)[0];
+    before = (*missing)[driven];
   }
   return std::nullopt;
 }
@@ -234,26 +290,27 @@ Trim SteadyManoeuvre::trim(const Point& at, const ForceLine& line) const {
   const GroundReaction ground = reaction(at, line);
   const auto steered = wheels(at);
   Trim trim{.force = line.at(at[3]),
-            .body_slip_angle_rad = kAngleScale * at[0],
+            .body_slip_angle_rad = on_the_spot_ ? 0 : kAngleScale * at[0],
             .steer_curvature_1pm = steering(at).curvature_1pm,
-            .drive_factor = 0,
             .wheels = {}};
-  double driven = 0;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
-    const SteeredWheel& wheel = steered[i];
     const double load = sharing_.load_n(i, ground);
-    WheelMotion motion = wheel_motion(vehicle_.wheels[i], wheel, body, 0);
-    motion.rim_speed_mps = rim_speed_mps(i, at, wheel, load, motion);
+    WheelMotion motion = wheel_motion(vehicle_.wheels[i], steered[i], body, 0);
+    motion.rim_speed_mps = rim_speed_mps(i, at, steered[i], load, motion);
     trim.wheels.push_back({.load_n = load,
-                           .steer_rad = wheel.steer_rad(),
+                           .steer_rad = steered[i].steer_rad(),
                            .slip = slip_ratio(motion),
                            .slip_angle_rad = slip_angle_rad(motion),
+                           .motion = motion,
                            .forces = laws_[i].forces(load, motion)});
-    if (!vehicle_.wheels[i].driven) continue;
-    trim.drive_factor += direction_ * motion.rim_speed_mps / wheel.rim_speed_per_speed;
-    ++driven;
   }
-  trim.drive_factor /= driven;
+  double driven = 0;
+  const double factors = sum_by_side(vehicle_, 0.0, [&](double& sum, std::size_t i) {
+    if (!vehicle_.wheels[i].driven) return;
+    sum += trim.wheels[i].motion.rim_speed_mps / (rim_pace() * steered[i].rim_speed_per_speed);
+    ++driven;
+  });
+  trim.drive_factor = factors / driven;
   return trim;
 }
 

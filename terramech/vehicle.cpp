@@ -218,6 +218,14 @@ double kinematic_body_slip_angle_rad(const Vehicle& vehicle, double curvature_1p
   return std::asin(-curvature_1pm * vehicle.turn_centre_x_m);
 }
 
+double longest_arm_m(const Vehicle& vehicle) {
+  double longest = 0;
+  for (const WheelMount& mount : vehicle.wheels) {
+    longest = std::max(longest, std::hypot(mount.x_m, mount.y_m));
+  }
+  return longest;
+}
+
 void validate(const Vehicle& vehicle) {
   if (vehicle.name.empty()) throw InputError("name: the vehicle has none");
   require_above("mass_kg", vehicle.mass_kg, 0, 1e6);

@@ -110,6 +110,9 @@ double steer_angle_rad(const Vehicle& vehicle, const WheelMount& wheel, double c
 /// `steer_angle_rad`: -asin(k x_c). Radians, odd in k, NaN where |k x_c| > 1.
 double kinematic_body_slip_angle_rad(const Vehicle& vehicle, double curvature_1pm);
 
+/// Distance of the outermost wheel from the vehicle's origin.
+double longest_arm_m(const Vehicle& vehicle);
+
 /// The vehicles that regoplan brings: `tohoku`, `lrv`, `curiosity`.
 /// \throws InputError for another name, listing these
 Vehicle preset_vehicle(const std::string& name);

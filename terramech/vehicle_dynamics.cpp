@@ -19,14 +19,6 @@ double approach(double value, double target, double rate_max, double duration_s)
   return std::abs(target - value) <= step ? target : value + std::copysign(step, target - value);
 }
 
-double longest_arm_m(const Vehicle& vehicle) {
-  double longest = 0;
-  for (const WheelMount& mount : vehicle.wheels) {
-    longest = std::max(longest, std::hypot(mount.x_m, mount.y_m));
-  }
-  return longest;
-}
-
 }  // namespace
 
 VehicleDynamics::VehicleDynamics(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws,

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 namespace regoplan {
 namespace {
@@ -45,15 +46,32 @@ UnitLoads rocker_bogie(const Vehicle& vehicle) {
   return balance.inverse().leftCols<3>();
 }
 
+/// The wheel's mirror image on the other side, itself where it stands between the sides.
+std::optional<Eigen::Index> twin_of(const Vehicle& vehicle, Eigen::Index wheel) {
+  const WheelMount& own = vehicle.wheels[static_cast<std::size_t>(wheel)];
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    if (vehicle.wheels[i].x_m == own.x_m && vehicle.wheels[i].y_m == -own.y_m) {
+      return static_cast<Eigen::Index>(i);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 LoadSharing::LoadSharing(const Vehicle& vehicle) {
   const UnitLoads unit = vehicle.suspension == Suspension::kRockerBogie ? rocker_bogie(vehicle)
                                                                         : equal_springs(vehicle);
   for (Eigen::Index i = 0; i < unit.rows(); ++i) {
-    shares_.push_back({.of_normal = unit(i, 0),
-                       .of_forward = -vehicle.cg_height_m * unit(i, 1),
-                       .of_left = -vehicle.cg_height_m * unit(i, 2)});
+    // Rounding, which a mirrored vehicle would show, is taken out where there is a twin.
+    Eigen::RowVector3d mirrored = unit.row(i);
+    if (const auto twin = twin_of(vehicle, i)) {
+      mirrored = {unit(*twin, 0), unit(*twin, 1), -unit(*twin, 2)};
+    }
+    const Eigen::RowVector3d share = (unit.row(i) + mirrored) / 2;
+    shares_.push_back({.of_normal = share[0],
+                       .of_forward = -vehicle.cg_height_m * share[1],
+                       .of_left = -vehicle.cg_height_m * share[2]});
   }
 }
 

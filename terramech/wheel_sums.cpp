@@ -7,6 +7,7 @@
 #include "terramech/rim_speed.h"
 
 namespace regoplan {
+
 namespace {
 
 constexpr double kStandstill = VehicleWheels::kStandstillSpeed_mps;
@@ -42,18 +43,24 @@ bool rolls(const WheelMotion& at) {
          std::max(std::abs(at.vx_mps), std::abs(at.rim_speed_mps)) > kMoving_mps;
 }
 
-/// A wheel's force (fx, -fy) in its own frame and its slopes.
-struct WheelSlopes {
-  double x = 0, y = 0;
-  double x_by_vx = 0, x_by_vy = 0, x_by_rim = 0;
-  double y_by_vx = 0, y_by_vy = 0, y_by_rim = 0;
-  double torque_nm = 0, sinkage_m = 0;
-  WheelStatus status = WheelStatus::kOk;
-};
+/// As the law's, but within a slip of 1e-3 of none those at that slip, carried on straight: tables
+/// bend there, where the forces turn from braking to driving, and their slopes are noise.
+SlopedForces forces_with_slopes(const WheelLaw& law, double load_n, const WheelMotion& at) {
+  constexpr double kCorner = 1e-3;
+  const double corner_mps = kCorner * at.rim_speed_mps;
+  const double excess_mps = at.rim_speed_mps - at.vx_mps;
+  if (std::abs(excess_mps) >= std::abs(corner_mps)) return law.forces_with_slopes(load_n, at);
+  const bool drives = excess_mps * corner_mps >= 0;
+  const double vx_mps = at.rim_speed_mps - (drives ? corner_mps : -corner_mps);
+  SlopedForces forces = law.forces_with_slopes(load_n, {vx_mps, at.vy_mps, at.rim_speed_mps});
+  forces.fx.value_n += forces.fx.by_vx_nspm * (at.vx_mps - vx_mps);
+  forces.fy.value_n += forces.fy.by_vx_nspm * (at.vx_mps - vx_mps);
+  return forces;
+}
 
 /// \pre `rolls(at)`, the law has slopes
 WheelSlopes faded_slopes(const WheelLaw& law, double load_n, const WheelMotion& at) {
-  const SlopedForces forces = law.forces_with_slopes(load_n, at);
+  const SlopedForces forces = forces_with_slopes(law, load_n, at);
   const SlopedForce &fx = forces.fx, &fy = forces.fy;
   const double along = length(at.vx_mps, at.rim_speed_mps);
   const double across = length(at.vy_mps, at.rim_speed_mps);
@@ -69,6 +76,7 @@ WheelSlopes faded_slopes(const WheelLaw& law, double load_n, const WheelMotion& 
           .y_by_vy = -fy.by_vy_nspm * fade_y - bend_y * at.vy_mps,
           .y_by_rim = -fy.by_rim_speed_nspm * fade_y - bend_y * at.rim_speed_mps,
           .torque_nm = forces.torque_nm * fade_x,
+          .rim_speed_mps = at.rim_speed_mps,
           .status = forces.status};
 }
 
@@ -76,16 +84,40 @@ double within(const std::optional<double>& limit, double value) {
   return limit ? std::clamp(value, -*limit, *limit) : value;
 }
 
-/// Directions of a wheel's frame, with their levers, in (forward, left, yaw).
-struct Levers {
-  Eigen::Vector3d along, across;
+/// A force in a wheel's frame, on the body.
+BodyForce on_body(const WheelMount& mount, const SteeredWheel& wheel, double x_n, double y_n) {
+  const double forward = wheel.cos_steer * x_n - wheel.sin_steer * y_n;
+  const double left = wheel.sin_steer * x_n + wheel.cos_steer * y_n;
+  return {.forward_n = forward, .left_n = left, .yaw_nm = mount.x_m * left - mount.y_m * forward};
+}
 
-  Levers(const WheelMount& mount, const SteeredWheel& wheel)
-      : along{wheel.cos_steer, wheel.sin_steer,
-              mount.x_m * wheel.sin_steer - mount.y_m * wheel.cos_steer},
-        across{-wheel.sin_steer, wheel.cos_steer,
-               mount.x_m * wheel.cos_steer + mount.y_m * wheel.sin_steer} {}
+/// Slopes of the force on the body by the velocity of its origin.
+struct BodySlopes {
+  BodyForce by_vx, by_vy, by_yaw_rate;
+
+  BodySlopes operator+(const BodySlopes& other) const {
+    return {by_vx + other.by_vx, by_vy + other.by_vy, by_yaw_rate + other.by_yaw_rate};
+  }
+  Eigen::Matrix3d matrix() const {
+    return Eigen::Matrix3d{{by_vx.forward_n, by_vy.forward_n, by_yaw_rate.forward_n},
+                           {by_vx.left_n, by_vy.left_n, by_yaw_rate.left_n},
+                           {by_vx.yaw_nm, by_vy.yaw_nm, by_yaw_rate.yaw_nm}};
+  }
 };
+
+BodySlopes on_body(const WheelMount& mount, const SteeredWheel& wheel, const WheelSlopes& f) {
+  const double c = wheel.cos_steer, s = wheel.sin_steer;
+  const BodyForce by_vx =
+      on_body(mount, wheel, f.x_by_vx * c - f.x_by_vy * s, f.y_by_vx * c - f.y_by_vy * s);
+  const BodyForce by_vy =
+      on_body(mount, wheel, f.x_by_vx * s + f.x_by_vy * c, f.y_by_vx * s + f.y_by_vy * c);
+  const double x = mount.x_m, y = mount.y_m;
+  return {by_vx,
+          by_vy,
+          {.forward_n = x * by_vy.forward_n - y * by_vx.forward_n,
+           .left_n = x * by_vy.left_n - y * by_vx.left_n,
+           .yaw_nm = x * by_vy.yaw_nm - y * by_vx.yaw_nm}};
+}
 
 void add_contact(WheelStrain& strain, double radius_m, WheelStatus status, double sinkage_m,
                  double torque_nm) {
@@ -132,11 +164,9 @@ double VehicleWheels::shared_torque_nm(const BodyMotion& motion, const WheelSett
   if (vehicle_.drive_law != DriveLaw::kEqualTorque) return 0;
   double most_nm = 0, axle_mps = 0;
   const auto excess_mps = [&](double torque_nm) {
-    double sum = 0;
-    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
-      if (!vehicle_.wheels[i].driven) continue;
+    return sum_by_side(vehicle_, 0.0, [&](double& sum, std::size_t i) {
       const double load = sharing_.load_n(i, reaction);
-      if (!(load > 0)) continue;
+      if (!vehicle_.wheels[i].driven || !(load > 0)) return;
       const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
       const WheelMotion at =
           wheel_motion(vehicle_.wheels[i], setting.wheels[i], motion,
@@ -144,8 +174,7 @@ double VehicleWheels::shared_torque_nm(const BodyMotion& motion, const WheelSett
       most_nm = std::max(most_nm, load * vehicle_.wheel.radius_m);
       axle_mps = std::max(axle_mps, std::abs(at.vx_mps));
       sum += response(i, law, load, at, torque_nm).rim_speed_mps - at.rim_speed_mps;
-    }
-    return sum;
+    });
   };
   const double limit = vehicle_.torque_max_nm.value_or(std::numeric_limits<double>::infinity());
   double low = 0, f_low = excess_mps(0);
@@ -176,10 +205,17 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
   const double shared = shared_torque_nm(motion, setting, patch, reaction);
   WheelSums sums;
   sums.contact.load_min_n = reaction.normal_n;
-  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+  struct OfSide {
+    BodyForce force;
+    double drive_power_w = 0;
+    OfSide operator+(const OfSide& other) const {
+      return {force + other.force, drive_power_w + other.drive_power_w};
+    }
+  };
+  const OfSide sum = sum_by_side(vehicle_, OfSide{}, [&](OfSide& of_side, std::size_t i) {
     const double load = sharing_.load_n(i, reaction);
     sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
-    if (!(load > 0)) continue;
+    if (!(load > 0)) return;
     const WheelMount& mount = vehicle_.wheels[i];
     const SteeredWheel& wheel = setting.wheels[i];
     const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
@@ -197,14 +233,49 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
       at.rim_speed_mps = response.rim_speed_mps;
       sums.as_commanded = false;
     }
-    sums.force.add(mount, wheel, forces);
+    of_side.force.add(mount, wheel, forces);
     add_contact(sums.contact, vehicle_.wheel.radius_m, forces.status, forces.sinkage_m,
                 forces.torque_nm);
     sums.slips.add(at);
-    sums.drive_power_w +=
+    of_side.drive_power_w +=
         std::max(forces.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
-  }
+  });
+  sums.force = sum.force;
+  sums.drive_power_w = sum.drive_power_w;
   return sums;
+}
+
+/// By differences of the law, a wheel's answer to its motor included.
+WheelSlopes VehicleWheels::slopes_by_differences(std::size_t wheel, const WheelLaw& law,
+                                                 double load_n, const WheelMotion& at) const {
+  const Response here = response(wheel, law, load_n, at, 0);
+  const double h = 1e-4 * std::max({std::abs(at.vx_mps), std::abs(at.vy_mps),
+                                    std::abs(at.rim_speed_mps), kStandstill});
+  // Outward, so that mirrored and reversed motions have mirrored and reversed slopes.
+  const double hx = std::copysign(h, at.vx_mps != 0 ? at.vx_mps : at.rim_speed_mps);
+  const double hy = std::copysign(h, at.vy_mps);
+  const WheelForces ahead =
+      response(wheel, law, load_n, {at.vx_mps + hx, at.vy_mps, at.rim_speed_mps}, 0).forces;
+  const WheelForces aside =
+      response(wheel, law, load_n, {at.vx_mps, at.vy_mps + hy, at.rim_speed_mps}, 0).forces;
+  WheelSlopes f{.x = here.forces.fx_n,
+                .y = -here.forces.fy_n,
+                .x_by_vx = (ahead.fx_n - here.forces.fx_n) / hx,
+                // Fx is even in the lateral motion.
+                .x_by_vy = at.vy_mps == 0 ? 0 : (aside.fx_n - here.forces.fx_n) / hy,
+                .y_by_vx = (here.forces.fy_n - ahead.fy_n) / hx,
+                .y_by_vy = (here.forces.fy_n - aside.fy_n) / hy,
+                .torque_nm = here.forces.torque_nm,
+                .sinkage_m = here.forces.sinkage_m,
+                .rim_speed_mps = here.rim_speed_mps,
+                .as_commanded = here.as_commanded,
+                .status = here.forces.status};
+  if (here.as_commanded && at.rim_speed_mps != 0) {
+    // Forces depend on ratios of speeds only, but for the little they fade.
+    f.x_by_rim = -(at.vx_mps * f.x_by_vx + at.vy_mps * f.x_by_vy) / at.rim_speed_mps;
+    f.y_by_rim = -(at.vx_mps * f.y_by_vx + at.vy_mps * f.y_by_vy) / at.rim_speed_mps;
+  }
+  return f;
 }
 
 SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
@@ -226,17 +297,27 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     };
     const auto& [vx, vy, r] = motion;
     result.slopes.col(0) = moved({vx + h, vy, r}) / h;
-    result.slopes.col(1) = moved({vx, vy + h, r}) / h;
-    result.slopes.col(2) = moved({vx, vy, r + h}) / h;
+    // To both sides, so that mirrored motions have mirrored slopes.
+    result.slopes.col(1) = (moved({vx, vy + h, r}) - moved({vx, vy - h, r})) / (2 * h);
+    result.slopes.col(2) = (moved({vx, vy, r + h}) - moved({vx, vy, r - h})) / (2 * h);
     return result;
   }
   WheelSums& sums = result.sums;
-  Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();
   sums.contact.load_min_n = reaction.normal_n;
-  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+  const bool changes = &next != &setting;
+  struct OfSide {
+    BodyForce force, by_setting;
+    BodySlopes slopes;
+    double drive_power_w = 0;
+    OfSide operator+(const OfSide& other) const {
+      return {force + other.force, by_setting + other.by_setting, slopes + other.slopes,
+              drive_power_w + other.drive_power_w};
+    }
+  };
+  const OfSide sum = sum_by_side(vehicle_, OfSide{}, [&](OfSide& of_side, std::size_t i) {
     const double load = sharing_.load_n(i, reaction);
     sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
-    if (!(load > 0)) continue;
+    if (!(load > 0)) return;
     const WheelMount& mount = vehicle_.wheels[i];
     const SteeredWheel& wheel = setting.wheels[i];
     const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
@@ -249,54 +330,36 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
       as_commanded = within(vehicle_.torque_max_nm, f.torque_nm) == f.torque_nm;
       sums.sinkage_known = false;
     }
-    if (!as_commanded || !law.has_slopes()) {
-      const Response here = response(i, law, load, at, 0);
-      const double h = 1e-4 * std::max({std::abs(at.vx_mps), std::abs(at.vy_mps),
-                                        std::abs(at.rim_speed_mps), kStandstill});
-      const WheelForces ahead =
-          response(i, law, load, {at.vx_mps + h, at.vy_mps, at.rim_speed_mps}, 0).forces;
-      const WheelForces aside =
-          response(i, law, load, {at.vx_mps, at.vy_mps + h, at.rim_speed_mps}, 0).forces;
-      as_commanded = as_commanded && here.as_commanded;
-      f = {.x = here.forces.fx_n,
-           .y = -here.forces.fy_n,
-           .x_by_vx = (ahead.fx_n - here.forces.fx_n) / h,
-           .x_by_vy = (aside.fx_n - here.forces.fx_n) / h,
-           .y_by_vx = (here.forces.fy_n - ahead.fy_n) / h,
-           .y_by_vy = (here.forces.fy_n - aside.fy_n) / h,
-           .torque_nm = here.forces.torque_nm,
-           .sinkage_m = here.forces.sinkage_m,
-           .status = here.forces.status};
-      if (as_commanded) {  // forces depend on ratios of speeds only, but for the little they fade
-        f.x_by_rim = -(at.vx_mps * f.x_by_vx + at.vy_mps * f.x_by_vy) / at.rim_speed_mps;
-        f.y_by_rim = -(at.vx_mps * f.y_by_vx + at.vy_mps * f.y_by_vy) / at.rim_speed_mps;
-      }
-      at.rim_speed_mps = here.rim_speed_mps;
+    if (!as_commanded || !law.has_slopes()) [[unlikely]] {
+      f = slopes_by_differences(i, law, load, at);
     }
+    as_commanded = as_commanded && f.as_commanded;
+    at.rim_speed_mps = f.rim_speed_mps;
     result.smooth = result.smooth && as_commanded;
 
-    const Levers lever(mount, wheel);
-    const Eigen::Vector3d force = f.x * lever.along + f.y * lever.across;
-    sums.force.forward_n += force[0];
-    sums.force.left_n += force[1];
-    sums.force.yaw_nm += force[2];
-    const Eigen::Vector3d x_by = f.x_by_vx * lever.along + f.x_by_vy * lever.across;
-    const Eigen::Vector3d y_by = f.y_by_vx * lever.along + f.y_by_vy * lever.across;
-    for (int k = 0; k < 3; ++k) slopes.col(k) += x_by[k] * lever.along + y_by[k] * lever.across;
-    if (result.smooth) {
+    of_side.force = of_side.force + on_body(mount, wheel, f.x, f.y);
+    of_side.slopes = of_side.slopes + on_body(mount, wheel, f);
+    if (changes && result.smooth) {
       const SteeredWheel& to = next.wheels[i];
       const double turn = wheel.cos_steer * to.sin_steer - wheel.sin_steer * to.cos_steer;
       const double faster = next.rim_speed * to.rim_speed_per_speed - at.rim_speed_mps;
       const double vx = at.vy_mps * turn, vy = -at.vx_mps * turn;
-      result.by_setting +=
-          (f.x_by_vx * vx + f.x_by_vy * vy + f.x_by_rim * faster - f.y * turn) * lever.along +
-          (f.y_by_vx * vx + f.y_by_vy * vy + f.y_by_rim * faster + f.x * turn) * lever.across;
+      of_side.by_setting =
+          of_side.by_setting +
+          on_body(mount, wheel, f.x_by_vx * vx + f.x_by_vy * vy + f.x_by_rim * faster - f.y * turn,
+                  f.y_by_vx * vx + f.y_by_vy * vy + f.y_by_rim * faster + f.x * turn);
     }
     add_contact(sums.contact, vehicle_.wheel.radius_m, f.status, f.sinkage_m, f.torque_nm);
     sums.slips.add(at);
-    sums.drive_power_w += std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
+    of_side.drive_power_w +=
+        std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
+  });
+  sums.force = sum.force;
+  sums.drive_power_w = sum.drive_power_w;
+  result.slopes = sum.slopes.matrix();
+  if (result.smooth) {
+    result.by_setting = {sum.by_setting.forward_n, sum.by_setting.left_n, sum.by_setting.yaw_nm};
   }
-  result.slopes = slopes;
   return result;
 }
 

@@ -85,6 +85,17 @@ struct SlopedWheelSums {
   bool smooth = true;
 };
 
+/// A wheel's force (fx, -fy) in its own frame and its slopes.
+struct WheelSlopes {
+  double x = 0, y = 0;
+  double x_by_vx = 0, x_by_vy = 0, x_by_rim = 0;
+  double y_by_vx = 0, y_by_vy = 0, y_by_rim = 0;
+  double torque_nm = 0, sinkage_m = 0;
+  double rim_speed_mps = 0;  ///< at which it turns
+  bool as_commanded = true;  ///< which is its commanded speed
+  WheelStatus status = WheelStatus::kOk;
+};
+
 /// The wheels of a vehicle, each on its soil: the wheel model's forces at the motion of each
 /// contact, with the rim speeds that the drive law and the motors' torque limit give. Near
 /// standstill the forces fade with the speed that they oppose, because a locked wheel shears the
@@ -99,7 +110,7 @@ class VehicleWheels {
   WheelSums sums(const BodyMotion& motion, const WheelSetting& setting, const GroundPatch& patch,
                  const GroundReaction& reaction) const;
 
-  /// \param next setting that `by_setting` leads to
+  /// \param next setting that `by_setting` leads to; `setting` itself where nothing changes
   SlopedWheelSums sums_with_slopes(const BodyMotion& motion, const WheelSetting& setting,
                                    const WheelSetting& next, const GroundPatch& patch,
                                    const GroundReaction& reaction) const;
@@ -112,7 +123,8 @@ class VehicleWheels {
 
  private:
   struct Response;
-  double commanded_rim_mps(std::size_t wheel, const WheelSetting& setting) const;
+  WheelSlopes slopes_by_differences(std::size_t wheel, const WheelLaw& law, double load_n,
+                                    const WheelMotion& at) const;
   Response response(std::size_t wheel, const WheelLaw& law, double load_n, WheelMotion at,
                     double shared_torque_nm) const;
   double shared_torque_nm(const BodyMotion& motion, const WheelSetting& setting,

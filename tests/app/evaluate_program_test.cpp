@@ -115,6 +115,8 @@ TEST_F(Evaluate, BadPathsAreRefusedWithFileAndLine) {
   expect_refused(file("p.csv", "x_m\n10\n"), {"p.csv:1: column y_m is missing"});
   expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,0\n20,20,99\n30,20,0\n"),
                  {"p.csv:3: speed_mps: 99 is not valid"});
+  expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,-1\n20,20,1\n30,20,0\n"),
+                 {"p.csv:3: speed_mps: 1 is not valid", "one direction"});
   expect_refused(file("p.csv", ""), {"p.csv: empty"});
   expect_refused("'" + folder_.path("none.csv") + "'", {"none.csv: no such file"});
   expect_refused(file("p.csv", "x_m,y_m\n10,20\n20,20\n") + " --speed 50", {"--speed: 50"});
@@ -125,7 +127,9 @@ TEST_F(Evaluate, BadManoeuvresAreRefusedWithFileAndLine) {
   const auto manoeuvres = [this](const std::string& text) {
     return "--manoeuvres " + file("m.yaml", text);
   };
-  expect_refused(manoeuvres("- {kind: point_turn}\n"), {"m.yaml:1: ", "point_turn"});
+  expect_refused(manoeuvres("- {kind: point_turn}\n"), {"m.yaml:1: ", "cannot turn on the spot"});
+  expect_refused(manoeuvres("- {kind: point_turn, vehicle: curiosity, turn_rate_deg_s: 90}\n"),
+                 {"m.yaml:1: ", "turn_rate_deg_s: 90"});
   expect_refused(manoeuvres("- {kind: steady_turn}\n"), {"m.yaml:1: ", "radius_m is missing"});
   expect_refused(manoeuvres("- {kind: steady_turn, radius_m: 9, speed_mps: 70}\n"),
                  {"m.yaml:1: ", "speed_mps: 70"});

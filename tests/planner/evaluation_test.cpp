@@ -6,6 +6,7 @@
 
 #include "planner/manoeuvres.h"
 #include "planner/plan.h"
+#include "terramech/input_error.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {
@@ -53,7 +54,9 @@ PathEvaluation evaluated(const Manoeuvre& manoeuvre,
                          const EvaluationSettings& settings = kSettings) {
   const PlanningProblem base = flat_problem();
   const PreparedManoeuvre prepared = prepare(manoeuvre, base.limits, base);
-  return evaluated(prepared.problem, prepared.path, settings);
+  const World world(prepared.problem, WorldUse::kVerdict, 1);
+  return std::visit([&](const auto& course) { return evaluate(world, course, settings); },
+                    prepared.course);
 }
 
 TEST(Evaluation, AStraightPathOnFirmGroundIsFeasibleAndTrackedClosely) {
@@ -155,6 +158,85 @@ TEST(Evaluation, EveryKindOfManoeuvreEndsInAVerdict) {
     EXPECT_TRUE(e.feasible) << name(kind) << ": " << sentence(*e.refusal);
     EXPECT_LT(e.tracking.deviation_max_m, 0.3) << name(kind);
   }
+}
+
+/// Turns Curiosity on a plane of its own.
+Manoeuvre point_turn(double slope_deg) {
+  Manoeuvre m = turn(1);
+  m.kind = ManoeuvreKind::kPointTurn;
+  m.vehicle = preset_vehicle("curiosity");
+  m.slope_rad = slope_deg * kTestDegree;
+  m.turn_rate_rad_s = 1 * kTestDegree;
+  m.angle_rad = 60 * kTestDegree;
+  return m;
+}
+
+PathEvaluation evaluated_on_its_own_limits(const Manoeuvre& manoeuvre) {
+  const PlanningProblem base = flat_problem();
+  const PreparedManoeuvre prepared = prepare(manoeuvre, default_limits(manoeuvre.vehicle), base);
+  const World world(prepared.problem, WorldUse::kVerdict, 1);
+  return evaluate(world, std::get<SpotTurn>(prepared.course), kSettings);
+}
+
+TEST(Evaluation, APointTurnOnTheFlatTurnsWhereItStands) {
+  for (const bool right : {false, true}) {
+    Manoeuvre m = point_turn(0);
+    m.to_the_right = right;
+    const PathEvaluation e = evaluated_on_its_own_limits(m);
+    EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
+    EXPECT_EQ(e.tracking.end, TrackingEnd::kArrived);
+    EXPECT_LT(e.tracking.deviation_max_m, 0.02);
+    EXPECT_NEAR(e.tracking.last.state.yaw_rad, (right ? -1 : 1) * m.angle_rad, 0.02);
+    for (const TrajectoryPoint& point : e.points) EXPECT_NEAR(point.demand_n, 0, 1e-9);
+    // All headings are alike there.
+    EXPECT_NEAR(e.points.front().margin, e.points.back().margin, 1e-6);
+  }
+}
+
+TEST(Evaluation, APointTurnOnASlopeIsWorseTheSteeperItIs) {
+  double before = 1;
+  for (const double slope_deg : {0.0, 8.0, 16.0, 29.0}) {
+    const PathEvaluation e = evaluated_on_its_own_limits(point_turn(slope_deg));
+    EXPECT_LT(e.margin_min, before) << slope_deg;
+    before = e.margin_min;
+    if (slope_deg == 29) {
+      EXPECT_FALSE(e.feasible);
+    }
+  }
+}
+
+TEST(Evaluation, APointTurnOfAVehicleThatCannotIsAnError) {
+  Manoeuvre m = point_turn(0);
+  m.vehicle = preset_vehicle("lrv");  // its wheels do not reach the angle
+  const PlanningProblem base = flat_problem();
+  EXPECT_THROW(prepare(m, base.limits, base), InputError);
+}
+
+TEST(Evaluation, APathIsReversedAsItIsDriven) {
+  // An LRV is its own mirror image: backwards on the mirrored path it fares as forwards.
+  std::vector<PathPoint> bend;
+  for (double s = 0; s <= 1.2; s += 0.1)
+    bend.push_back({15 + 20 * std::sin(s), 45 - 20 * std::cos(s)});
+  ReferencePath ahead = reference(bend, 2);
+  const PathEvaluation forwards = evaluated(flat_problem(), ahead);
+  ahead.reverse = true;
+  const PathEvaluation back = evaluated(flat_problem(), ahead);
+  EXPECT_TRUE(back.feasible) << sentence(*back.refusal);
+  EXPECT_NEAR(back.margin_min, forwards.margin_min, 1e-6);
+  EXPECT_NEAR(back.tracking.deviation_max_m, forwards.tracking.deviation_max_m, 1e-6);
+  EXPECT_LT(back.points.front().speed_mps, 0);
+}
+
+TEST(Evaluation, VehiclesThatAreNotTheirOwnMirrorImageReverseTheirPathsToo) {
+  PlanningProblem problem = flat_problem();
+  problem.vehicle = preset_vehicle("curiosity");
+  problem.limits = default_limits(problem.vehicle);
+  problem.speed_max_mps = problem.vehicle.speed_max_mps * kSpeedTolerance;
+  ReferencePath path = reference({{20, 20}, {22, 20.1}, {24, 20.8}, {25.5, 22}}, 0.04);
+  path.reverse = true;
+  const PathEvaluation e = evaluated(problem, path);
+  EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
+  EXPECT_LT(e.tracking.deviation_max_m, 0.05);
 }
 
 TEST(Evaluation, SameSeedSameResultWhateverTheThreads) {

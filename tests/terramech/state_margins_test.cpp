@@ -209,6 +209,66 @@ TEST(StateMargins, DoNotDependOnWhichWayTheMapLies) {
   EXPECT_NEAR(*east.stability(), *north.stability(), 1e-9);
 }
 
+/// A turn on the spot at a heading on a plane.
+StateMargins turn_margins(const Driving& rover, double rate_rad_s, double yaw_rad = 0) {
+  VehicleState state = rover.dynamics.rolling_state(0, 0, yaw_rad, 0);
+  state.turn_rate_rad_s = rate_rad_s;
+  return rover.margins(state);
+}
+
+TEST(StateMargins, OfATurnOnTheSpotAreTheSameToEitherSide) {
+  const Driving rover("curiosity");
+  const StateMargins left = turn_margins(rover, 0.02), right = turn_margins(rover, -0.02);
+  ASSERT_TRUE(left.stability() && right.stability());
+  EXPECT_NEAR(*left.stability(), *right.stability(), 1e-12);
+  EXPECT_EQ(left.demand_n, 0);
+  EXPECT_GT(*left.traction, 0.2);
+}
+
+TEST(StateMargins, OfATurnOnTheSpotShrinkOnASlopeAtEveryHeading) {
+  const Driving flat("curiosity"), slope("curiosity", Plane{std::tan(15 * kDegree), 0});
+  for (int degrees = 0; degrees < 360; degrees += 45) {
+    const StateMargins margins = turn_margins(slope, 0.02, degrees * kDegree);
+    ASSERT_TRUE(margins.stability()) << degrees;
+    EXPECT_LT(*margins.stability(), *turn_margins(flat, 0.02).stability() - 0.1) << degrees;
+  }
+  // Held by side forces when it stands across.
+  const double weight = slope.on.weight_n();
+  EXPECT_NEAR(std::abs(turn_margins(slope, 0.02, 90 * kDegree).demand_n),
+              weight * std::sin(15 * kDegree), 1e-3 * weight);
+}
+
+TEST(StateMargins, OfATurnOnTheSpotEndWhereScrubIsBeyondTheWheels) {
+  Vehicle vehicle = skid_steered();
+  const auto traction = [](const Vehicle& on_it) {
+    const VehicleOnSoil on(on_it, firm_regolith(), kMoon_mps2);
+    const auto turn = SteadyManoeuvre::turn_on_the_spot(on.vehicle, on.sharing, on.wheel_laws,
+                                                        on.weight_n(), true);
+    return largest_traction_n(turn, {}, limits_of(on.vehicle)).value_or(-1) / on.weight_n();
+  };
+  vehicle.slip_angle_max_rad = 60 * kDegree;
+  const double whole = traction(vehicle);
+  EXPECT_GT(whole, 0.02);
+  vehicle.torque_max_nm = 25;  // motors that scrub all but stalls
+  EXPECT_LT(traction(vehicle), whole);
+  vehicle.torque_max_nm.reset();
+  for (WheelMount& wheel : vehicle.wheels) wheel.x_m *= 2.5;
+  EXPECT_LT(traction(vehicle), 0);  // no trim: dragged at 51 deg, it spins
+}
+
+TEST(Demand, OfAVehicleAtRestIsReverseWhereItIsToReverse) {
+  const Driving lrv("lrv");
+  VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 0, 0.1);
+  EXPECT_FALSE(lrv.question(state, patch_with(0, 0)).reverse);
+  state.rim_acceleration_mps2 = -0.3;
+  EXPECT_TRUE(lrv.question(state, patch_with(0, 0)).reverse);
+  state.motion.vx_mps = 0.5;  // brakes, rims at rest already
+  EXPECT_FALSE(lrv.question(state, patch_with(0, 0)).reverse);
+  state.motion.vx_mps = -0.5;
+  state.rim_acceleration_mps2 = 0.3;
+  EXPECT_TRUE(lrv.question(state, patch_with(0, 0)).reverse);
+}
+
 TEST(SolvedSupply, TakesEachWheelsOwnSoil) {
   const VehicleOnSoil firm("lrv"), soft("lrv", soft_patch());
   const std::vector<WheelLaw> laws{WheelLaw(firm.model), WheelLaw(soft.model)};

@@ -6,10 +6,13 @@
 #include <vector>
 
 #include "terramech/force_table.h"
+#include "terramech/vehicle_dynamics.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {
 namespace {
+
+constexpr double kRounding = 1e-12;
 
 ForceLine at_force(double forward_n, double left_n) {
   return {.from = {.forward_n = forward_n, .left_n = left_n}, .per_unit = {}};
@@ -74,8 +77,8 @@ TEST(Trim, SlipAnglesAreThoseOfTheRigidBodyAboutThePathsCentre) {
 TEST(Trim, StraightOnTheFlatNeedsNoSteeringAndALittleDriveAgainstTheSoil) {
   for (const std::string& name : preset_vehicle_names()) {
     const Trim trim = trim_of(VehicleOnSoil(name).manoeuvre(0), 0);
-    EXPECT_NEAR(trim.steer_curvature_1pm, 0, 1e-6) << name;
-    EXPECT_NEAR(trim.body_slip_angle_rad, 0, 1e-6) << name;
+    EXPECT_NEAR(trim.steer_curvature_1pm, 0, kRounding) << name;
+    EXPECT_NEAR(trim.body_slip_angle_rad, 0, kRounding) << name;
     for (const TrimmedWheel& wheel : trim.wheels) EXPECT_GT(wheel.forces.torque_nm, 0) << name;
   }
 }
@@ -103,11 +106,14 @@ TEST(Trim, MirrorsWithTheManoeuvre) {
     const double forward_n = 0.1 * on.weight_n(), left_n = 0.2 * on.weight_n();
     const Trim one = trim_of(on.manoeuvre(k), forward_n, left_n);
     const Trim other = trim_of(on.manoeuvre(-k), forward_n, -left_n);
-    EXPECT_NEAR(one.body_slip_angle_rad, -other.body_slip_angle_rad, 1e-4) << name;
-    EXPECT_NEAR(one.steer_curvature_1pm, -other.steer_curvature_1pm, 2e-4) << name;
-    EXPECT_NEAR(one.drive_factor, other.drive_factor, 1e-4) << name;
+    EXPECT_NEAR(one.body_slip_angle_rad, -other.body_slip_angle_rad, kRounding) << name;
+    EXPECT_NEAR(one.steer_curvature_1pm, -other.steer_curvature_1pm, kRounding) << name;
+    EXPECT_NEAR(one.drive_factor, other.drive_factor, kRounding) << name;
+    const double close = kRounding * on.weight_n();
     for (std::size_t i = 0; i < one.wheels.size(); i += 2) {  // wheels come in pairs
-      EXPECT_NEAR(one.wheels[i].load_n, other.wheels[i + 1].load_n, 1e-3 * on.weight_n()) << name;
+      EXPECT_NEAR(one.wheels[i].load_n, other.wheels[i + 1].load_n, close) << name;
+      EXPECT_NEAR(one.wheels[i].forces.fx_n, other.wheels[i + 1].forces.fx_n, close) << name;
+      EXPECT_NEAR(one.wheels[i].forces.fy_n, -other.wheels[i + 1].forces.fy_n, close) << name;
     }
   }
 }
@@ -117,8 +123,8 @@ TEST(Trim, AVehicleThatIsItsOwnMirrorImageFrontToRearReversesAsItDrives) {
   const double k = 0.3, forward_n = 0.15 * on.weight_n(), left_n = 0.2 * on.weight_n();
   const Trim ahead = trim_of(on.manoeuvre(k), forward_n, left_n);
   const Trim back = trim_of(on.manoeuvre(k, true), -forward_n, left_n);
-  EXPECT_NEAR(ahead.drive_factor, back.drive_factor, 1e-4);
-  EXPECT_NEAR(ahead.steer_curvature_1pm, back.steer_curvature_1pm, 2e-4);
+  EXPECT_NEAR(ahead.drive_factor, back.drive_factor, 1e-6);
+  EXPECT_NEAR(ahead.steer_curvature_1pm, back.steer_curvature_1pm, 1e-6);
   // The tail of the one is the nose of the other.
   EXPECT_NEAR(ahead.wheels[0].load_n, back.wheels[2].load_n, 1e-3 * on.weight_n());
 }
@@ -193,6 +199,91 @@ TEST(Trim, CrabSteeringMovesAlongItsWheels) {
   for (const TrimmedWheel& wheel : trim.wheels) {
     EXPECT_NEAR(wheel.steer_rad, 0.3, 1e-5);
     EXPECT_NEAR(wheel.slip_angle_rad, 0, 1e-5);
+  }
+}
+
+Trim turn_trim(const SteadyManoeuvre& turn, const PathForce& force = {}) {
+  const ForceLine line{.from = force, .per_unit = {}};
+  const auto at = turn.solve_from_rolling(line);
+  EXPECT_TRUE(at);
+  return at ? turn.trim(*at, line) : Trim{};
+}
+
+TEST(PointTrim, BalancesForcesAndYawMomentByHand) {
+  for (const Vehicle& vehicle : {preset_vehicle("curiosity"), skid_steered()}) {
+    const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+    const double weight = on.weight_n();
+    const PathForce force{.forward_n = 0.08 * weight, .left_n = -0.05 * weight};
+    for (const bool left : {true, false}) {
+      const Trim trim = turn_trim(
+          SteadyManoeuvre::turn_on_the_spot(on.vehicle, on.sharing, on.wheel_laws, weight, left),
+          force);
+      ASSERT_EQ(trim.wheels.size(), on.vehicle.wheels.size());
+      BodyForce sum;
+      for (std::size_t i = 0; i < trim.wheels.size(); ++i) {
+        const TrimmedWheel& wheel = trim.wheels[i];
+        sum.add(on.vehicle.wheels[i],
+                {.cos_steer = std::cos(wheel.steer_rad), .sin_steer = std::sin(wheel.steer_rad)},
+                wheel.forces);
+        // Rims of the side that is behind turn backwards.
+        EXPECT_EQ(wheel.motion.rim_speed_mps > 0, (on.vehicle.wheels[i].y_m < 0) == left);
+      }
+      EXPECT_NEAR(sum.forward_n, force.forward_n, 1e-4 * weight) << vehicle.name;
+      EXPECT_NEAR(sum.left_n, force.left_n, 1e-4 * weight) << vehicle.name;
+      EXPECT_NEAR(sum.yaw_nm, 0, 1e-4 * weight) << vehicle.name;
+    }
+  }
+}
+
+TEST(PointTrim, ScrubTakesDriveWhereWheelsDoNotSteer) {
+  const VehicleOnSoil steered("curiosity"), dragged(skid_steered(), firm_regolith(), kMoon_mps2);
+  const auto factor = [](const VehicleOnSoil& on) {
+    return turn_trim(SteadyManoeuvre::turn_on_the_spot(on.vehicle, on.sharing, on.wheel_laws,
+                                                       on.weight_n(), true))
+        .drive_factor;
+  };
+  const double straight_on = trim_of(steered.manoeuvre(0), 0).drive_factor;
+  EXPECT_NEAR(factor(steered), straight_on, 0.01);
+  EXPECT_GT(factor(dragged), 1.15);
+}
+
+TEST(PointTrim, IsThatOfTheDynamics) {
+  for (const Vehicle& vehicle : {preset_vehicle("curiosity"), skid_steered()}) {
+    const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+    const VehicleDynamics dynamics(on.vehicle, on.soil_laws, Plane{}, on.gravity_mps2);
+    const double rate = 0.5 * on.vehicle.speed_max_mps / longest_arm_m(on.vehicle);
+    VehicleState state = dynamics.rolling_state(0, 0, 0, 0);
+    for (int i = 0; i < 300; ++i) {
+      state = dynamics.step(state, {.turn_rate_target_rad_s = rate}, 0.1).state;
+    }
+    const Trim trim = turn_trim(SteadyManoeuvre::turn_on_the_spot(
+        on.vehicle, on.sharing, on.wheel_laws, on.weight_n(), true));
+    EXPECT_NEAR(rate / state.motion.yaw_rate_rad_s, trim.drive_factor, 2e-2 * trim.drive_factor)
+        << vehicle.name;
+  }
+}
+
+TEST(PointTrim, SlopesOfATabledLawAreThoseOfTheBalance) {
+  const VehicleOnSoil on(skid_steered(), firm_regolith(), kMoon_mps2);
+  const ForceTable table({.model = on.model.spec(),
+                          .nominal_load_n = on.weight_n() / 4,
+                          .accuracy = {.at_999_permille = 5e-3, .at_worst = 2e-2}});
+  const std::vector<WheelLaw> laws(4, WheelLaw(table));
+  const auto turn =
+      SteadyManoeuvre::turn_on_the_spot(on.vehicle, on.sharing, laws, on.weight_n(), false);
+  const ForceLine line{.from = {.forward_n = 0.1 * on.weight_n()},
+                       .per_unit = {.left_n = on.weight_n(), .yaw_nm = 0.5 * on.weight_n()}};
+  const SteadyManoeuvre::Point at{0.1, -0.2, 1.2, 0.05};
+  const auto slopes = turn.slopes(at, line);
+  ASSERT_TRUE(slopes);
+  constexpr double kStep = 1e-4;
+  for (int k = 0; k < 4; ++k) {
+    SteadyManoeuvre::Point up = at, down = at;
+    up[k] += kStep;
+    down[k] -= kStep;
+    const SteadyManoeuvre::Residual slope =
+        (*turn.residual(up, line) - *turn.residual(down, line)) / (2 * kStep);
+    EXPECT_LT((slopes->col(k) - slope).norm(), 5e-3 * slope.norm()) << k;
   }
 }
 
