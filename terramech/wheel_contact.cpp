@@ -17,16 +17,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "terramech/vector_clones.h"
 #include "terramech/vector_math.h"
-
-// One build serves every x86-64: the integrals are compiled for the plain instruction set and for
-// AVX2 (x86-64-v3), and chosen when the program is loaded. The same machine always gives the same
-// bits; machines with and without AVX2 differ by rounding, as the former fuse (CMakeLists.txt).
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define REGOPLAN_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3")))
-#else
-#define REGOPLAN_VECTOR_CLONES
-#endif
 
 namespace regoplan::wheel_contact {
 namespace {
