@@ -13,45 +13,17 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "terramech/graded_nodes.h"
 #include "terramech/vector_clones.h"
 #include "terramech/vector_math.h"
 
 namespace regoplan::wheel_contact {
 namespace {
 
-using vector_math::kLanes;
 using vector_math::Vec;
-
-/// Gauss-Legendre nodes t in (0, 1), graded by theta = theta_f - (theta_f - theta_m) t^3 towards
-/// the entry and likewise towards the exit, where stress and shear have their corners (n < 1, a
-/// locked wheel, beta near 90 deg). Holds t^3 and 3 t^2 w.
-template <std::size_t kNodes>
-struct GradedNodes {
-  static constexpr std::size_t kVectors = kNodes / kLanes;
-  std::array<Vec, kVectors> t3;
-  std::array<Vec, kVectors> weight;
-
-  GradedNodes() {
-    using Gauss = boost::math::quadrature::gauss<double, kNodes>;
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const bool upper = i >= kNodes / 2;
-      const std::size_t half = upper ? i - kNodes / 2 : kNodes / 2 - 1 - i;
-      const double t = (1 + (upper ? 1 : -1) * Gauss::abscissa()[half]) / 2;
-      t3[i / kLanes][i % kLanes] = t * t * t;
-      weight[i / kLanes][i % kLanes] = 3 * t * t * Gauss::weights()[half] / 2;
-    }
-  }
-};
-
-template <std::size_t kNodes>
-const GradedNodes<kNodes>& graded_nodes() {
-  static const GradedNodes<kNodes> nodes;
-  return nodes;
-}
 
 /// Normal stress at Q = 1 where cos(theta) exceeds cos(theta_f) by `rise`, eq. (4).
 [[gnu::always_inline]] inline Vec normal_stress_pa(const Ground& ground, Vec rise) {
