@@ -14,8 +14,6 @@ namespace {
 
 using vector_math::Vec;
 
-constexpr std::size_t kNodes = 24;  // a part of the contact
-
 [[gnu::always_inline]] inline Vec root(Vec v) {
   Vec root;
   for (std::size_t lane = 0; lane < vector_math::kLanes; ++lane) root[lane] = std::sqrt(v[lane]);
@@ -90,17 +88,45 @@ struct Parts {
   std::size_t count = 0;
 };
 
-/// Split at theta_m and where the rim's velocity through the soil turns over, 1 = q cos(theta).
-Parts parts_of(const Contact& contact, const Ratios& ratios) {
+/// Arcs from the entry to where a wheel that brakes has dragged the soil back to where it was,
+/// jx = 0, and, where the contact reaches far behind, forward again; the whole arc where it has
+/// not.
+std::array<double, 2> back_again_rad(const Contact& contact, const Ratios& ratios, double whole) {
+  if (!(ratios.axle > ratios.rim && ratios.axle * contact.cos_f < ratios.rim)) {
+    return {whole, whole};
+  }
+  // Newton's method: jx is concave on the way to the bottom and convex behind
+  const auto zero = [&](double d, double direction) {
+    for (int i = 0; i < 20; ++i) {
+      const double theta = contact.theta_f_rad - d;
+      const double jx = ratios.rim * d - ratios.axle * (contact.sin_f - std::sin(theta));
+      const double slope = ratios.rim - ratios.axle * std::cos(theta);
+      if (!(slope * direction > 0)) return whole;
+      const double step = jx / slope;
+      d -= step;
+      if (std::abs(step) < 1e-6) return std::clamp(d, 0.0, whole);
+    }
+    return whole;
+  };
+  return {zero(contact.theta_f_rad, -1), zero(whole, 1)};
+}
+
+/// Split at theta_m and where the law has a corner: jx = 0, or, for stress along the slip velocity,
+/// where that turns over, 1 = q cos(theta).
+Parts parts_of(const Contact& contact, const Ratios& ratios, ShearLaw shear) {
   const double middle = contact.theta_f_rad - contact.theta_m_rad;
   const double whole = contact.theta_f_rad - contact.theta_r_rad;
   std::array<double, 5> cuts{0, middle, whole, whole, whole};
-  if (ratios.axle > ratios.rim) {
+  if (shear != ShearLaw::kAlongSlipVelocity) {
+    const auto zeros = back_again_rad(contact, ratios, whole);
+    cuts[3] = zeros[0];
+    cuts[4] = zeros[1];
+  } else if (ratios.axle > ratios.rim) {
     const double turns_rad = std::acos(ratios.rim / ratios.axle);
     cuts[3] = std::clamp(contact.theta_f_rad - turns_rad, 0.0, whole);
     cuts[4] = std::clamp(contact.theta_f_rad + turns_rad, 0.0, whole);
-    std::sort(cuts.begin(), cuts.end());
   }
+  std::sort(cuts.begin(), cuts.end());
   Parts parts;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     if (cuts[i + 1] > cuts[i]) {
@@ -115,10 +141,13 @@ struct Sums {
   Vec stress_x{}, stress_y{}, stress_z{}, stress_t{};
 };
 
-REGOPLAN_VECTOR_CLONES LawIntegrals integrate_parts(const Ground& ground, const Contact& at,
-                                                    const Ratios& ratios, const StressLaw& law,
-                                                    const Parts& parts) {
-  const GradedNodes<kNodes>& nodes = graded_nodes<kNodes>();
+/// \tparam kNodes of each part
+template <std::size_t kNodes>
+[[gnu::always_inline]] inline LawIntegrals integrate_parts(const Ground& ground, const Contact& at,
+                                                           const Ratios& ratios,
+                                                           const StressLaw& law,
+                                                           const Parts& parts) {
+  const GradedNodes<kNodes, Vec>& nodes = graded_nodes<kNodes, Vec>();
   const double r = ground.wheel.radius_m;
   const double kx = ground.soil.kx0_m + ground.soil.kx1_m * ratios.beta_abs_rad;
   const double ky = ground.soil.ky0_m + ground.soil.ky1_m * ratios.beta_abs_rad;
@@ -135,14 +164,13 @@ REGOPLAN_VECTOR_CLONES LawIntegrals integrate_parts(const Ground& ground, const 
       const Vec weight = width * nodes.weight[i];
       const Vec d = part.front ? part.from_rad + width * nodes.t3[i]
                                : part.to_rad - width * nodes.t3[i];  // theta_f - theta
-      const vector_math::Turn down = vector_math::turn(d);
+      const auto down = vector_math::turn(d);
       const Vec advance = at.sin_f * down.versin + at.cos_f * down.sin;  // sin theta_f - sin theta
       const Vec fall = at.sin_f * down.sin - at.cos_f * down.versin;     // cos theta - cos theta_f
       const Vec sin_theta = at.sin_f - advance, cos_theta = at.cos_f + fall;
       Vec rise = fall;
       if (!part.front) {  // eq. (5): theta* mirrors the rear into the front
-        const vector_math::Turn mirrored =
-            vector_math::turn((whole_arc - d) * (front_arc / rear_arc));
+        const auto mirrored = vector_math::turn((whole_arc - d) * (front_arc / rear_arc));
         rise = at.sin_f * mirrored.sin - at.cos_f * mirrored.versin;
       }
       const Vec sigma = weight * normal_stress_pa(ground, law.layering, rise);
@@ -173,20 +201,33 @@ REGOPLAN_VECTOR_CLONES LawIntegrals integrate_parts(const Ground& ground, const 
           .fu_stress_n = area * sum(sums.stress_y)};
 }
 
+REGOPLAN_VECTOR_CLONES LawIntegrals integrate_parts_16(const Ground& ground, const Contact& contact,
+                                                       const Ratios& ratios, const StressLaw& law,
+                                                       const Parts& parts) {
+  return integrate_parts<16>(ground, contact, ratios, law, parts);
+}
+REGOPLAN_VECTOR_CLONES LawIntegrals integrate_parts_20(const Ground& ground, const Contact& contact,
+                                                       const Ratios& ratios, const StressLaw& law,
+                                                       const Parts& parts) {
+  return integrate_parts<20>(ground, contact, ratios, law, parts);
+}
+
 }  // namespace
 
 LawIntegrals integrate_with_law(const Ground& ground, const Contact& contact, const Ratios& ratios,
-                                const StressLaw& law) {
-  return integrate_parts(ground, contact, ratios, law, parts_of(contact, ratios));
+                                const StressLaw& law, WheelAccuracy accuracy) {
+  const Parts parts = parts_of(contact, ratios, law.shear);
+  return accuracy == WheelAccuracy::kFast ? integrate_parts_16(ground, contact, ratios, law, parts)
+                                          : integrate_parts_20(ground, contact, ratios, law, parts);
 }
 
 std::optional<double> entry_angle_with_law(const Ground& ground, double load_n,
                                            const Ratios& ratios, const StressLaw& law,
-                                           double guess_rad) {
+                                           WheelAccuracy accuracy, double guess_rad) {
   constexpr double kQuarterTurn = std::numbers::pi / 2, kShallowest = 1e-6;
   const auto fz_n = [&](double theta_f_rad) {
     const Contact contact = contact_at(ground, theta_f_rad, ratios.slip);
-    return integrate_with_law(ground, contact, ratios, law).plane.at(1).fz_n;
+    return integrate_with_law(ground, contact, ratios, law, accuracy).plane.at(1).fz_n;
   };
   // secant steps in (ln theta_f, ln Fz), where Fz is nearly a power
   double slope = 2 * ground.soil.n + 1, before = 0, step = 0, theta_f = guess_rad;

@@ -20,16 +20,15 @@ struct LawIntegrals {
   double fu_cohesion_n = 0, fu_stress_n = 0;
 };
 
-/// As `integrate`, for any law. The contact is also split where the rim's velocity through the soil
-/// turns over. To 2e-5 of the load (Mechanism.OwnIntegralsAgreeWithTheBaseModelWhereTheMechanismIs
-/// Idle).
+/// As `integrate`, for any law, and for the base model's where its corners are sharp: the contact
+/// is also split where jx = 0 or the rim's velocity through the soil turns over.
 LawIntegrals integrate_with_law(const Ground& ground, const Contact& contact, const Ratios& ratios,
-                                const StressLaw& law);
+                                const StressLaw& law, WheelAccuracy accuracy);
 
 /// The entry angle that carries the load with Q = 1 under such a law: secant steps from a guess,
 /// where these do not end, the first crossing outward from it. Nothing where none carries it.
 std::optional<double> entry_angle_with_law(const Ground& ground, double load_n,
                                            const Ratios& ratios, const StressLaw& law,
-                                           double guess_rad);
+                                           WheelAccuracy accuracy, double guess_rad);
 
 }  // namespace regoplan::wheel_contact

@@ -62,7 +62,7 @@ struct Sideways {
 /// the turn) deeper by the tilt of the rut; together they carry the load.
 Sideways sideways_in_strips(const Ground& ground, const wheel_contact::StressLaw& law,
                             const Ratios& ratios, double sinkage_m, double tilt_rad, double q,
-                            double load_n) {
+                            double load_n, WheelAccuracy accuracy) {
   constexpr std::size_t kStrips = 7;
   const double r = ground.wheel.radius_m, b = ground.wheel.width_m;
   const std::size_t strips = tilt_rad == 0 ? 1 : kStrips;
@@ -72,7 +72,8 @@ Sideways sideways_in_strips(const Ground& ground, const wheel_contact::StressLaw
     const double inner = b * ((static_cast<double>(i) + 0.5) * share - 0.5);
     const double depth = std::clamp(sinkage_m + inner * std::tan(tilt_rad), 1e-9 * r, r);
     const Contact contact = wheel_contact::contact_at(ground, theta_of(depth, r), ratios.slip);
-    const auto integrals = wheel_contact::integrate_with_law(ground, contact, ratios, law);
+    const auto integrals =
+        wheel_contact::integrate_with_law(ground, contact, ratios, law, accuracy);
     const double strip_fz = share * integrals.plane.at(q).fz_n;
     fz += strip_fz;
     roll += strip_fz * inner;
@@ -162,8 +163,9 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   if (plain) theta_f = plain->contact.theta_f_rad;
   if (law.own) {
     constexpr double kSomewhere_rad = 0.5;
-    theta_f = wheel_contact::entry_angle_with_law(ground, effects.load_n, reference, law.stress,
-                                                  theta_f.value_or(kSomewhere_rad));
+    theta_f =
+        wheel_contact::entry_angle_with_law(ground, effects.load_n, reference, law.stress,
+                                            model.accuracy_, theta_f.value_or(kSomewhere_rad));
   }
   if (!theta_f) return {.forces = {.status = sunk}};
   const double undug =
@@ -175,8 +177,10 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
 
   const Contact contact = wheel_contact::contact_at(ground, *theta_f, ratios.slip);
   const Integrals plane =
-      law.own ? wheel_contact::integrate_with_law(ground, contact, ratios, law.stress).plane
-              : wheel_contact::integrate(ground, contact, ratios, model.accuracy_);
+      law.own
+          ? wheel_contact::integrate_with_law(ground, contact, ratios, law.stress, model.accuracy_)
+                .plane
+          : wheel_contact::integrate(ground, contact, ratios, model.accuracy_);
   const double q = imposed ? (effects.load_n - plane.cohesion.fz_n) / plane.stress.fz_n : 1.0;
   if (!(q >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
   const Resultant resultant = plane.at(q);
@@ -184,8 +188,8 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   if (!law.own && effects.rut_tilt_rad == 0) {
     side_n = wheel_contact::side_force_n(ground, contact, ratios, q, model.accuracy_);
   } else {
-    const Sideways sideways =
-        sideways_in_strips(ground, law.stress, ratios, h, effects.rut_tilt_rad, q, effects.load_n);
+    const Sideways sideways = sideways_in_strips(
+        ground, law.stress, ratios, h, effects.rut_tilt_rad, q, effects.load_n, model.accuracy_);
     side_n = sideways.force_n;
     // inner is right (-y) for a motion to the left: the moment about x is negative
     roll_nm = -forward.y_sign * sideways.roll_nm;
