@@ -7,6 +7,7 @@
 
 #include "planner/evaluation.h"
 #include "planner/manoeuvres.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
@@ -24,19 +25,7 @@ struct WindingPath {
     const Vehicle lrv = preset_vehicle("lrv");
     const MapSoil soil{.name = "firm_regolith",
                        .source = "as in the demo",
-                       .soil = {.mean = {.cohesion_pa = 170,
-                                         .friction_angle_rad = 36 * kDegree,
-                                         .kc = 1400,
-                                         .kphi = 8.2e5,
-                                         .n = 1,
-                                         .a0 = 0.40,
-                                         .a1 = 0.15,
-                                         .lambda = 0.90,
-                                         .density_kgpm3 = 1500,
-                                         .kx0_m = 0.018,
-                                         .kx1_m = 0.043,
-                                         .ky0_m = 0.013,
-                                         .ky1_m = 0.020},
+                       .soil = {.mean = named_soils::firm_regolith(),
                                 .standard_deviation = {.cohesion_pa = 50,
                                                        .friction_angle_rad = 2 * kDegree,
                                                        .kc = 350,

@@ -9,11 +9,12 @@
 
 #include "terramech/force_table.h"
 #include "terramech/state_margins.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kMoon_mps2 = 1.62;
+using named_soils::kMoon_mps2;
 
 enum class Law { kDirectFast, kDirectExact, kTable };
 
@@ -34,19 +35,7 @@ struct Lrv {
   explicit Lrv(Law kind)
       : model({.variant = WheelVariant::kIshigami2007,
                .wheel = vehicle.wheel,
-               .soil = {.cohesion_pa = 170,
-                        .friction_angle_rad = 36 * std::numbers::pi / 180,
-                        .kc = 1400,
-                        .kphi = 8.2e5,
-                        .n = 1,
-                        .a0 = 0.40,
-                        .a1 = 0.15,
-                        .lambda = 0.90,
-                        .density_kgpm3 = 1500,
-                        .kx0_m = 0.018,
-                        .kx1_m = 0.043,
-                        .ky0_m = 0.013,
-                        .ky1_m = 0.020},
+               .soil = named_soils::firm_regolith(),
                .gravity_mps2 = kMoon_mps2},
               kind == Law::kDirectExact ? WheelAccuracy::kExact : WheelAccuracy::kFast),
         table(kind == Law::kTable

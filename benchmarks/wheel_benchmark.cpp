@@ -97,13 +97,6 @@ void table_scalar(benchmark::State& state, const wheel_specs::NamedSpec& named) 
            [&](double load_n, const WheelMotion& motion) { return table.forces(load_n, motion); });
 }
 
-void table_plane(benchmark::State& state, const wheel_specs::NamedSpec& named) {
-  const ForceTable table = table_of(named);
-  evaluate(state, named, [&](double load_n, const WheelMotion& motion) {
-    return table.plane_forces(load_n, motion);
-  });
-}
-
 /// The same model with a mechanism: what it costs, and (direct_exact) that none costs nothing.
 void mechanism(benchmark::State& state, const wheel_specs::NamedSpec& named, const char* id) {
   WheelModelSpec spec = named.spec;
@@ -197,7 +190,6 @@ void naive(benchmark::State& state, const wheel_specs::NamedSpec& named) {
         [named](benchmark::State& state) { mechanism(state, named, "coupled_shear"); });
     add("construct", [named](benchmark::State& state) { construct(state, named); });
     add("table_scalar", [named](benchmark::State& state) { table_scalar(state, named); });
-    add("table_plane", [named](benchmark::State& state) { table_plane(state, named); });
     add("table_slopes", [named](benchmark::State& state) { table_slopes(state, named); });
     add("table_batch", [named](benchmark::State& state) { table_batch(state, named); });
     add("table_build_and_check",

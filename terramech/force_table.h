@@ -1,14 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <optional>
+#include <random>
 #include <span>
 #include <vector>
 
+#include "terramech/force_table_values.h"
 #include "terramech/sloped_forces.h"
 #include "terramech/wheel_model.h"
 
@@ -48,17 +49,17 @@ struct PlaneForces {
 /// The wheel model of one wheel on one soil as cubic splines, immutable: a fiftieth of the direct
 /// model's time, with slopes, and with a measured bound on its error.
 ///
-/// Axes: ln(load); the root of |slip|, braking and driving apart, because the forces have a corner
-/// at slip 0; for Fx and T v = beta/(beta + kx0/kx1), in which they are cubics; for Fy the lateral
-/// displacement as y = u/(u + 3 ky/(r dtheta)), in which Fy has no corners. It covers slips from
-/// -0.92 to 0.97 and slip angles to 62 deg; beyond, and beyond its loads, the direct model answers.
 /// A generic correction is no part of the splines: it is added to what they give.
+/// It covers slips from -0.92 to 0.97 and slip angles to 62 deg (force_table_axes.h); beyond, and
+/// beyond its loads, the direct model answers.
 class ForceTable {
  public:
-  /// Refines until the check against the direct model is within the accuracy asked; where the
-  /// largest loads are barely carried and stay out of reach of that, the table covers fewer loads.
+  /// Refines the axes, each by its own error, until the check against the direct model is within
+  /// the accuracy asked; where the largest loads are barely carried and stay out of reach of that,
+  /// the table covers fewer loads.
   /// \throws ValueError naming a field of the model out of range, or a nominal load that is not
-  /// positive \throws InputError where no table reaches the accuracy
+  /// positive \throws InputError where no table reaches the accuracy, or where the forces depend on
+  /// the speed itself, as with some mechanisms
   explicit ForceTable(const ForceTableSpec& spec);
 
   /// The table from the cache folder, or a new one that is put there. The file is named by a hash
@@ -80,17 +81,14 @@ class ForceTable {
   /// Forces in the plane with their slopes; outside the table by differences of the direct model.
   SlopedForces forces_with_slopes(double load_n, const WheelMotion& motion) const;
 
-  /// The forces in the plane alone, the fastest answer to one state.
-  PlaneForces plane_forces(double load_n, const WheelMotion& motion) const;
-
   /// Many states at once. Not carried: zero forces, as in WheelForces.
   /// \throws InputError for arrays of different length
   std::vector<PlaneForces> plane_forces(std::span<const double> loads_n,
                                         std::span<const WheelMotion> motions) const;
 
   const TableError& error() const { return error_; }
-  double load_min_n() const { return load_min_n_; }
-  double load_max_n() const { return load_max_n_; }
+  double load_min_n() const { return values_.axes.load_min_n; }
+  double load_max_n() const { return values_.axes.load_max_n; }
   std::size_t bytes() const;
   const WheelModel& direct() const { return direct_; }
 
@@ -99,36 +97,19 @@ class ForceTable {
   TableError check(std::size_t random_states, std::size_t corner_states, std::uint64_t seed) const;
 
  private:
-  struct Grid {
-    std::size_t loads = 0, slips = 0, laterals = 0;
-  };
-  /// Coefficients [load][slip][4 powers of v] and [load][slip][y] on one side of slip 0.
-  struct Side {
-    std::vector<float> fx, torque, sinkage, fy;
-  };
-  struct Place;
-  struct Sloped;
-
-  ForceTable(const ForceTableSpec& spec, const Grid& grid);
+  ForceTable(const ForceTableSpec& spec, force_table::Values values, const TableError& error);
+  bool refine(const WheelModel& model, const force_table::Axes& axes,
+              const force_table::ConstantShares& constant, const TableAccuracy& accuracy);
+  double excess_along(std::size_t force_table::Sizes::*axis, const TableAccuracy& accuracy,
+                      std::mt19937_64& random) const;
+  force_table::Axes with_fewer_loads(force_table::Axes axes) const;
+  double error_in(double load_n, const WheelMotion& motion) const;
   static std::optional<ForceTable> read(std::istream& stream, const ForceTableSpec& spec);
   void write(std::ostream& stream) const;
-  void fill();
-  void scale_loads();
-  Side fill_side(const WheelModel& model, bool driving) const;
-  void limit_loads();
-  double lateral_scale(double angle_rad) const;
-  double v_at(double tangent) const;
-  WheelMotion motion_with_lateral(double slip, double y) const;
-  bool place(double load_n, const WheelMotion& motion, Place& place) const;
 
   ForceTableSpec spec_;
   WheelModel direct_;
-  Grid grid_;
-  double load_min_n_ = 0, load_max_n_ = 0;
-  double ky_scale_ = 0;      ///< 3/(r dtheta) at the nominal load
-  double kx_angle_rad_ = 0;  ///< kx0/kx1
-  double log_load_min_ = 0, loads_per_log_ = 0;
-  std::array<Side, 2> sides_;  ///< braking, driving
+  force_table::Values values_;
   TableError error_;
 };
 

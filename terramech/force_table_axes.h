@@ -1,36 +1,69 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 
-/// The domain of a force table and its coordinates, for numbers and vectors alike.
-namespace regoplan::force_table_axes {
+#include "terramech/wheel_model.h"
+
+/// The domain of a force table and its coordinates, each in [0, 1].
+///
+///   load     ln(load)
+///   slip     sqrt(|1 - q|/(q + bend)) over its end, q = Vx/(r w): braking and driving apart,
+///            because the forces have a corner at slip 0, finest on either side of it, and fine
+///            next to a locked wheel and to spin on the spot, where the shear along x or y
+///            mobilises within a sliver.
+///   lateral  ln(1 + g tan|beta|)/ln(1 + g tan 62 deg) with g = 1 + kx1/kx0 + q/K: even in the
+///            logarithm over all the slip angles at which something happens, from that at which
+///            the shear along y mobilises (tan|beta| = K/q) to that at which kx has grown.
+namespace regoplan::force_table {
 
 inline constexpr double kSlipMaxDriving = 0.97, kSlipMaxBraking = 0.92;
 inline constexpr double kTanMax = 1.8807264653463320;  // tan(62 deg)
-inline constexpr std::size_t kPowers = 4;              // of v, in which Fx is a polynomial
+inline constexpr double kDrivingBend = 0.5, kBrakingBend = 3;
 
-/// Close to the slip angle, for coordinates: within a milliradian, 0 at 0, and cheaper than atan2.
-template <class Number>
-struct NearlyAngle {
-  Number rad, by_b, by_c;
+/// The slip coordinate without its root, driving or braking.
+constexpr double slip_share(double axle, double bend, double end) {
+  return (1 - axle) / ((axle + bend) * end);
+}
+inline constexpr double kDrivingEnd = slip_share(1 - kSlipMaxDriving, kDrivingBend, 1.0);
+inline constexpr double kBrakingEnd = slip_share(1 / (1 - kSlipMaxBraking), kBrakingBend, 1.0);
+
+/// By `driving`.
+inline constexpr std::array<double, 2> kBend{kBrakingBend, kDrivingBend};
+inline constexpr std::array<double, 2> kEnd{kBrakingEnd, kDrivingEnd};
+/// Where the wheel model is trusted (WheelStatus), but for rounding.
+inline constexpr std::array<double, 2> kTrusted{
+    slip_share(10.0, kBrakingBend, kBrakingEnd) * (1 + 1e-9),
+    slip_share(0.05, kDrivingBend, kDrivingEnd) * (1 + 1e-9)};
+inline constexpr double kTrustedTangent = 1.7320508075688772 * (1 + 1e-9);
+
+struct Axes {
+  double load_min_n = 0, load_max_n = 0;
+  double lateral_bend = 1;           ///< 1 + kx1/kx0
+  double lateral_bend_per_axle = 0;  ///< 1/K
 };
-template <class Number>
-[[gnu::always_inline]] inline NearlyAngle<Number> nearly_angle(Number b, Number c) {
-  const Number whole = 1.0 / (b + c);
-  const Number h = (c - b) * whole;  // tan(angle - 45 deg)
-  const Number h2 = h * h;
-  constexpr double k1 = 0.995354, k3 = -0.288679, k5 = 0.079331;
-  const Number slope = k1 + h2 * (3 * k3 + h2 * (5 * k5));
-  return {.rad = (k1 + k3 + k5) + h * (k1 + h2 * (k3 + h2 * k5)),
-          .by_b = -slope * 2.0 * c * whole * whole,
-          .by_c = slope * 2.0 * b * whole * whole};
+
+/// Velocity ratio Vx/(r w) at a slip coordinate.
+inline double axle_at(double t, bool driving) {
+  const double ahead = kEnd[driving] * t * t;
+  return (1 - ahead * kBend[driving]) / (1 + ahead);
 }
 
-/// The slip axis is t = sqrt(share): close to slip 0 the forces bend on either side of it, and
-/// close to a locked wheel the shear grows within a sliver. Driving, the share is slip over its
-/// end; braking, it is (q - 1)/(q + 3) with q = Vx/(r w), over its end.
-inline constexpr double kBrakingBend = 3;
-inline constexpr double kBrakingEnd =
-    kSlipMaxBraking / (1 + kBrakingBend - kBrakingBend * kSlipMaxBraking);
+/// tan|beta| at a lateral coordinate.
+inline double tangent_at(const Axes& axes, double axle, double lateral) {
+  const double bend = axes.lateral_bend + axes.lateral_bend_per_axle * axle;
+  return std::expm1(lateral * std::log1p(bend * kTanMax)) / bend;
+}
 
-}  // namespace regoplan::force_table_axes
+inline double load_at(const Axes& axes, double coordinate) {
+  return axes.load_min_n * std::pow(axes.load_max_n / axes.load_min_n, coordinate);
+}
+
+/// The wheel rolls forward; the faster of rim and axle is 1 m/s.
+inline WheelMotion rolling(double axle, double tangent) {
+  const double vx = axle < 1 ? axle : 1;
+  return {.vx_mps = vx, .vy_mps = vx * tangent, .rim_speed_mps = axle < 1 ? 1 : 1 / axle};
+}
+
+}  // namespace regoplan::force_table

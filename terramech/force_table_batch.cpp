@@ -1,75 +1,78 @@
-// Many states of a force table at once: coordinates and spline weights of four states in one
-// vector, then state by state the sums over the coefficients.
+// Many states at once, in chunks: first coordinates and weights of eight states side by side, then
+// the sums of each. Apart, neither waits for the other.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
-#include "terramech/cubic_spline.h"
 #include "terramech/force_table.h"
-#include "terramech/force_table_axes.h"
+#include "terramech/force_table_lookup.h"
 #include "terramech/input_error.h"
-#include "terramech/vector_math.h"
-
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define REGOPLAN_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3")))
-#else
-#define REGOPLAN_VECTOR_CLONES
-#endif
+#include "terramech/vector_clones.h"
 
 namespace regoplan {
+
+using namespace force_table;
+
 namespace {
 
-using namespace force_table_axes;
-using vector_math::Bits;
-using vector_math::kLanes;
-using vector_math::Vec;
-using Four [[gnu::vector_size(16)]] = float;
+constexpr std::size_t kSide = 8;  // states side by side
 
-/// Spline weights of four states and the first coefficient that each reaches.
-struct FourWeights {
-  std::array<Four, 4> value;
-  Bits first;
+/// Eight states made ready for their sums.
+struct Ready {
+  std::array<Eight, 4> by_load, by_slip, by_lateral;
+  std::array<Eight, 3> first;  ///< of the coefficients along each axis
+  vector_math::Ints<Eight> driving, inside;
 };
 
-[[gnu::always_inline]] inline FourWeights weights(Vec t, std::size_t intervals) {
-  const double n = static_cast<double>(intervals);
-  constexpr double kRound = 0x1.8p52;  // adding it leaves the nearest integer in the low bits
-  const Vec x = t * n;
-  const Vec nearest = (x - 0.5) + kRound;
-  const Vec last = Vec{} + (kRound + (n - 1));
-  const Vec rounded = nearest < last ? nearest : last;
-  const Vec f = x - (rounded - kRound);
-  const Vec g = 1.0 - f;
-  const Vec f2 = f * f, g2 = g * g;
-  const auto narrow = [](Vec v) { return __builtin_convertvector(v, Four); };
-  constexpr double kSixth = 1.0 / 6, kTwoThirds = 2.0 / 3;
-  return {.value = {narrow(g2 * g * kSixth), narrow(kTwoThirds - f2 * (1.0 - f * 0.5)),
-                    narrow(kTwoThirds - g2 * (1.0 - g * 0.5)), narrow(f2 * f * kSixth)},
-          .first = reinterpret_cast<Bits>(rounded) & 0xFFFFFFFFLL};
-}
-
-[[gnu::always_inline]] inline Four contract(const float* first, std::size_t load_stride,
-                                            std::size_t slip_stride,
-                                            const std::array<Four, 4>& by_load,
-                                            const std::array<Four, 4>& by_slip, std::size_t lane) {
-  Four sum{};
-  for (std::size_t a = 0; a < 4; ++a) {
-    Four line{};
-    for (std::size_t b = 0; b < 4; ++b) {
-      Four row;
-      __builtin_memcpy(&row, first + a * load_stride + b * slip_stride, sizeof row);
-      line += row * by_slip[b][lane];
-    }
-    sum += line * by_load[a][lane];
+/// As place().
+/// \param ready is written where it stands: a copy would cost a quarter of the whole
+[[gnu::always_inline]] inline void make_ready(Ready& ready, const Values& values,
+                                              const double* loads_n, const WheelMotion* motions) {
+  const Axes& axes = values.axes;
+  constexpr auto kTan = static_cast<float>(kTanMax);
+  const auto number = [](double value) { return static_cast<float>(value); };
+  const auto all = [&](double value) { return Eight{} + number(value); };
+  Eight load, rim, vx, vy, ahead;
+  for (std::size_t lane = 0; lane < kSide; ++lane) {
+    const WheelMotion& motion = motions[lane];
+    load[lane] = number(loads_n[lane] * values.per_load_min);
+    rim[lane] = number(motion.rim_speed_mps);
+    vx[lane] = number(motion.vx_mps);
+    vy[lane] = number(motion.vy_mps);
+    ahead[lane] = number(std::abs(motion.rim_speed_mps) - std::abs(motion.vx_mps));
   }
-  return sum;
-}
-
-[[gnu::always_inline]] inline float total(Four v) {
-  return (v[0] + v[2]) + (v[1] + v[3]);
+  const auto size = [](Eight of) {
+    return reinterpret_cast<Eight>(reinterpret_cast<vector_math::Ints<Eight>>(of) & INT32_MAX);
+  };
+  const auto same_direction = rim * vx > 0.0F;
+  rim = size(rim);
+  vx = size(vx);
+  vy = size(vy);
+  ready.driving = ahead >= 0.0F;
+  const Eight bend = ready.driving ? all(kDrivingBend) : all(kBrakingBend);
+  const Eight end = ready.driving ? all(kDrivingEnd) : all(kBrakingEnd);
+  const Eight share = ahead / ((vx + bend * rim) * end);
+  const Eight per_rim = 1.0F / rim, tangent = vy / vx;
+  ready.inside = (load >= 1.0F) & (load <= number(axes.load_max_n * values.per_load_min)) &
+                 same_direction & (share <= 1.0F) & (tangent <= kTan);
+  const float straight = number(axes.lateral_bend), turned = number(axes.lateral_bend_per_axle);
+  const Eight rise = 1.0F + straight * tangent + turned * (vy * per_rim);
+  const Eight most = (1.0F + straight * kTan) + (turned * kTan) * (vx * per_rim);
+  const Eight log_load = vector_math::log_of_floats(load);
+  const Eight lateral = vector_math::log_of_floats(rise) / vector_math::log_of_floats(most);
+  Eight slip;
+  for (std::size_t lane = 0; lane < kSide; ++lane) slip[lane] = std::sqrt(share[lane]);
+  const auto along = [&](Axis axis, Eight at) {
+    return weights(at * values.intervals[axis], Eight{} + values.intervals[axis]);
+  };
+  const Weights<Eight> by_load = along(kLoad, log_load * values.loads_per_log);
+  const Weights<Eight> by_slip = along(kSlip, slip), by_lateral = along(kLateral, lateral);
+  ready.by_load = by_load.value;
+  ready.by_slip = by_slip.value;
+  ready.by_lateral = by_lateral.value;
+  ready.first = {by_load.first, by_slip.first, by_lateral.first};
 }
 
 }  // namespace
@@ -81,73 +84,51 @@ REGOPLAN_VECTOR_CLONES std::vector<PlaneForces> ForceTable::plane_forces(
   }
   std::vector<PlaneForces> result(loads_n.size());
   if (spec_.model.generic) {
-    for (std::size_t i = 0; i < result.size(); ++i)
-      result[i] = plane_forces(loads_n[i], motions[i]);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      const WheelForces forces = this->forces(loads_n[i], motions[i]);
+      result[i] = {forces.fx_n, forces.fy_n};
+    }
     return result;
   }
-  const std::size_t slips = cubic_spline::coefficients(grid_.slips);
-  const std::size_t laterals = cubic_spline::coefficients(grid_.laterals);
-  const Soil& soil = spec_.model.soil;
-  const std::size_t whole = loads_n.size() / kLanes * kLanes;
-  for (std::size_t start = 0; start < whole; start += kLanes) {
-    Vec load, rim, vx, vy;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const WheelMotion& motion = motions[start + lane];
-      load[lane] = loads_n[start + lane];
-      rim[lane] = motion.rim_speed_mps;
-      vx[lane] = motion.vx_mps;
-      vy[lane] = motion.vy_mps;
+  const ConstantShares& constant = values_.constant;
+  const std::size_t load_stride = values_.load_stride, slip_stride = values_.slip_stride;
+  constexpr std::size_t kChunk = 8;
+  std::array<Ready, kChunk> chunk;
+  const std::size_t whole = loads_n.size() / kSide;
+  for (std::size_t start = 0; start < whole; start += kChunk) {
+    const std::size_t count = std::min(kChunk, whole - start);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t state = (start + i) * kSide;
+      make_ready(chunk[i], values_, &loads_n[state], &motions[state]);
     }
-    // as in ForceTable::place
-    const Vec told_a = vector_math::abs(rim), told_b = vector_math::abs(vx);
-    const Vec told_c = vector_math::abs(vy);
-    const Bits driving = told_a >= told_b;
-    const Vec from =
-        driving ? told_a * kSlipMaxDriving : (told_b + kBrakingBend * told_a) * kBrakingEnd;
-    const Vec told_share = vector_math::abs(told_a - told_b) / from;
-    const Bits inside = (load >= load_min_n_) & (load <= load_max_n_) & (rim * vx > 0.0) &
-                        (told_share <= 1.0) & (told_c <= kTanMax * told_b);
-    const Vec one = Vec{} + 1.0;
-    const Vec a = inside ? told_a : one, b = inside ? told_b : one, c = inside ? told_c : one;
-    const Vec share = inside ? told_share : one;
-    Vec t;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) t[lane] = std::sqrt(share[lane]);
-    const Vec angle = nearly_angle(b, c).rad;
-    const Vec v = angle / (angle + kx_angle_rad_);
-    const Vec y = c / (c + a * (ky_scale_ * (soil.ky0_m + soil.ky1_m * angle)));
-    const Vec carried = inside ? load : Vec{} + load_min_n_;
-    const Vec at = (vector_math::log(carried) - log_load_min_) * loads_per_log_;
-    const Vec at_least = at < 0.0 ? Vec{} : at;
-    const FourWeights by_load = weights(at_least > 1.0 ? one : at_least, grid_.loads);
-    const FourWeights by_slip = weights(t, grid_.slips);
-    const FourWeights by_y = weights(y, grid_.laterals);
-    const Vec x_factor = vx < 0.0 ? -load : load;
-    const Vec no_load{};
-    const Vec y_factor = vy > 0.0 ? load : vy < 0.0 ? -load : no_load;
-
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (!inside[lane]) [[unlikely]] {
-        const WheelForces forces = direct_.forces(loads_n[start + lane], motions[start + lane]);
-        result[start + lane] = {forces.fx_n, forces.fy_n};
+    for (std::size_t i = 0; i < count * kSide; ++i) {
+      const Ready& ready = chunk[i / kSide];
+      const std::size_t lane = i % kSide, state = start * kSide + i;
+      const double load_n = loads_n[state];
+      const WheelMotion& motion = motions[state];
+      if (!ready.inside[lane]) [[unlikely]] {
+        const WheelForces forces = direct_.forces(load_n, motion);
+        result[state] = {forces.fx_n, forces.fy_n};
         continue;
       }
-      const Side& side = sides_[driving[lane] ? 1 : 0];
-      const std::size_t row = static_cast<std::size_t>(by_load.first[lane]) * slips +
-                              static_cast<std::size_t>(by_slip.first[lane]);
-      const Four fx = contract(&side.fx[row * kPowers], slips * kPowers, kPowers, by_load.value,
-                               by_slip.value, lane);
-      const Four fy =
-          contract(&side.fy[row * laterals + static_cast<std::size_t>(by_y.first[lane])],
-                   slips * laterals, laterals, by_load.value, by_slip.value, lane);
-      const auto v1 = static_cast<float>(v[lane]);
-      const Four in_v{1, v1, v1 * v1, v1 * v1 * v1};
-      const Four in_y{by_y.value[0][lane], by_y.value[1][lane], by_y.value[2][lane],
-                      by_y.value[3][lane]};
-      result[start + lane] = {.fx_n = x_factor[lane] * double{total(fx * in_v)},
-                              .fy_n = y_factor[lane] * double{total(fy * in_y)}};
+      const auto first = [&](Axis axis) {
+        return static_cast<std::size_t>(static_cast<std::int32_t>(ready.first[axis][lane]));
+      };
+      const Block at{.first = values_.coefficients.data() +
+                              values_.side[static_cast<std::size_t>(ready.driving[lane] & 1)] +
+                              first(kLoad) * load_stride + first(kSlip) * slip_stride +
+                              first(kLateral) * kChannels,
+                     .load_stride = load_stride,
+                     .slip_stride = slip_stride};
+      const Four channels = look_up(at, narrow(ready.by_load, lane), narrow(ready.by_slip, lane),
+                                    narrow(ready.by_lateral, lane));
+      const double x_sign = std::copysign(1.0, motion.vx_mps);
+      const double y_sign = static_cast<double>((motion.vy_mps > 0) - (motion.vy_mps < 0));
+      result[state] = {.fx_n = load_n * (x_sign * double{channels[kFx]} + constant.x),
+                       .fy_n = load_n * (y_sign * double{channels[kFy]} + constant.y)};
     }
   }
-  for (std::size_t i = whole; i < loads_n.size(); ++i) {
+  for (std::size_t i = whole * kSide; i < loads_n.size(); ++i) {
     const WheelForces forces = this->forces(loads_n[i], motions[i]);
     result[i] = {forces.fx_n, forces.fy_n};
   }

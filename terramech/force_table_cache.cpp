@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <type_traits>
+#include <utility>
 
 #include "terramech/force_table.h"
 #include "terramech/soil.h"
@@ -17,7 +19,7 @@ namespace regoplan {
 namespace {
 
 /// Changes with the layout of the file, of the table, and with the physics.
-constexpr std::string_view kFormat = "regoplan force table 1\n";
+constexpr std::string_view kFormat = "regoplan force table 2\n";
 
 std::uint64_t fnv1a(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
@@ -30,6 +32,7 @@ std::uint64_t fnv1a(std::string_view bytes) {
 
 template <class T>
 void put(std::ostream& stream, const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
   std::array<char, sizeof(T)> bytes{};
   std::memcpy(bytes.data(), &value, sizeof(T));
   stream.write(bytes.data(), bytes.size());
@@ -79,42 +82,26 @@ std::string whole_file(const std::filesystem::path& file) {
 }  // namespace
 
 void ForceTable::write(std::ostream& stream) const {
-  for (const std::size_t n : {grid_.loads, grid_.slips, grid_.laterals, error_.states}) {
-    put(stream, static_cast<std::uint64_t>(n));
-  }
-  for (const double number : {load_min_n_, load_max_n_, error_.at_999_permille, error_.at_worst}) {
-    put(stream, number);
-  }
-  for (const Side& side : sides_) {
-    for (const auto* table : {&side.fx, &side.torque, &side.sinkage, &side.fy}) {
-      put(stream, static_cast<std::uint64_t>(table->size()));
-      for (const float value : *table) put(stream, value);
-    }
-  }
+  put(stream, values_.axes);
+  put(stream, values_.sizes);
+  put(stream, values_.constant);
+  put(stream, error_);
+  for (const float value : values_.coefficients) put(stream, value);
 }
 
 std::optional<ForceTable> ForceTable::read(std::istream& stream, const ForceTableSpec& spec) {
-  constexpr std::uint64_t kMost = 1U << 26;
-  const auto count = [&] { return static_cast<std::size_t>(get<std::uint64_t>(stream)); };
-  Grid grid;
-  for (std::size_t* n : {&grid.loads, &grid.slips, &grid.laterals}) *n = count();
-  ForceTable table(spec, grid);
-  table.error_.states = count();
-  for (double* number : {&table.load_min_n_, &table.load_max_n_, &table.error_.at_999_permille,
-                         &table.error_.at_worst}) {
-    *number = get<double>(stream);
+  const auto axes = get<force_table::Axes>(stream);
+  const auto sizes = get<force_table::Sizes>(stream);
+  const auto constant = get<force_table::ConstantShares>(stream);
+  const auto error = get<TableError>(stream);
+  constexpr std::size_t kMost = 10000;
+  if (!stream || sizes.loads > kMost || sizes.slips > kMost || sizes.laterals > kMost) {
+    return std::nullopt;
   }
-  for (Side& side : table.sides_) {
-    for (auto* values : {&side.fx, &side.torque, &side.sinkage, &side.fy}) {
-      const std::size_t size = count();
-      if (!stream || size > kMost) return std::nullopt;
-      values->resize(size);
-      for (float& value : *values) value = get<float>(stream);
-    }
-  }
+  force_table::Values values = force_table::empty_values(axes, sizes, constant);
+  for (float& value : values.coefficients) value = get<float>(stream);
   if (!stream) return std::nullopt;
-  table.scale_loads();
-  return table;
+  return ForceTable(spec, std::move(values), error);
 }
 
 std::filesystem::path ForceTable::default_cache_folder() {

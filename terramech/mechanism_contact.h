@@ -1,20 +1,34 @@
 #pragma once
 
+#include <optional>
+
 #include "terramech/mechanism_effects.h"
 #include "terramech/wheel_contact.h"
 
 namespace regoplan::wheel_contact {
 
-/// Integrals and side force under a shear law that the base model does not have; |Fy| is split like
-/// the other forces.
+/// The stress under a wheel where a mechanism changes its law.
+struct StressLaw {
+  ShearLaw shear = ShearLaw::kSeparate;
+  double residual = 1;  ///< shear hump: residual over peak
+  Layering layering;
+};
+
+/// Integrals and side force under such a law; |Fy| is split like the other forces.
 struct LawIntegrals {
   Integrals plane;
   double fu_cohesion_n = 0, fu_stress_n = 0;
 };
 
-/// The stress integrals in plain arithmetic, some thirty times slower than `integrate`, and for any
-/// shear law.
+/// As `integrate`, for any law, and for the base model's where its corners are sharp: the contact
+/// is also split where jx = 0 or the rim's velocity through the soil turns over.
 LawIntegrals integrate_with_law(const Ground& ground, const Contact& contact, const Ratios& ratios,
-                                ShearLaw law, double residual);
+                                const StressLaw& law, WheelAccuracy accuracy);
+
+/// The entry angle that carries the load with Q = 1 under such a law: secant steps from a guess,
+/// where these do not end, the first crossing outward from it. Nothing where none carries it.
+std::optional<double> entry_angle_with_law(const Ground& ground, double load_n,
+                                           const Ratios& ratios, const StressLaw& law,
+                                           WheelAccuracy accuracy, double guess_rad);
 
 }  // namespace regoplan::wheel_contact

@@ -17,6 +17,20 @@ enum class ShearLaw {
   kHump,               ///< peak, then residual (Wong)
 };
 
+/// How the normal stress grows with depth where the soil lies in layers, z the depth of a point of
+/// the contact.
+struct Layering {
+  enum class Kind {
+    kNone,
+    kHardBelow,  ///< sigma (1 + (ratio - 1)(1 - exp(-(z/depth)^2)))
+    kCrust,      ///< sigma + crust (z/depth) exp(1 - z/depth)
+  };
+  Kind kind = Kind::kNone;
+  double depth_m = 1;
+  double ratio = 1;     ///< of the stiffness far below over that of the top
+  double crust_pa = 0;  ///< what the crust bears at most, at its depth
+};
+
 /// The wheel and where it is, before its mechanisms act.
 struct WheelState {
   double load_n = 0;
@@ -40,18 +54,18 @@ struct Effects {
   double residual = 1;        ///< shear hump: residual over peak
   double sinkage_factor = 1;  ///< h = h0 factor + added
   double sinkage_added_m = 0;
+  double dug_resistance = 0;    ///< share of the work of compacting a dug rut that Fx pays
   double rut_tilt_rad = 0;      ///< psi, the inner side deeper
   double bulldoze_height = 1;   ///< h_b/h beside the wheel
   double surcharge_pa = 0;      ///< on the soil beside the wheel
   double front_bulldozing = 0;  ///< eta
-  double layer_depth_m = 0;     ///< 0: one layer
-  double layer_stiffness = 1;   ///< of the layer below over the one above
-  double inertia = 0;           ///< factor on rho v^2 b h
-  double flank_shear = 0;       ///< share of mobilised shear on both flanks
-  double lug_height_m = 0;      ///< passive pressure on a lug
-  double lug_share = 0;         ///< of the lugs' pressure that is mobilised
-  double lug_ripple = 0;        ///< of their thrust over a lug's passage
-  double lugs = 0;              ///< around the wheel
+  Layering layering;
+  double inertia = 0;       ///< factor on rho v^2 b h
+  double flank_shear = 0;   ///< share of mobilised shear on both flanks
+  double lug_height_m = 0;  ///< passive pressure on a lug
+  double lug_share = 0;     ///< of the lugs' pressure that is mobilised
+  double lug_ripple = 0;    ///< of their thrust over a lug's passage
+  double lugs = 0;          ///< around the wheel
   double lug_phase_rad = 0;
   double tilt_x = 0, tilt_y = 0;  ///< share of the load along x and y
   double drag_torque_nm = 0;

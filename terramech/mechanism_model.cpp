@@ -39,109 +39,56 @@ double sinkage_of(double theta_f, double r) {
   return 2 * r * std::pow(std::sin(theta_f / 2), 2);
 }
 
-/// The contact under a wheel whose soil may change with depth, whose shear may follow another law,
-/// and whose rut may be deeper on one side.
-class ModifiedContact {
- public:
-  ModifiedContact(const Effects& effects, const Ground& ground, const Ratios& ratios)
-      : effects_(effects), ground_(ground), ratios_(ratios) {}
-
-  /// Whether it is the base model's contact on another soil.
-  bool is_plain() const {
-    return effects_.shear == ShearLaw::kSeparate && effects_.layer_depth_m == 0;
-  }
-
-  /// The wheel's middle at an entry angle.
-  wheel_contact::LawIntegrals at(double theta_f) const {
-    return strip(sinkage_of(theta_f, ground_.wheel.radius_m)).integrals;
-  }
-
-  struct Sideways {
-    double force_n = 0;  ///< |Fy|
-    double roll_nm = 0;  ///< of the vertical force, positive: more on the inner side
-  };
-
-  /// Side force and roll moment from strips across the width, the inner ones (towards the centre of
-  /// the turn) deeper; together they carry the load.
-  Sideways sideways(double theta_f, double q, double load_n) const {
-    const double r = ground_.wheel.radius_m, b = ground_.wheel.width_m;
-    const double h = sinkage_of(theta_f, r);
-    const std::size_t strips = effects_.rut_tilt_rad == 0 ? 1 : kStrips;
-    const double share = 1.0 / static_cast<double>(strips);
-    double fz = 0, fu = 0, fs = 0, roll = 0;
-    for (std::size_t i = 0; i < strips; ++i) {
-      const double inner = b * ((static_cast<double>(i) + 0.5) * share - 0.5);
-      const Strip at = strip(std::clamp(h + inner * std::tan(effects_.rut_tilt_rad), 1e-9 * r, r));
-      const double strip_fz = share * at.integrals.plane.at(q).fz_n;
-      fz += strip_fz;
-      roll += strip_fz * inner;
-      fu += share * (at.integrals.fu_cohesion_n + q * at.integrals.fu_stress_n);
-      fs += share * wheel_contact::bulldozing_force_n(ground_, at.contact, ratios_);
-    }
-    return {.force_n = fu + fs, .roll_nm = roll * load_n / fz};
-  }
-
-  double fz_n(double theta_f) const { return at(theta_f).plane.at(1).fz_n; }
-
-  /// The entry angle that carries the load with Q = 1, from one nearby outward.
-  std::optional<double> solve(double load_n, double near_rad) const {
-    constexpr double kQuarterTurn = std::numbers::pi / 2, kStep = 1.15, kShallowest = 1e-6;
-    double low = near_rad, high = near_rad;
-    while (fz_n(low) >= load_n) {
-      high = low;
-      low /= kStep;
-      if (low < kShallowest) return std::nullopt;
-    }
-    while (high == low || fz_n(high) < load_n) {
-      if (high >= kQuarterTurn) return std::nullopt;
-      low = high;
-      high = std::min(high * kStep, kQuarterTurn * (1 - 1e-12));
-      if (low == high) return std::nullopt;
-    }
-    // Illinois: a secant that keeps its bracket
-    double f_low = fz_n(low) - load_n, f_high = fz_n(high) - load_n;
-    for (int i = 0; i < 60 && high - low > 1e-12 * high; ++i) {
-      const double middle = high - f_high * (high - low) / (f_high - f_low);
-      const double f = fz_n(middle) - load_n;
-      if (std::abs(f) < 1e-10 * load_n) return middle;
-      if (f < 0) {
-        low = middle;
-        f_low = f;
-        f_high /= 2;
-      } else {
-        high = middle;
-        f_high = f;
-        f_low /= 2;
-      }
-    }
-    return high;
-  }
-
- private:
-  static constexpr std::size_t kStrips = 7;
-
-  struct Strip {
-    Contact contact;
-    wheel_contact::LawIntegrals integrals;
-  };
-
-  /// The full width at one depth.
-  Strip strip(double depth_m) const {
-    Ground ground = ground_;
-    if (effects_.layer_depth_m > 0) {
-      const double deep = 1 - std::exp(-std::pow(depth_m / effects_.layer_depth_m, 2));
-      ground.stress_scale_pa *= 1 + (effects_.layer_stiffness - 1) * deep;
-    }
-    const Contact contact =
-        wheel_contact::contact_at(ground, theta_of(depth_m, ground.wheel.radius_m), ratios_.slip);
-    return {contact, wheel_contact::integrate_with_law(ground, contact, ratios_, effects_.shear,
-                                                       effects_.residual)};
-  }
-
-  const Effects& effects_;
-  const Ground& ground_;
-  const Ratios& ratios_;
+/// The law of the stress, and whether it is another than the base model's.
+struct Law {
+  wheel_contact::StressLaw stress;
+  bool own = false;
 };
+
+Law law_of(const Effects& effects) {
+  return {.stress = {.shear = effects.shear,
+                     .residual = effects.residual,
+                     .layering = effects.layering},
+          .own = effects.shear != ShearLaw::kSeparate ||
+                 effects.layering.kind != Layering::Kind::kNone};
+}
+
+struct Sideways {
+  double force_n = 0;  ///< |Fy|
+  double roll_nm = 0;  ///< of the vertical force, positive: more on the inner side
+};
+
+/// Side force and roll moment from strips across the width, the inner ones (towards the centre of
+/// the turn) deeper by the tilt of the rut; together they carry the load.
+Sideways sideways_in_strips(const Ground& ground, const wheel_contact::StressLaw& law,
+                            const Ratios& ratios, double sinkage_m, double tilt_rad, double q,
+                            double load_n, WheelAccuracy accuracy) {
+  constexpr std::size_t kStrips = 7;
+  const double r = ground.wheel.radius_m, b = ground.wheel.width_m;
+  const std::size_t strips = tilt_rad == 0 ? 1 : kStrips;
+  const double share = 1.0 / static_cast<double>(strips);
+  double fz = 0, fu = 0, fs = 0, roll = 0;
+  for (std::size_t i = 0; i < strips; ++i) {
+    const double inner = b * ((static_cast<double>(i) + 0.5) * share - 0.5);
+    const double depth = std::clamp(sinkage_m + inner * std::tan(tilt_rad), 1e-9 * r, r);
+    const Contact contact = wheel_contact::contact_at(ground, theta_of(depth, r), ratios.slip);
+    const auto integrals =
+        wheel_contact::integrate_with_law(ground, contact, ratios, law, accuracy);
+    const double strip_fz = share * integrals.plane.at(q).fz_n;
+    fz += strip_fz;
+    roll += strip_fz * inner;
+    fu += share * (integrals.fu_cohesion_n + q * integrals.fu_stress_n);
+    fs += share * wheel_contact::bulldozing_force_n(ground, contact, ratios);
+  }
+  return {.force_n = fu + fs, .roll_nm = roll * load_n / fz};
+}
+
+/// Work of compacting a rut from one depth to another per metre, Bekker's resistance.
+double compaction_n(const Ground& ground, double from_m, double to_m) {
+  const double n = ground.soil.n, r = ground.wheel.radius_m;
+  return ground.wheel.width_m * ground.stress_scale_pa * r / (n + 1) *
+         (std::pow(to_m / r, n + 1) - std::pow(from_m / r, n + 1));
+}
 
 /// What acts on the wheel beside the stress under it.
 struct Additions {
@@ -204,7 +151,7 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   const ForwardMotion forward = forward_motion(moved);
   const Ratios& ratios = forward.ratios;
   const Ground ground = ground_of(effects, spec.gravity_mps2);
-  const ModifiedContact modified(effects, ground, ratios);
+  const Law law = law_of(effects);
   const double r = ground.wheel.radius_m;
   const WheelStatus sunk = WheelStatus::kSinksToAxle;
 
@@ -213,40 +160,43 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   const Ratios reference = at_rest ? Ratios{} : ratios;
   const auto plain = model.solver_.solve(ground, effects.load_n, reference, model.accuracy_);
   std::optional<double> theta_f;
-  if (modified.is_plain()) {
-    if (plain) theta_f = plain->contact.theta_f_rad;
-  } else {
+  if (plain) theta_f = plain->contact.theta_f_rad;
+  if (law.own) {
     constexpr double kSomewhere_rad = 0.5;
-    theta_f = ModifiedContact(effects, ground, reference)
-                  .solve(effects.load_n, plain ? plain->contact.theta_f_rad : kSomewhere_rad);
+    theta_f =
+        wheel_contact::entry_angle_with_law(ground, effects.load_n, reference, law.stress,
+                                            model.accuracy_, theta_f.value_or(kSomewhere_rad));
   }
   if (!theta_f) return {.forces = {.status = sunk}};
-  double h = sinkage_of(*theta_f, r);
-  const double h0 = h;
-  if (at_rest) h += spec.soil.c0_m * std::max(ratios.slip, 0.0);
-  h = h * effects.sinkage_factor + effects.sinkage_added_m;
+  const double undug =
+      sinkage_of(*theta_f, r) + (at_rest ? spec.soil.c0_m * std::max(ratios.slip, 0.0) : 0.0);
+  const double h = undug * effects.sinkage_factor + effects.sinkage_added_m;
   if (!(h < r && h > 0)) return {.forces = {.status = sunk}};
-  const bool imposed = at_rest || h != h0;
-  if (h != h0) theta_f = theta_of(h, r);
+  const bool imposed = at_rest || h != undug;
+  if (imposed) theta_f = theta_of(h, r);
 
   const Contact contact = wheel_contact::contact_at(ground, *theta_f, ratios.slip);
-  const Integrals plane = modified.is_plain()
-                              ? wheel_contact::integrate(ground, contact, ratios, model.accuracy_)
-                              : modified.at(*theta_f).plane;
+  const Integrals plane =
+      law.own
+          ? wheel_contact::integrate_with_law(ground, contact, ratios, law.stress, model.accuracy_)
+                .plane
+          : wheel_contact::integrate(ground, contact, ratios, model.accuracy_);
   const double q = imposed ? (effects.load_n - plane.cohesion.fz_n) / plane.stress.fz_n : 1.0;
   if (!(q >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
   const Resultant resultant = plane.at(q);
   double side_n = 0, roll_nm = 0;
-  if (modified.is_plain() && effects.rut_tilt_rad == 0) {
+  if (!law.own && effects.rut_tilt_rad == 0) {
     side_n = wheel_contact::side_force_n(ground, contact, ratios, q, model.accuracy_);
   } else {
-    const auto sideways = modified.sideways(*theta_f, q, effects.load_n);
+    const Sideways sideways = sideways_in_strips(
+        ground, law.stress, ratios, h, effects.rut_tilt_rad, q, effects.load_n, model.accuracy_);
     side_n = sideways.force_n;
     // inner is right (-y) for a motion to the left: the moment about x is negative
     roll_nm = -forward.y_sign * sideways.roll_nm;
   }
 
-  const Additions added = additions(effects, ground, state, contact, h, spec.gravity_mps2);
+  Additions added = additions(effects, ground, state, contact, h, spec.gravity_mps2);
+  added.fx_n -= effects.dug_resistance * compaction_n(ground, undug, h);
   const double rut_m = ground.wheel.width_m / 2 * std::tan(effects.rut_tilt_rad);
   return {.forces = {.fx_n = forward.x_sign * (resultant.fx_n + added.fx_n) +
                              effects.tilt_x * effects.load_n,

@@ -1,7 +1,10 @@
 #include "terramech/sinkage_solver.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 namespace regoplan::wheel_contact {
@@ -21,25 +24,30 @@ Ratios straight_at(double slip) {
   return {.axle = slip >= 0 ? 1 - slip : 1 / std::max(1 + slip, 1e-6), .slip = slip};
 }
 
-/// Halves [low, high], Fz below the load at low and not below it at high.
-Equilibrium bisect(const Ground& ground, double load_n, const Ratios& ratios,
-                   WheelAccuracy accuracy, double low, double high) {
-  for (int i = 0; i < 60 && high - low > 1e-13 * high; ++i) {
-    const double middle = (low + high) / 2;
-    (fz_n(ground, middle, ratios, accuracy) < load_n ? low : high) = middle;
-  }
-  const Contact contact = contact_at(ground, high, ratios.slip);
+/// The root in [low, high], Fz below the load at low and not below it at high.
+Equilibrium close_in(const Ground& ground, double load_n, const Ratios& ratios,
+                     WheelAccuracy accuracy, double low, double high) {
+  std::uintmax_t iterations = 60;
+  constexpr int kBits = 42;
+  const auto root = boost::math::tools::toms748_solve(
+      [&](double theta_f) { return fz_n(ground, theta_f, ratios, accuracy) - load_n; }, low, high,
+      boost::math::tools::eps_tolerance<double>(kBits), iterations);
+  const Contact contact = contact_at(ground, root.second, ratios.slip);
   return {contact, integrate(ground, contact, ratios, accuracy).at(1)};
 }
 
 /// Steps outward from almost no contact, finest where it is shallow, to the first entry angle that
 /// carries the load; a hump of Fz between two steps that almost reaches the load is looked into.
+/// The steps themselves are integrated fast.
 std::optional<Equilibrium> search(const Ground& ground, double load_n, const Ratios& ratios,
                                   WheelAccuracy accuracy) {
   constexpr int kSteps = 60;
   constexpr double kShallowest = 1e-6;
   constexpr double kNearlyReached = 0.8;
   const auto fz = [&](double theta_f) { return fz_n(ground, theta_f, ratios, accuracy); };
+  const auto crosses = [&](double low, double high) {
+    return fz(low) < load_n && fz(high) >= load_n;
+  };
   // steps of a constant ratio up to .1 rad, then of constant size
   const auto theta_at = [&](int i) {
     constexpr int kRatioSteps = 20;
@@ -48,24 +56,24 @@ std::optional<Equilibrium> search(const Ground& ground, double load_n, const Rat
                ? kShallowest * std::pow(kShallow / kShallowest, double(i) / kRatioSteps)
                : kShallow + (kQuarterTurn - kShallow) * (i - kRatioSteps) / (kSteps - kRatioSteps);
   };
+  const auto rough_fz = [&](int i) {
+    return fz_n(ground, theta_at(i), ratios, WheelAccuracy::kFast);
+  };
   double before = 0, low = kShallowest;
-  double fz_before = 0, fz_low = fz(low);
+  double fz_before = 0, fz_low = rough_fz(0);
   for (int i = 1; i <= kSteps + 1; ++i) {
     const double high = theta_at(std::min(i, kSteps));
-    const double fz_high = i <= kSteps ? fz(high) : -1;
-    if (i <= kSteps && fz_high >= load_n)
-      return bisect(ground, load_n, ratios, accuracy, low, high);
+    const double fz_high = i <= kSteps ? rough_fz(i) : -1;
+    constexpr double kRough = 1e-3;
+    if (i <= kSteps && fz_high >= (1 - kRough) * load_n && crosses(low, high)) {
+      return close_in(ground, load_n, ratios, accuracy, low, high);
+    }
     if (fz_low > fz_before && fz_low > fz_high && fz_low > kNearlyReached * load_n) {
-      // golden section for the top of the hump
-      constexpr double kGolden = 0.6180339887498949;
-      double a = before, b = high;
-      while (b - a > 1e-7 * b) {
-        const double left = b - kGolden * (b - a), right = a + kGolden * (b - a);
-        const double fz_left = fz(left), fz_right = fz(right);
-        if (std::max(fz_left, fz_right) >= load_n) {
-          return bisect(ground, load_n, ratios, accuracy, before, fz_left >= load_n ? left : right);
-        }
-        (fz_left < fz_right ? a : b) = fz_left < fz_right ? left : right;
+      constexpr int kBits = 20;
+      const auto top = boost::math::tools::brent_find_minima(
+          [&](double theta_f) { return -fz(theta_f); }, before, high, kBits);
+      if (-top.second >= load_n && fz(before) < load_n) {
+        return close_in(ground, load_n, ratios, accuracy, before, top.first);
       }
     }
     before = low;
@@ -169,7 +177,7 @@ std::optional<Equilibrium> SinkageSolver::solve(const Ground& ground, double loa
                                                 WheelAccuracy accuracy) const {
   // What is left after the linear correction is of the order of the product of the last two errors.
   const double product_tolerance = accuracy == WheelAccuracy::kFast ? 2e-5 : 1e-7;
-  constexpr double kConverged = 1e-9;
+  const double converged = accuracy == WheelAccuracy::kFast ? 1e-5 : 1e-9;
   constexpr int kIterations = 10;
   const Guess start = guess(ground, load_n, ratios);
   double theta_f = std::exp(start.log_theta_f);
@@ -183,11 +191,15 @@ std::optional<Equilibrium> SinkageSolver::solve(const Ground& ground, double loa
     if (!(at.fz_n > 0)) break;
     // ln(Fz/load) but for its cube
     const double y = 2 * (at.fz_n - load_n) / (at.fz_n + load_n);
-    if (std::abs(y) < kConverged) return Equilibrium{contact, at};
+    if (std::abs(y) < converged) return Equilibrium{contact, at};
     if (iteration > 0) {
       slope = (y - y_before) / step;
-      constexpr double kRising = 0.1;
+      constexpr double kRising = 0.1, kFlat = 0.5;
       if (!(slope > kRising)) break;
+      if (slope < kFlat && accuracy == WheelAccuracy::kFast) {
+        // small errors of Fz are large ones of the sinkage
+        return solve(ground, load_n, ratios, WheelAccuracy::kExact);
+      }
     }
     const double next = std::clamp(-y / slope, -1.0, 0.5);
     if (iteration > 0 && std::abs(y * step) < product_tolerance) {

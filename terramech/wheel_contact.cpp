@@ -13,74 +13,45 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "terramech/graded_nodes.h"
+#include "terramech/mechanism_contact.h"
+#include "terramech/vector_clones.h"
 #include "terramech/vector_math.h"
-
-// One build serves every x86-64: the integrals are compiled for the plain instruction set and for
-// AVX2 (x86-64-v3), and chosen when the program is loaded. The same machine always gives the same
-// bits; machines with and without AVX2 differ by rounding, as the former fuse (CMakeLists.txt).
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define REGOPLAN_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3")))
-#else
-#define REGOPLAN_VECTOR_CLONES
-#endif
 
 namespace regoplan::wheel_contact {
 namespace {
 
-using vector_math::kLanes;
+using vector_math::Eight;
 using vector_math::Vec;
 
-/// Gauss-Legendre nodes t in (0, 1), graded by theta = theta_f - (theta_f - theta_m) t^3 towards
-/// the entry and likewise towards the exit, where stress and shear have their corners (n < 1, a
-/// locked wheel, beta near 90 deg). Holds t^3 and 3 t^2 w.
-template <std::size_t kNodes>
-struct GradedNodes {
-  static constexpr std::size_t kVectors = kNodes / kLanes;
-  std::array<Vec, kVectors> t3;
-  std::array<Vec, kVectors> weight;
-
-  GradedNodes() {
-    using Gauss = boost::math::quadrature::gauss<double, kNodes>;
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const bool upper = i >= kNodes / 2;
-      const std::size_t half = upper ? i - kNodes / 2 : kNodes / 2 - 1 - i;
-      const double t = (1 + (upper ? 1 : -1) * Gauss::abscissa()[half]) / 2;
-      t3[i / kLanes][i % kLanes] = t * t * t;
-      weight[i / kLanes][i % kLanes] = 3 * t * t * Gauss::weights()[half] / 2;
-    }
-  }
-};
-
-template <std::size_t kNodes>
-const GradedNodes<kNodes>& graded_nodes() {
-  static const GradedNodes<kNodes> nodes;
-  return nodes;
-}
-
-/// Normal stress at Q = 1 where cos(theta) exceeds cos(theta_f) by `rise`, eq. (4).
-[[gnu::always_inline]] inline Vec normal_stress_pa(const Ground& ground, Vec rise) {
-  if (ground.soil.n == 1) return ground.stress_scale_pa * rise;
-  const Vec positive = rise < 1e-300 ? Vec{} + 1e-300 : rise;
-  return ground.stress_scale_pa * vector_math::exp(ground.soil.n * vector_math::log(positive));
+/// Normal stress at Q = 1 where cos(theta) exceeds cos(theta_f) by `rise`, eq. (4), over its scale.
+template <class Numbers>
+[[gnu::always_inline]] inline Numbers normal_stress(double n, Numbers rise) {
+  using N = vector_math::Number<Numbers>;
+  if (n == 1) return rise;
+  constexpr N kNone = sizeof(N) == sizeof(float) ? N(1e-37) : N(1e-300);
+  const Numbers positive = rise < kNone ? Numbers{} + kNone : rise;
+  return vector_math::exp(N(n) * vector_math::log(positive));
 }
 
 /// Sums over the nodes of one side of theta_m, per unit of arc.
+template <class Numbers>
 struct Sums {
-  Vec cohesion_x{}, cohesion_z{}, cohesion_t{};
-  Vec stress_x{}, stress_z{}, stress_t{};
+  using N = vector_math::Number<Numbers>;
+  Numbers cohesion_x{}, cohesion_z{}, cohesion_t{};
+  Numbers stress_x{}, stress_z{}, stress_t{};
 
   /// \param shear the mobilised share of the shear limit, signed, eq. (7)
-  [[gnu::always_inline]] void add(Vec weight, Vec weighted_sigma, Vec shear, double tan_phi,
-                                  Vec sin_theta, Vec cos_theta) {
-    const Vec cohesive = weight * shear;
+  [[gnu::always_inline]] void add(Numbers weight, Numbers weighted_sigma, Numbers shear, N tan_phi,
+                                  Numbers sin_theta, Numbers cos_theta) {
+    const Numbers cohesive = weight * shear;
     cohesion_x += cohesive * cos_theta;
     cohesion_z += cohesive * sin_theta;
     cohesion_t += cohesive;
-    const Vec frictional = weighted_sigma * (tan_phi * shear);
+    const Numbers frictional = weighted_sigma * (tan_phi * shear);
     stress_x += frictional * cos_theta - weighted_sigma * sin_theta;
     stress_z += frictional * sin_theta + weighted_sigma * cos_theta;
     stress_t += frictional;
@@ -88,80 +59,91 @@ struct Sums {
 };
 
 /// sgn(j) (1 - exp(-|j|)), eq. (7), of a displacement counted in shear moduli.
-[[gnu::always_inline]] inline Vec mobilised(Vec j) {
-  return vector_math::with_sign(1.0 - vector_math::exp(-vector_math::abs(j)), j);
+template <class Numbers>
+[[gnu::always_inline]] inline Numbers mobilised(Numbers j) {
+  using N = vector_math::Number<Numbers>;
+  return vector_math::with_sign(N(1) - vector_math::exp(-vector_math::abs(j)), j);
 }
 
-template <std::size_t kNodes>
+/// \tparam Numbers doubles, or floats where 1e-6 will do
+template <std::size_t kNodes, class Numbers>
 [[gnu::always_inline]] inline Integrals integrate_at(const Ground& ground, const Contact& at,
                                                      const Ratios& ratios) {
-  const GradedNodes<kNodes>& nodes = graded_nodes<kNodes>();
+  using N = vector_math::Number<Numbers>;
+  const GradedNodes<kNodes, Numbers>& nodes = graded_nodes<kNodes, Numbers>();
   const double r = ground.wheel.radius_m;
   const double kx = ground.soil.kx0_m + ground.soil.kx1_m * ratios.beta_abs_rad;
-  const double rim = ratios.rim * r / kx;
-  const double axle = ratios.axle * r / kx;
-  const double front_arc = at.theta_f_rad - at.theta_m_rad;
-  const double rear_arc = at.theta_m_rad - at.theta_r_rad;
-  const double whole_arc = at.theta_f_rad - at.theta_r_rad;
+  const N rim = N(ratios.rim * r / kx), axle = N(ratios.axle * r / kx);
+  const N front_arc = N(at.theta_f_rad - at.theta_m_rad);
+  const N rear_arc = N(at.theta_m_rad - at.theta_r_rad);
+  const N whole_arc = N(at.theta_f_rad - at.theta_r_rad);
+  const N sin_f = N(at.sin_f), cos_f = N(at.cos_f), sin_r = N(at.sin_r), cos_r = N(at.cos_r);
+  const N tan_phi = N(ground.tan_phi);
 
-  Sums front, rear;
+  Sums<Numbers> front, rear;
   for (std::size_t i = 0; i < nodes.kVectors; ++i) {
-    const Vec weight = nodes.weight[i];
+    const Numbers weight = nodes.weight[i];
     // theta = theta_f - d: differences to theta_f come without cancellation
-    const Vec d = front_arc * nodes.t3[i];
-    const vector_math::Turn down = vector_math::turn(d);
-    const Vec advance = at.sin_f * down.versin + at.cos_f * down.sin;  // sin theta_f - sin theta
-    const Vec rise = at.sin_f * down.sin - at.cos_f * down.versin;     // cos theta - cos theta_f
+    const Numbers d = front_arc * nodes.t3[i];
+    const auto down = vector_math::turn(d);
+    const Numbers advance = sin_f * down.versin + cos_f * down.sin;  // sin theta_f - sin theta
+    const Numbers rise = sin_f * down.sin - cos_f * down.versin;     // cos theta - cos theta_f
     // eq. (5): the rear nodes mirror the front ones, so the stress is the same
-    const Vec weighted_sigma = weight * normal_stress_pa(ground, rise);
-    front.add(weight, weighted_sigma, mobilised(rim * d - axle * advance), ground.tan_phi,
-              at.sin_f - advance, at.cos_f + rise);
+    const Numbers weighted_sigma = weight * normal_stress(ground.soil.n, rise);
+    front.add(weight, weighted_sigma, mobilised(rim * d - axle * advance), tan_phi, sin_f - advance,
+              cos_f + rise);
 
-    const Vec e = rear_arc * nodes.t3[i];
-    const vector_math::Turn up = vector_math::turn(e);
-    const Vec sin_theta = at.sin_r + (at.cos_r * up.sin - at.sin_r * up.versin);
-    const Vec cos_theta = at.cos_r - (at.sin_r * up.sin + at.cos_r * up.versin);
-    rear.add(weight, weighted_sigma,
-             mobilised(rim * (whole_arc - e) - axle * (at.sin_f - sin_theta)), ground.tan_phi,
-             sin_theta, cos_theta);
+    const Numbers e = rear_arc * nodes.t3[i];
+    const auto up = vector_math::turn(e);
+    const Numbers sin_theta = sin_r + (cos_r * up.sin - sin_r * up.versin);
+    const Numbers cos_theta = cos_r - (sin_r * up.sin + cos_r * up.versin);
+    rear.add(weight, weighted_sigma, mobilised(rim * (whole_arc - e) - axle * (sin_f - sin_theta)),
+             tan_phi, sin_theta, cos_theta);
   }
-  const double b = ground.wheel.width_m;
-  const auto resultant = [&](const Vec Sums::*x, const Vec Sums::*z, const Vec Sums::*t) {
-    const auto both = [&](const Vec Sums::*part) {
-      return r * b * vector_math::sum(front_arc * (front.*part) + rear_arc * (rear.*part));
+  const double area = r * ground.wheel.width_m;
+  using Part = Numbers Sums<Numbers>::*;
+  const auto resultant = [&](double factor, Part x, Part z, Part t) {
+    const auto both = [&](Part part) {
+      return factor * vector_math::sum(front_arc * (front.*part) + rear_arc * (rear.*part));
     };
     return Resultant{.fx_n = both(x), .fz_n = both(z), .torque_nm = r * both(t)};
   };
-  return {.cohesion = ground.soil.cohesion_pa *
-                      resultant(&Sums::cohesion_x, &Sums::cohesion_z, &Sums::cohesion_t),
-          .stress = resultant(&Sums::stress_x, &Sums::stress_z, &Sums::stress_t)};
+  using S = Sums<Numbers>;
+  return {
+      .cohesion =
+          resultant(area * ground.soil.cohesion_pa, &S::cohesion_x, &S::cohesion_z, &S::cohesion_t),
+      .stress = resultant(area * ground.stress_scale_pa, &S::stress_x, &S::stress_z, &S::stress_t)};
 }
 
 /// |Fy| = Fu + M Fs, eqs. (9)(12), with Fs given.
-template <std::size_t kNodes>
+template <std::size_t kNodes, class Numbers>
 [[gnu::always_inline]] inline double side_force_at(const Ground& ground, const Contact& at,
                                                    const Ratios& ratios, double q,
                                                    double bulldozing_n) {
-  const GradedNodes<kNodes>& nodes = graded_nodes<kNodes>();
+  using N = vector_math::Number<Numbers>;
+  const GradedNodes<kNodes, Numbers>& nodes = graded_nodes<kNodes, Numbers>();
   const double r = ground.wheel.radius_m;
   const double ky = ground.soil.ky0_m + ground.soil.ky1_m * ratios.beta_abs_rad;
-  const double lateral = ratios.lateral * r / ky;
-  const double front_arc = at.theta_f_rad - at.theta_m_rad;
-  const double rear_arc = at.theta_m_rad - at.theta_r_rad;
-  const double whole_arc = at.theta_f_rad - at.theta_r_rad;
-  Vec total{};
+  const N lateral = N(ratios.lateral * r / ky);
+  const N front_arc = N(at.theta_f_rad - at.theta_m_rad);
+  const N rear_arc = N(at.theta_m_rad - at.theta_r_rad);
+  const N whole_arc = N(at.theta_f_rad - at.theta_r_rad);
+  const N cohesion_pa = N(ground.soil.cohesion_pa);
+  const N friction_pa = N(q * ground.tan_phi * ground.stress_scale_pa);
+  Numbers total{};
   for (std::size_t i = 0; i < nodes.kVectors; ++i) {
-    const Vec d = front_arc * nodes.t3[i];
-    const vector_math::Turn down = vector_math::turn(d);
-    const Vec sigma = normal_stress_pa(ground, at.sin_f * down.sin - at.cos_f * down.versin);
-    const Vec limit =
-        nodes.weight[i] * (ground.soil.cohesion_pa + sigma * (q * ground.tan_phi));  // eq. (10)
-    const Vec e = rear_arc * nodes.t3[i];
-    total += limit * (front_arc * (1.0 - vector_math::exp(-lateral * d)) +
-                      rear_arc * (1.0 - vector_math::exp(-lateral * (whole_arc - e))));  // eq. (11)
+    const Numbers d = front_arc * nodes.t3[i];
+    const auto down = vector_math::turn(d);
+    const Numbers sigma =
+        normal_stress(ground.soil.n, N(at.sin_f) * down.sin - N(at.cos_f) * down.versin);
+    const Numbers limit = nodes.weight[i] * (cohesion_pa + sigma * friction_pa);  // eq. (10)
+    const Numbers e = rear_arc * nodes.t3[i];
+    total +=
+        limit * (front_arc * (N(1) - vector_math::exp(-lateral * d)) +
+                 rear_arc * (N(1) - vector_math::exp(-lateral * (whole_arc - e))));  // eq. (11)
   }
-  const Vec whole = Vec{} + whole_arc;
-  const double mobilisation = 1 - vector_math::exp(-lateral * whole)[0];
+  const Numbers whole = Numbers{} + whole_arc;
+  const double mobilisation = 1 - double{vector_math::exp(-lateral * whole)[0]};
   return r * ground.wheel.width_m * vector_math::sum(total) + mobilisation * bulldozing_n;
 }
 
@@ -190,29 +172,31 @@ double bulldozing_integral_n(const Ground& ground, const Contact& at) {
          ground.bulldoze_weight * r * r * r * (h2 - h3c);
 }
 
-REGOPLAN_VECTOR_CLONES Integrals integrate_8(const Ground& ground, const Contact& contact,
-                                             const Ratios& ratios) {
-  return integrate_at<8>(ground, contact, ratios);
+REGOPLAN_VECTOR_CLONES Integrals integrate_fast_8(const Ground& ground, const Contact& contact,
+                                                  const Ratios& ratios) {
+  return integrate_at<8, Eight>(ground, contact, ratios);
 }
-REGOPLAN_VECTOR_CLONES Integrals integrate_12(const Ground& ground, const Contact& contact,
-                                              const Ratios& ratios) {
-  return integrate_at<12>(ground, contact, ratios);
+REGOPLAN_VECTOR_CLONES Integrals integrate_fast_24(const Ground& ground, const Contact& contact,
+                                                   const Ratios& ratios) {
+  return integrate_at<24, Eight>(ground, contact, ratios);
 }
 REGOPLAN_VECTOR_CLONES Integrals integrate_20(const Ground& ground, const Contact& contact,
                                               const Ratios& ratios) {
-  return integrate_at<20>(ground, contact, ratios);
+  return integrate_at<20, Vec>(ground, contact, ratios);
 }
 REGOPLAN_VECTOR_CLONES Integrals integrate_40(const Ground& ground, const Contact& contact,
                                               const Ratios& ratios) {
-  return integrate_at<40>(ground, contact, ratios);
+  return integrate_at<40, Vec>(ground, contact, ratios);
 }
-REGOPLAN_VECTOR_CLONES double side_force_12_n(const Ground& ground, const Contact& contact,
-                                              const Ratios& ratios, double q, double bulldozing_n) {
-  return side_force_at<12>(ground, contact, ratios, q, bulldozing_n);
+REGOPLAN_VECTOR_CLONES double side_force_fast_n(const Ground& ground, const Contact& contact,
+                                                const Ratios& ratios, double q,
+                                                double bulldozing_n) {
+  return side_force_at<16, Eight>(ground, contact, ratios, q, bulldozing_n);
 }
-REGOPLAN_VECTOR_CLONES double side_force_24_n(const Ground& ground, const Contact& contact,
-                                              const Ratios& ratios, double q, double bulldozing_n) {
-  return side_force_at<24>(ground, contact, ratios, q, bulldozing_n);
+REGOPLAN_VECTOR_CLONES double side_force_exact_n(const Ground& ground, const Contact& contact,
+                                                 const Ratios& ratios, double q,
+                                                 double bulldozing_n) {
+  return side_force_at<24, Vec>(ground, contact, ratios, q, bulldozing_n);
 }
 
 }  // namespace
@@ -250,17 +234,25 @@ Integrals integrate(const Ground& ground, const Contact& contact, const Ratios& 
   // Where the shear has corners it takes more nodes: almost locked, it grows within a sliver at the
   // entry; braking lightly, jx starts forward and turns back, and eq. (7) has a corner at jx = 0.
   constexpr double kNearlyLocked = 12, kDeepCosine = 0.7, kAlmostSunkCosine = 0.5;
+  constexpr double kSharp = 6;
   const bool nearly_locked = ratios.axle > kNearlyLocked || ratios.rim < 1;
   const bool shear_turns = ratios.axle > ratios.rim && ratios.axle * contact.cos_f < ratios.rim;
+  // Deep, that corner is too sharp for nodes that do not know it.
+  const bool sharp = accuracy == WheelAccuracy::kExact ||
+                     ratios.axle * ground.wheel.radius_m >
+                         kSharp * (ground.soil.kx0_m + ground.soil.kx1_m * ratios.beta_abs_rad);
+  if (shear_turns && contact.cos_f < kDeepCosine && sharp) {
+    return integrate_with_law(ground, contact, ratios, {}, accuracy).plane;
+  }
   if (accuracy == WheelAccuracy::kExact) {
     return shear_turns || nearly_locked || contact.cos_f < kAlmostSunkCosine
                ? integrate_40(ground, contact, ratios)
                : integrate_20(ground, contact, ratios);
   }
-  if ((shear_turns && contact.cos_f < kDeepCosine) || contact.cos_f < kAlmostSunkCosine)
-    return integrate_20(ground, contact, ratios);
-  return nearly_locked ? integrate_12(ground, contact, ratios)
-                       : integrate_8(ground, contact, ratios);
+  return nearly_locked || (shear_turns && contact.cos_f < kDeepCosine) ||
+                 contact.cos_f < kAlmostSunkCosine
+             ? integrate_fast_24(ground, contact, ratios)
+             : integrate_fast_8(ground, contact, ratios);
 }
 
 double side_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios,
@@ -269,8 +261,8 @@ double side_force_n(const Ground& ground, const Contact& contact, const Ratios& 
   if (ratios.lateral < kNoLateralMotion) return 0;
   const double bulldozing_n = bulldozing_integral_n(ground, contact);
   return accuracy == WheelAccuracy::kFast
-             ? side_force_12_n(ground, contact, ratios, stress_scale_q, bulldozing_n)
-             : side_force_24_n(ground, contact, ratios, stress_scale_q, bulldozing_n);
+             ? side_force_fast_n(ground, contact, ratios, stress_scale_q, bulldozing_n)
+             : side_force_exact_n(ground, contact, ratios, stress_scale_q, bulldozing_n);
 }
 
 double bulldozing_force_n(const Ground& ground, const Contact& contact, const Ratios& ratios) {

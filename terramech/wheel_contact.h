@@ -5,8 +5,8 @@
 
 namespace regoplan {
 
-/// How closely the direct model is integrated and solved: `kFast` to 1.5e-4 of the load, `kExact`
-/// to 3e-6 (WheelAccuracy tests). Within a tenth of the largest load that the soil carries Fz
+/// How closely the direct model is integrated and solved, up to 95 % of the largest load that the
+/// soil carries: `kFast` to 1.5e-4 of the load, `kExact` to 3e-6 (WheelAccuracy tests). Beyond, Fz
 /// hardly rises with the sinkage, and both may be several times that.
 enum class WheelAccuracy { kFast, kExact };
 

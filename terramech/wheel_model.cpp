@@ -29,7 +29,8 @@ WheelForces forces_at(const Ground& ground, const Contact& contact, const Result
           .fy_n = forward.y_sign *
                   side_force_n(ground, contact, forward.ratios, stress_scale_q, accuracy),
           .torque_nm = forward.x_sign * resultant.torque_nm,
-          .sinkage_m = ground.wheel.radius_m * 2 * std::pow(std::sin(contact.theta_f_rad / 2), 2),
+          // r (1 - cos theta_f) without its cancellation
+          .sinkage_m = ground.wheel.radius_m * contact.sin_f * contact.sin_f / (1 + contact.cos_f),
           .theta_f_rad = contact.theta_f_rad,
           .theta_r_rad = contact.theta_r_rad,
           .status = forward.status};
@@ -50,7 +51,8 @@ WheelForces scale_stress(const SinkageSolver& solver, const Ground& ground, doub
   const auto at_zero_slip = solver.solve(ground, load_n, free_rolling, accuracy);
   if (!at_zero_slip) return {.status = WheelStatus::kSinksToAxle};
   const double r = ground.wheel.radius_m;
-  const double h0 = r * 2 * std::pow(std::sin(at_zero_slip->contact.theta_f_rad / 2), 2);
+  const double h0 = r * at_zero_slip->contact.sin_f * at_zero_slip->contact.sin_f /
+                    (1 + at_zero_slip->contact.cos_f);
   const double h = h0 + ground.soil.c0_m * std::max(forward.ratios.slip, 0.0);
   if (!(h < r)) return {.status = WheelStatus::kSinksToAxle};
   const Contact contact =

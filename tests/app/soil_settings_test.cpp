@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/app/error_text.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
@@ -141,6 +142,27 @@ TEST(SoilSettings, TheSoilsThatComeWithTheProgramAreValid) {
     EXPECT_GE(read_soil_catalogue(read_settings(file), WheelVariant::kIshigami2007).soils.size(),
               3);
   }
+}
+
+TEST(SoilSettings, TheSoilsOfTheTestsAreThoseOfTheScenarios) {
+  int compared = 0;
+  for (const char* scenario : {"demo", "marias_pass"}) {
+    const std::filesystem::path file =
+        std::filesystem::path(REGOPLAN_SOURCE_DIR) / "scenarios" / scenario / "soils.yaml";
+    const SoilCatalogue read =
+        read_soil_catalogue(read_settings(file), WheelVariant::kIshigami2007);
+    for (const named_soils::NamedSoil& named : named_soils::shipped()) {
+      for (const MapSoil& soil : read.soils) {
+        if (soil.name != named.name) continue;
+        ++compared;
+        for (const SoilParameter& parameter : soil_parameters()) {
+          EXPECT_DOUBLE_EQ(soil.soil.mean.*parameter.member, named.soil.*parameter.member)
+              << soil.name << " " << parameter.name;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(compared, 6);
 }
 
 }  // namespace

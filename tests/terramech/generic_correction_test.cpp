@@ -157,7 +157,7 @@ TEST(GenericCorrection, ActsOnTopOfMechanismsAndOnRuts) {
 TEST(GenericCorrection, IsAddedToATableAsToTheModelItself) {
   const ForceTable table({.model = with_correction(), .nominal_load_n = 60});
   const ForceTable base({.model = wheel_specs::ishigami2007(), .nominal_load_n = 60});
-  EXPECT_EQ(table.error().at_worst, base.error().at_worst);
+  EXPECT_NEAR(table.error().at_worst, base.error().at_worst, 1e-9);
   std::vector<double> loads;
   std::vector<WheelMotion> motions;
   for (const auto* places : {&kInside, &kOutside}) {
@@ -168,7 +168,6 @@ TEST(GenericCorrection, IsAddedToATableAsToTheModelItself) {
       EXPECT_EQ(forces.status, exact.status);
       EXPECT_NEAR(forces.fx_n, exact.fx_n, 5e-3 * at.load_n);
       EXPECT_NEAR(forces.fy_n, exact.fy_n, 5e-3 * at.load_n);
-      EXPECT_EQ(table.plane_forces(at.load_n, motion).fy_n, forces.fy_n);
       loads.push_back(at.load_n);
       motions.push_back(motion);
     }

@@ -10,51 +10,16 @@
 #include "terramech/supply.h"
 #include "terramech/vehicle.h"
 #include "terramech/wheel_law.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
-inline constexpr double kMoon_mps2 = 1.62;
-inline constexpr double kEarth_mps2 = 9.80665;
-
-/// Regolith between craters, as the Apollo roving vehicles drove on (scenarios/demo/soils.yaml).
-inline Soil firm_regolith() {
-  return {.cohesion_pa = 170,
-          .friction_angle_rad = 36 * kDegree,
-          .kc = 1400,
-          .kphi = 8.2e5,
-          .n = 1,
-          .a0 = 0.40,
-          .a1 = 0.15,
-          .lambda = 0.90,
-          .density_kgpm3 = 1500,
-          .kx0_m = 0.018,
-          .kx1_m = 0.043,
-          .ky0_m = 0.013,
-          .ky1_m = 0.020};
-}
-
-/// The weakest soil of the demo.
-inline Soil soft_patch() {
-  return {.cohesion_pa = 50,
-          .friction_angle_rad = 28 * kDegree,
-          .kc = 400,
-          .kphi = 1.2e5,
-          .n = 1,
-          .a0 = 0.40,
-          .a1 = 0.15,
-          .lambda = 0.90,
-          .density_kgpm3 = 1250,
-          .kx0_m = 0.032,
-          .kx1_m = 0.043,
-          .ky0_m = 0.025,
-          .ky1_m = 0.020};
-}
-
-/// The gravity that a preset was built for.
-inline double home_gravity_mps2(const std::string& preset) {
-  return preset == "lrv" ? kMoon_mps2 : preset == "curiosity" ? 3.72 : kEarth_mps2;
-}
+using named_soils::firm_regolith;
+using named_soils::home_gravity_mps2;
+using named_soils::kEarth_mps2;
+using named_soils::kMoon_mps2;
+using named_soils::soft_patch;
 
 inline TrimLimits limits_of(const Vehicle& vehicle) {
   return {.slip_angle_max_rad = vehicle.slip_angle_max_rad,

@@ -85,6 +85,8 @@ const std::vector<Case> kBundles{
     {"slip_sinkage", "lyasko", -0.3, 10, 60, "0", "0", "0", "0"},
     {"slip_sinkage", "linear", 0.5, 0, 60, "-", "0", "+", "+"},
     {"slip_sinkage", "hyperbolic", 0.5, 0, 60, "-", "0", "?", "+"},
+    {"slip_sinkage", "dug_rut", 0.5, 0, 60, "-", "0", "+", "+"},
+    {"slip_sinkage", "dug_rut", -0.3, 10, 60, "0", "0", "0", "0"},
     {"lateral_digging", "sine", 0.2, 20, 60, "?", "+", "?", "+"},
     {"lateral_digging", "sine", 0.2, 0, 60, "0", "0", "0", "0"},
     {"rut_asymmetry", "tilt", 0.2, 20, 60, "~", "?", "~", "~"},
@@ -119,7 +121,7 @@ const std::vector<Case> kBundles{
     {"rate_dependence", "inertia", 0.4, 0, 60, "-", "0", "0", "0", {.speed_mps = 1}},
     {"rate_dependence", "inertia", 0.4, 0, 60, "~", "0", "0", "0", {.speed_mps = 0.01}},
     {"layered_soil", "hard_below", 0.2, 0, 120, "?", "0", "?", "-"},
-    {"layered_soil", "crust", 0.2, 0, 60, "?", "0", "?", "+"},
+    {"layered_soil", "crust", 0.2, 0, 60, "?", "0", "?", "-"},
     {"soil_zone", "factors", 0.3, 0, 60, "-", "0", "?", "+", {.position_m = 0.5}},
     {"soil_zone", "factors", 0.3, 0, 60, "0", "0", "0", "0", {.position_m = 2}},
     {"cohesion_drift", "linear", 0.5, 0, 5, "-", "0", "-", "?", {.time_s = 20000}},
@@ -150,6 +152,71 @@ const std::vector<Case> kBundles{
 
 TEST(Mechanism, HasItsBundleOfSigns) {
   for (const Case& at : kBundles) expect_bundle(at);
+}
+
+TEST(Mechanism, SlipSinkageDeepensTheRutAndCostsTorqueOnEverySoil) {
+  for (const auto& pair : named_soils::shipped_pairs()) {
+    const double load_n = pair.nominal_load_n, r = pair.spec.wheel.radius_m;
+    for (const double slip : {0.35, 0.6}) {
+      const WheelForces base = WheelModel(pair.spec).forces(load_n, motion_at(slip, 0));
+      const std::vector<Mechanism> forms{{"slip_sinkage", "exponent", {}},
+                                         {"slip_sinkage", "lyasko", {}},
+                                         {"slip_sinkage", "linear", {{"c0_m", 0.15 * r}}},
+                                         {"slip_sinkage", "hyperbolic", {{"hj_m", 0.04 * r}}},
+                                         {"slip_sinkage", "dug_rut", {}}};
+      for (const Mechanism& form : forms) {
+        const WheelForces dug =
+            with(pair.spec, form.id, form.form, form.parameters).forces(load_n, motion_at(slip, 0));
+        const std::string where = pair.name + " " + form.form + " " + std::to_string(slip);
+        EXPECT_GT(dug.sinkage_m, 1.1 * base.sinkage_m) << where;
+        EXPECT_GT(dug.torque_nm, base.torque_nm + 0.005 * load_n * r) << where;
+      }
+      // what the rut costs outweighs what the longer contact pulls
+      EXPECT_LT(with(pair.spec, "slip_sinkage", "dug_rut").forces(load_n, motion_at(slip, 0)).fx_n,
+                base.fx_n - 0.02 * load_n)
+          << pair.name;
+    }
+  }
+}
+
+TEST(Mechanism, WithoutTheCostOfTheRutFxFallsOnlyWhereShearIsMobilisedAndCohesionSmall) {
+  for (const auto& pair : named_soils::shipped_pairs()) {
+    const WheelMotion motion = motion_at(0.5, 0);
+    const auto change_n = [&](const WheelModelSpec& spec) {
+      return with(spec, "slip_sinkage", "lyasko").forces(pair.nominal_load_n, motion).fx_n -
+             WheelModel(spec).forces(pair.nominal_load_n, motion).fx_n;
+    };
+    WheelModelSpec dry_sand = pair.spec;
+    dry_sand.soil.cohesion_pa = 0;
+    dry_sand.soil.lambda = 0;
+    dry_sand.soil.kx1_m = 0;
+    const WheelForces base = WheelModel(dry_sand).forces(pair.nominal_load_n, motion);
+    dry_sand.soil.kx0_m = dry_sand.wheel.radius_m * base.theta_f_rad * 0.5 / 10;
+    EXPECT_LT(change_n(dry_sand), 0) << pair.name;
+    if (pair.name.starts_with("tohoku")) {
+      EXPECT_GT(change_n(pair.spec), 0) << pair.name;
+    }
+  }
+}
+
+TEST(Mechanism, LayersAreFeltWhereTheyLie) {
+  // A crust bears most at its depth and nothing far below; a hard base is felt only by deep wheels.
+  const WheelModelSpec spec = wheel_specs::ishigami2007();
+  const auto share = [&](const std::string& form, double load_n) {
+    const WheelMotion motion = motion_at(0.2, 0);
+    return with(spec, "layered_soil", form, {{"depth_m", 0.005}}).forces(load_n, motion).sinkage_m /
+           WheelModel(spec).forces(load_n, motion).sinkage_m;
+  };
+  EXPECT_LT(share("crust", 20), 0.8 * share("crust", 150));
+  const WheelMotion motion = motion_at(0.2, 0);
+  const auto hard = [&](double load_n) {
+    return with(spec, "layered_soil", "hard_below", {{"depth_m", 0.05}})
+               .forces(load_n, motion)
+               .sinkage_m /
+           WheelModel(spec).forces(load_n, motion).sinkage_m;
+  };
+  EXPECT_GT(hard(5), 0.95);
+  EXPECT_LT(hard(150), 0.85);
 }
 
 TEST(Mechanism, EveryFormHasABundle) {
@@ -205,12 +272,14 @@ TEST(Mechanism, OwnIntegralsAgreeWithTheBaseModelWhereTheMechanismIsIdle) {
   for (const auto& named : wheel_specs::all()) {
     const WheelModel base(named.spec);
     const WheelModel layered = with(named.spec, "layered_soil", "hard_below", {{"ratio", 1}});
-    for (const double slip : {-0.7, 0.0, 0.5}) {
-      const WheelMotion motion = motion_at(slip, 0.3);
-      const WheelForces a = base.forces(named.nominal_load_n, motion);
-      const WheelForces b = layered.forces(named.nominal_load_n, motion);
-      EXPECT_NEAR(b.fx_n, a.fx_n, 2e-5 * named.nominal_load_n) << named.name << " " << slip;
-      EXPECT_NEAR(b.fy_n, a.fy_n, 2e-5 * named.nominal_load_n) << named.name << " " << slip;
+    for (const double share : {0.1, 1.0, 2.0}) {
+      for (const double slip : {-0.9, -0.7, -0.05, 0.0, 0.5, 0.95}) {
+        const double load_n = share * named.nominal_load_n;
+        const WheelMotion motion = motion_at(slip, 0.3);
+        const WheelForces a = base.forces(load_n, motion), b = layered.forces(load_n, motion);
+        EXPECT_NEAR(b.fx_n, a.fx_n, 2e-5 * load_n) << named.name << " " << slip << " " << share;
+        EXPECT_NEAR(b.fy_n, a.fy_n, 2e-5 * load_n) << named.name << " " << slip << " " << share;
+      }
     }
   }
 }

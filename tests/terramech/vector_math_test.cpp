@@ -41,6 +41,17 @@ TEST(VectorMath, LogarithmIsWithinThreeTenthsOfABillionth) {
   }
 }
 
+TEST(VectorMath, LogarithmOfFloatsIsWithinThreeTenthsOfAMillionth) {
+  for (double x = 1e-30; x < 1e30; x *= 1.0137) {
+    const auto number = static_cast<float>(x);
+    const double log = std::log(double{number});
+    const auto four = log_of_floats(Four{} + number);
+    EXPECT_NEAR(double{four[2]}, log, 3e-7 * std::max(1.0, std::abs(log))) << x;
+    const auto eight = log_of_floats(Eight{} + number);
+    EXPECT_EQ(eight[7], four[0]) << x;
+  }
+}
+
 TEST(VectorMath, TurnKeepsItsRelativeAccuracyAtSmallAngles) {
   for (double d = 1e-9; d <= 3.7; d *= 1.01) {
     const double bound = d <= 2.2 ? 2e-10 : 1e-7;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "terramech/wheel_model.h"
+#include "tests/terramech/named_soils.h"
 
 /// Wheels on soils over which the laws of the wheel model are tested.
 namespace regoplan::wheel_specs {
@@ -17,41 +18,19 @@ struct NamedSpec {
   double nominal_load_n;
 };
 
-/// The authors' wheel on Lunar Regolith Simulant with their numbers of 2007.
+/// The wheel of the authors' tests.
+inline constexpr Wheel kTestWheel{.radius_m = 0.09, .width_m = 0.10};
+
 inline WheelModelSpec ishigami2007() {
   return {.variant = WheelVariant::kIshigami2007,
-          .wheel = {.radius_m = 0.09, .width_m = 0.10},
-          .soil = {.cohesion_pa = 800,
-                   .friction_angle_rad = 37.2 * kDegree,
-                   .kc = 1.37e3,
-                   .kphi = 8.14e5,
-                   .n = 1,
-                   .a0 = 0.40,
-                   .a1 = 0.15,
-                   .lambda = 0.9,
-                   .density_kgpm3 = 1600,
-                   .kx0_m = 0.036,
-                   .kx1_m = 0.043,
-                   .ky0_m = 0.013,
-                   .ky1_m = 0.020}};
+          .wheel = kTestWheel,
+          .soil = named_soils::simulant_2007()};
 }
 
-/// The paper's own Table I in consistent units.
 inline WheelModelSpec yoshida2004() {
   return {.variant = WheelVariant::kYoshida2004,
-          .wheel = {.radius_m = 0.09, .width_m = 0.10},
-          .soil = {.cohesion_pa = 800,
-                   .friction_angle_rad = 37.2 * kDegree,
-                   .kc = 1.79e6,
-                   .kphi = 1.95e6,
-                   .n = 1,
-                   .a0 = 0.40,
-                   .a1 = 0.15,
-                   .lambda = 0,
-                   .density_kgpm3 = 1600,
-                   .kx0_m = 0.004,
-                   .ky0_m = 0.045,
-                   .c0_m = 0.031}};
+          .wheel = kTestWheel,
+          .soil = named_soils::simulant_2004()};
 }
 
 inline WheelModelSpec with_exponent(WheelModelSpec spec, double n, double kphi, double lambda) {
