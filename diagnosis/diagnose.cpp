@@ -273,6 +273,8 @@ class Diagnosing {
     if (!settings.empty()) {
       found_.corrected_model.generic =
           unnamed_correction(problem, fit, settings, proof.remainder_share);
+      // one that adds nothing would only make the rest of the world `outside_correction`
+      if (found_.corrected_model.generic->nodes.empty()) found_.corrected_model.generic.reset();
       for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
         const Eigen::Index from = bed_.offset(c), n = bed_.channels[c].mean.size();
         const ChannelCovariance& covariance = discrepancy_.at(c, settings[c]);
