@@ -90,9 +90,15 @@ Search read_search(const SettingsNode& node) {
   });
 }
 
+/// Whether a model says more than soil numbers: then it need not name a soil of the map.
+bool has_mechanisms(const ModelSettings& model) {
+  return !model.spec.mechanisms.empty() || model.spec.generic.has_value();
+}
+
 /// The map's soils with the one that the model names replaced by the model's.
 TerrainMap with_model_soil(const TerrainMap& map, const ModelSettings& model,
                            const std::string& model_file) {
+  if (!model.soil_name && has_mechanisms(model)) return map;
   if (!model.soil_name) {
     throw SettingsError(
         fmt::format("{}: soil_name is missing: it says which soil of the map these numbers replace",
@@ -223,6 +229,11 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
                     .limits = kept,
                     .search = search},
         .notices = std::move(read.notices)};
+    if (model && !model->soil_name) {
+      scenario.notices.push_back(fmt::format(
+          "{}: no soil_name: its mechanisms count on every soil, its soil numbers on none",
+          *overrides.model_file));
+    }
     validate(scenario.problem);
     return scenario;
   });
