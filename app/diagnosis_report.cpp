@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 
@@ -127,7 +128,7 @@ std::string basis_sentence(const DiagnosisRun& run) {
     text += fmt::format(
         " On conditions held out of the fit (by {}) the correction explains {:.0f} "
         "% of the excess misfit.",
-        run.diagnosis.held_out_by, 100 * run.diagnosis.share_explained);
+        run.diagnosis.held_out_by, 100 * std::min(run.diagnosis.share_explained, 1.0));
   }
   return text;
 }

@@ -126,8 +126,9 @@ Command add_evaluate_command(CLI::App& program) {
                    "braking_in_a_turn | point_turn, ...}")
       ->type_name("FILE.yaml");
   parser
-      ->add_option("--model", options->overrides.model_file,
-                   "wheel model: its variant everywhere, its soil numbers under soil_name")
+      ->add_option(
+          "--model", options->overrides.model_file,
+          "wheel model: its variant and mechanisms everywhere, its soil numbers under soil_name")
       ->type_name("FILE.yaml");
   parser->add_option("--speed", request.speed_mps, "largest speed, in place of the scenario's")
       ->type_name("MPS")

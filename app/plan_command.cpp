@@ -23,8 +23,9 @@ Command add_plan_command(CLI::App& program) {
       ->type_name("DIR")
       ->required();
   parser
-      ->add_option("--model", options->overrides.model_file,
-                   "wheel model: its variant everywhere, its soil numbers under soil_name")
+      ->add_option(
+          "--model", options->overrides.model_file,
+          "wheel model: its variant and mechanisms everywhere, its soil numbers under soil_name")
       ->type_name("FILE.yaml");
   add_search_options(*parser, options->overrides);
   add_output_flags(*parser, options->output.json, options->output.quiet);

@@ -91,9 +91,15 @@ Search read_search(const SettingsNode& node) {
   });
 }
 
+/// Whether a model says more than soil numbers: then it need not name a soil of the map.
+bool has_mechanisms(const ModelSettings& model) {
+  return !model.spec.mechanisms.empty() || model.spec.generic.has_value();
+}
+
 /// The map's soils with the one that the model names replaced by the model's.
 TerrainMap with_model_soil(const TerrainMap& map, const ModelSettings& model,
                            const std::string& model_file) {
+  if (!model.soil_name && has_mechanisms(model)) return map;
   if (!model.soil_name) {
     throw SettingsError(
         fmt::format("{}: soil_name is missing: it says which soil of the map these numbers replace",
@@ -236,6 +242,11 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
       scenario.expectation = expectation->choice({"feasible", "infeasible"}) == 0
                                  ? PlanStatus::kFeasible
                                  : PlanStatus::kInfeasible;
+    }
+    if (model && !model->soil_name) {
+      scenario.notices.push_back(fmt::format(
+          "{}: no soil_name: its mechanisms count on every soil, its soil numbers on none",
+          *overrides.model_file));
     }
     validate(scenario.problem);
     return scenario;

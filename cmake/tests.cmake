@@ -26,3 +26,5 @@ target_compile_definitions(app_tests PRIVATE REGOPLAN_PROGRAM="$<TARGET_FILE:reg
 
 add_test(NAME include_directions COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -P
                                          ${CMAKE_SOURCE_DIR}/cmake/include_directions.cmake)
+add_test(NAME type_names COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -P
+                                 ${CMAKE_SOURCE_DIR}/cmake/type_names.cmake)

@@ -103,6 +103,9 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
       if (data.channel == Channel::kSinkage) node.sinkage_m = h;
     }
   }
+  std::erase_if(correction.nodes, [](const GenericCorrection::Node& node) {
+    return node.fx_n == 0 && node.fy_n == 0 && node.torque_nm == 0 && node.sinkage_m == 0;
+  });
   return correction;
 }
 

@@ -56,6 +56,7 @@ struct Effects {
   double sinkage_added_m = 0;
   double dug_resistance = 0;    ///< share of the work of compacting a dug rut that Fx pays
   double rut_tilt_rad = 0;      ///< psi, the inner side deeper
+  bool rut_in_balance = false;  ///< the strips of a tilted rut find the depth that carries the load
   double bulldoze_height = 1;   ///< h_b/h beside the wheel
   double surcharge_pa = 0;      ///< on the soil beside the wheel
   double front_bulldozing = 0;  ///< eta

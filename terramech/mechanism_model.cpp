@@ -8,6 +8,7 @@
 
 #include "terramech/forward_motion.h"
 #include "terramech/mechanism_contact.h"
+#include "terramech/rut_strips.h"
 
 namespace regoplan {
 namespace {
@@ -51,36 +52,6 @@ Law law_of(const Effects& effects) {
                      .layering = effects.layering},
           .own = effects.shear != ShearLaw::kSeparate ||
                  effects.layering.kind != Layering::Kind::kNone};
-}
-
-struct Sideways {
-  double force_n = 0;  ///< |Fy|
-  double roll_nm = 0;  ///< of the vertical force, positive: more on the inner side
-};
-
-/// Side force and roll moment from strips across the width, the inner ones (towards the centre of
-/// the turn) deeper by the tilt of the rut; together they carry the load.
-Sideways sideways_in_strips(const Ground& ground, const wheel_contact::StressLaw& law,
-                            const Ratios& ratios, double sinkage_m, double tilt_rad, double q,
-                            double load_n, WheelAccuracy accuracy) {
-  constexpr std::size_t kStrips = 7;
-  const double r = ground.wheel.radius_m, b = ground.wheel.width_m;
-  const std::size_t strips = tilt_rad == 0 ? 1 : kStrips;
-  const double share = 1.0 / static_cast<double>(strips);
-  double fz = 0, fu = 0, fs = 0, roll = 0;
-  for (std::size_t i = 0; i < strips; ++i) {
-    const double inner = b * ((static_cast<double>(i) + 0.5) * share - 0.5);
-    const double depth = std::clamp(sinkage_m + inner * std::tan(tilt_rad), 1e-9 * r, r);
-    const Contact contact = wheel_contact::contact_at(ground, theta_of(depth, r), ratios.slip);
-    const auto integrals =
-        wheel_contact::integrate_with_law(ground, contact, ratios, law, accuracy);
-    const double strip_fz = share * integrals.plane.at(q).fz_n;
-    fz += strip_fz;
-    roll += strip_fz * inner;
-    fu += share * (integrals.fu_cohesion_n + q * integrals.fu_stress_n);
-    fs += share * wheel_contact::bulldozing_force_n(ground, contact, ratios);
-  }
-  return {.force_n = fu + fs, .roll_nm = roll * load_n / fz};
 }
 
 /// Work of compacting a rut from one depth to another per metre, Bekker's resistance.
@@ -159,10 +130,14 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   const bool at_rest = spec.variant == WheelVariant::kYoshida2004;
   const Ratios reference = at_rest ? Ratios{} : ratios;
   const auto plain = model.solver_.solve(ground, effects.load_n, reference, model.accuracy_);
+  const RutStrips strips(ground, ratios, law.stress, effects.rut_tilt_rad, model.accuracy_);
+  const bool strips_in_balance = effects.rut_in_balance && effects.rut_tilt_rad != 0;
+  constexpr double kSomewhere_rad = 0.5;
   std::optional<double> theta_f;
   if (plain) theta_f = plain->contact.theta_f_rad;
-  if (law.own) {
-    constexpr double kSomewhere_rad = 0.5;
+  if (strips_in_balance && !at_rest) {
+    theta_f = strips.entry_angle(effects.load_n, theta_f.value_or(kSomewhere_rad));
+  } else if (law.own) {
     theta_f =
         wheel_contact::entry_angle_with_law(ground, effects.load_n, reference, law.stress,
                                             model.accuracy_, theta_f.value_or(kSomewhere_rad));
@@ -177,7 +152,8 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
 
   const Contact contact = wheel_contact::contact_at(ground, *theta_f, ratios.slip);
   const Integrals plane =
-      law.own
+      strips_in_balance ? strips.together(h).plane
+      : law.own
           ? wheel_contact::integrate_with_law(ground, contact, ratios, law.stress, model.accuracy_)
                 .plane
           : wheel_contact::integrate(ground, contact, ratios, model.accuracy_);
@@ -188,8 +164,7 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   if (!law.own && effects.rut_tilt_rad == 0) {
     side_n = wheel_contact::side_force_n(ground, contact, ratios, q, model.accuracy_);
   } else {
-    const Sideways sideways = sideways_in_strips(
-        ground, law.stress, ratios, h, effects.rut_tilt_rad, q, effects.load_n, model.accuracy_);
+    const RutStrips::Sideways sideways = strips.sideways(h, q, effects.load_n);
     side_n = sideways.force_n;
     // inner is right (-y) for a motion to the left: the moment about x is negative
     roll_nm = -forward.y_sign * sideways.roll_nm;

@@ -85,6 +85,16 @@ std::vector<Definition> of_sinkage() {
          e.rut_tilt_rad += p[0] * std::max(at.beta_abs_rad - p[1], 0.0);
          return e;
        }},
+      {{"rut_asymmetry",
+        "tilt_in_balance",
+        "as tilt; the strips together carry the load, and all forces are theirs",
+        "proxy; Yoshida & Ishigami 2004, section V.B",
+        {{"kappa", .2, 1, .5}, {"beta0_rad", .05, .2, .1}}},
+       [](E e, P p, S at) {
+         e.rut_tilt_rad += p[0] * std::max(at.beta_abs_rad - p[1], 0.0);
+         e.rut_in_balance = true;
+         return e;
+       }},
       {{"skid_branch",
         "reversal",
         "s < 0: h = h0 (1 + k |s|), kx = kx0 (1 + m |s|)",

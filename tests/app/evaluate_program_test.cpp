@@ -89,6 +89,46 @@ TEST_F(Evaluate, ACandidateOfPlanIsConfirmed) {
   EXPECT_NEAR(result()["paths"][0]["margin_min"], candidate["margin_min"], 0.02);
 }
 
+/// Less side force than the base model in the region of the flat map's manoeuvres.
+constexpr const char* kCorrected = R"(model: ishigami2007
+wheel: {radius_m: 0.41, width_m: 0.23}
+gravity_mps2: 1.62
+soil: {cohesion_pa: 170, friction_angle_deg: 35, kc: 1400, kphi: 8.2e5, n: 1, a0: .4, a1: .15,
+       lambda: .1, density_kgpm3: 1600, kx0_m: .018, ky0_m: .018}
+mechanisms:
+  - id: generic
+    form: gaussian_bumps
+    parameters:
+      slip_scale: 0.3
+      slip_angle_scale_deg: 8
+      log_load_scale: 1
+      region: {slip_ratio: [-0.4, 0.6], slip_angle_deg: [0, 20], load_n: [100, 600]}
+      fade_share: 0.05
+      nodes: [{slip_ratio: 0.05, slip_angle_deg: 10, load_n: 290, fy_n: -60}]
+)";
+
+TEST_F(Evaluate, AnUnnamedCorrectionCountsInPlansAndEvaluations) {
+  const std::string model = " --model " + file("corrected.yaml", kCorrected) + " --quiet ";
+  const std::string turn =
+      "--manoeuvres " +
+      file("m.yaml", "- {kind: steady_turn, radius_m: 12, angle_deg: 60, speed_mps: 2}\n");
+  ASSERT_EQ(evaluate(turn).status, 0);
+  const double base = result()["paths"][0]["margin_min"];
+  evaluate(turn + model);
+  const double corrected = result()["paths"][0]["margin_min"];
+  EXPECT_LT(corrected, base - 0.02);
+  EXPECT_GT(corrected, base - 0.4);
+
+  const std::string plan_out = folder_.path("plan");
+  const ProgramRun planned =
+      run_program(folder_, "plan '" + folder_.path("scenario.yaml") + "' --out '" + plan_out +
+                               "' --planner RRT --iterations 1000 --candidates 1" + model);
+  ASSERT_EQ(planned.status, 0) << planned.errors;
+  const auto candidate = nlohmann::json::parse(folder_.read("plan/plan.json"))["candidates"][0];
+  evaluate("'" + plan_out + "/candidate-1.csv'" + model);
+  EXPECT_NEAR(result()["paths"][0]["margin_min"], candidate["margin_min"], 0.02);
+}
+
 TEST_F(Evaluate, ManoeuvresStandForEachCombination) {
   const ProgramRun run =
       evaluate("--manoeuvres " +

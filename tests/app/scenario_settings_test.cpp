@@ -88,6 +88,18 @@ TEST_F(ScenarioSettings, AModelReplacesTheSoilThatItNames) {
       error_of("200", "201", {.model_file = nameless}).starts_with("m.yaml: soil_name is missing"));
 }
 
+TEST_F(ScenarioSettings, AModelWithMechanismsNeedsNoSoilOfTheMap) {
+  const std::string nameless =
+      folder_.write("m.yaml", replaced(replaced(kSimulantModel, "soil_name: simulant\n", ""),
+                                       "mechanisms: []", "mechanisms: [{id: grousers}]"));
+  const Scenario with_mechanism = scenario("200", "201", {.model_file = nameless});
+  EXPECT_EQ(with_mechanism.problem.mechanisms.size(), 1u);
+  EXPECT_EQ(with_mechanism.problem.map.soils().front().soil.mean.cohesion_pa,
+            problem("200", "201").map.soils().front().soil.mean.cohesion_pa);
+  ASSERT_FALSE(with_mechanism.notices.empty());
+  EXPECT_NE(with_mechanism.notices.back().find("no soil_name"), std::string::npos);
+}
+
 TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
   EXPECT_EQ(error_of("radius_m: 3", "radius_m: 0"),
             "s.yaml:7: goal.radius_m: 0 is not valid (allowed: above 0)");

@@ -65,7 +65,7 @@ const panelsOf = channel => grouped(
 
 function curvePanel(channel, rows, yDomain) {
   const first = rows[0].run, others = othersOf(first);
-  const title = `Slip angle ${fixed(ANGLE_OF[first], 1, '\u00b0')}${others ? ', ' + others : ''}`;
+  const title = `Slip angle ${degreesText(ANGLE_OF[first])}${others ? ', ' + others : ''}`;
   const rmse = key => Math.sqrt(d3.mean(rows, r => Math.pow(r.measured - shownValue(r, key), 2)));
   const said =
       SHOWN_MODELS.map(m => `${m.name} ${withChannelUnit(channel, rmse(m.key))}`).join(', ');

@@ -75,6 +75,10 @@ function conditions(channel, model) {
            }));
 }
 
+const degreesText = value_deg => fixed(value_deg, 1) + '\u00b0';
+/// Ids as words: "load_transfer+slip_sinkage" as "load transfer + slip sinkage".
+const idText = id => words(id).replace(/\+/g, ' + ');
+
 /// Text of a region: {slip_ratio: [0.3, 0.8]} as "slip ratio 0.3 to 0.8".
 function regionText(region) {
   const parts = Object.entries(region).map(([column, [low, high]]) => {

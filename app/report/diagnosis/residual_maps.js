@@ -92,7 +92,7 @@ function paddedScale(values, least, range) {
 }
 
 function drawResidualMap(svg, width, channel, marks, most) {
-  const angles = new Set(ANGLE_OF).size, margin = {left: 44, right: 12, top: 10, bottom: 34};
+  const angles = new Set(ANGLE_OF).size, margin = {left: 44, right: 12, top: 20, bottom: 34};
   const height = margin.top + margin.bottom + Math.min(190, 50 + 26 * angles);
   const x = paddedScale(RUNS.slip_ratio, 0.2, [margin.left, width - margin.right]);
   const y = paddedScale(RUNS.slip_angle_deg, 4, [height - margin.bottom, margin.top]);
@@ -108,7 +108,7 @@ function drawResidualMap(svg, width, channel, marks, most) {
       .call(
           d3.axisLeft(y).ticks(Math.min(6, 1 + angles)).tickSize(4).tickFormat(v => `${v}\u00b0`));
   axisTitle(svg, width - margin.right, height - 4, 'slip ratio');
-  axisTitle(svg, margin.left + 6, margin.top + 2, 'slip angle', 'start');
+  axisTitle(svg, 4, 11, 'slip angle', 'start');
   const places = new Map();
   for (const mark of marks) {
     const key = `${mark.slip}|${mark.angle}`, taken = places.get(key) || 0;
@@ -119,7 +119,7 @@ function drawResidualMap(svg, width, channel, marks, most) {
                       .attr('fill', colour(mark.z))
                       .attr('transform', `translate(${x(mark.slip) + 9 * taken},${y(mark.angle)})`);
     group.append('title').text(
-        `slip ratio ${significant(mark.slip, 3)}, slip angle ${fixed(mark.angle, 1, '\u00b0')}${
+        `slip ratio ${significant(mark.slip, 3)}, slip angle ${degreesText(mark.angle)}${
             mark.others ? ', ' + mark.others : ''}: ${withChannelUnit(channel, mark.difference)}, ${
             fixed(mark.z, 1)} standard deviations (${mark.count} runs)`);
   }

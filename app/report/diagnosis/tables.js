@@ -46,7 +46,8 @@ function whereTable(host) {
   const rows = DIAGNOSIS.where.map(({channel, region, effect, ci95, p_value}) => {
     const most = widest[channel] || 1;
     return [
-      channelOf(channel).title, regionText(region), withChannelUnit(channel, effect),
+      channelOf(channel).title, element('span', {class: 'region'}, regionText(region)),
+      withChannelUnit(channel, effect),
       `${inUnit(channel, ci95[0])} to ${inUnit(channel, ci95[1])}`,
       intervalMark(effect, ci95[0], ci95[1], -most, most), pValue(p_value)
     ];
@@ -90,7 +91,7 @@ function claimList(host) {
     host.append(element(
         'div', {class: 'panel claim'},
         element(
-            'h3', {}, [claim.id, ...claim.equivalent].map(words).join(' or '),
+            'h3', {}, [claim.id, ...claim.equivalent].map(idText).join(' or '),
             element('span', {class: 'unit'}, ` ${probability(claim.probability)}`)),
         form ? element(
                    'p', {}, element('span', {class: 'formula'}, form.formula),
@@ -120,7 +121,7 @@ function candidateTable(host) {
     return element(
         'tr', {},
         element(
-            'th', {scope: 'row'}, words(id).replace(/\+/g, ' + '),
+            'th', {scope: 'row'}, idText(id),
             claimed.has(id) ? element('span', {class: 'note'}, ' (claimed)') : null),
         element('td', {class: 'bar-cell'}, bar), element('td', {class: 'number'}, probability(p)));
   });
@@ -218,7 +219,7 @@ function fitTable(host) {
     host.append(element(
         'p', {class: 'note'},
         `Share of the excess misfit that the correction explains: ${
-            percent(DIAGNOSIS.share_explained)}.`));
+            percent(Math.min(1, DIAGNOSIS.share_explained))}.`));
 }
 
 function nextTable(host, section) {
@@ -233,8 +234,10 @@ function nextTable(host, section) {
         e.further_sensor ? `measure ${channelOf(e.further_sensor).title.toLowerCase()}` : '';
     const conditions = Object.keys(exact).length ? regionText(exact) : '';
     return [
-      String(k + 1), [sensor, conditions].filter(Boolean).join(' at ') || UNKNOWN,
-      e.separates.map(words).join(', '), fixed(e.expected_gain_nats, 2, 'nats')
+      String(k + 1),
+      element(
+          'span', {class: 'region'}, [sensor, conditions].filter(Boolean).join(' at ') || UNKNOWN),
+      e.separates.map(idText).join(', '), fixed(e.expected_gain_nats, 2, 'nats')
     ];
   });
   host.append(scrolled(
