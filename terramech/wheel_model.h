@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "terramech/generic_correction.h"
 #include "terramech/mechanism.h"
 #include "terramech/mechanism_effects.h"
 #include "terramech/sinkage_solver.h"
@@ -74,6 +76,7 @@ struct WheelModelSpec {
   Soil soil;
   double gravity_mps2 = 9.80665;
   std::vector<Mechanism> mechanisms = {};  ///< empty: the base model
+  std::optional<GenericCorrection> generic = {};
 };
 
 /// All that a single wheel shows, ruts included.

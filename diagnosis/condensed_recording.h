@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/noise_model.h"
+#include "diagnosis/wheel_bed.h"
+
+namespace regoplan {
+
+/// A recording as it is analysed.
+struct CondensedRecording {
+  TestBed bed;
+  std::vector<std::size_t> used;              ///< runs that can be judged
+  std::vector<ChannelNoise> noise;            ///< per channel of the bed
+  Eigen::MatrixXd correlation;                ///< of the noise between channels
+  std::vector<std::vector<double>> adjusted;  ///< per channel, per run: at its condition's means
+  std::vector<std::size_t> condition;         ///< per run; those not used: condition_count
+  double side_sign = 1;                       ///< -1: fy_n opposes the convention and was turned
+  std::vector<std::string> notes;
+};
+
+/// Groups replicates, measures the noise and condenses runs to conditions. Runs that the model
+/// cannot be trusted for (slip outside [-0.9, 0.95], slip angle beyond 60 deg, no forces at the
+/// prior means) are left out and noted. A side force whose sign opposes the convention is turned
+/// and noted.
+/// \throws InputError with fewer than 8 different conditions, no channel, or replicates that are
+/// all identical
+CondensedRecording condense(const Recording& recording, const DiagnosisSetup& setup);
+
+}  // namespace regoplan

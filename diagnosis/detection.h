@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "diagnosis/condensed_recording.h"
+
+namespace regoplan {
+
+/// What a fit leaves, to be held against pure error.
+struct FitRemainder {
+  Eigen::VectorXd residual;  ///< measured - fitted
+  Eigen::VectorXd x;         ///< fitted numbers, standard normal beforehand
+  Eigen::MatrixXd jacobian;  ///< by x
+  double truth_spread = 1;   ///< standard deviation of the true x (1/3 where priors were widened)
+};
+
+/// Lack of fit against pure error. The misfit (priors counted as data) of all channels together and
+/// of each channel is compared with what noise alone makes of it in 2000 seeded draws, in which
+/// the noise is known no better than from its degrees of freedom and channels scatter together as
+/// replicates do. The worst of them counts; `critical` is at `significance` for all together.
+LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
+                      std::uint64_t seed, double significance = 0.005);
+
+/// Residuals that noise alone would leave after the fit, one column a draw, in the channels' units.
+Eigen::MatrixXd residuals_of_noise(const CondensedRecording& recording, const FitRemainder& fit,
+                                   std::uint64_t seed, int draws);
+
+}  // namespace regoplan

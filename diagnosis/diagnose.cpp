@@ -1,0 +1,297 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/calibration.h"
+#include "diagnosis/claim.h"
+#include "diagnosis/detection.h"
+#include "diagnosis/held_out.h"
+#include "diagnosis/instrument_checks.h"
+#include "diagnosis/location.h"
+#include "diagnosis/next_experiment.h"
+#include "diagnosis/sentence.h"
+#include "diagnosis/smallest_detectable.h"
+#include "diagnosis/unnamed_correction.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kWorstPull = 4.5;    // prior standard deviations that calibration may need
+constexpr double kWideSoil = 3;       // priors are widened so far for the verdict `parameters`
+constexpr double kClearEvidence = 9;  // nats by which a name must beat `parameters` unprompted
+constexpr double kClearGain = 2;      // standard errors of the held-out gain
+constexpr double kWorthNaming = 0.5;  // share of the excess misfit that a claim explains
+
+/// One diagnosis under way: what has been found, and the parts that later steps build on.
+class Diagnosing {
+ public:
+  Diagnosing(const Recording& recording, const DiagnosisSetup& setup,
+             const DiagnosisOptions& options)
+      : options_(options),
+        condensed_(condense(recording, setup)),
+        bed_(condensed_.bed),
+        soil_(soil_coordinates(setup.soil)),
+        wide_soil_(soil_coordinates(setup.soil, kWideSoil)),
+        discrepancy_(bed_),
+        measured_(bed_.measured()) {
+    found_.notes = recording.warnings;
+    found_.notes.insert(found_.notes.end(), condensed_.notes.begin(), condensed_.notes.end());
+    for (const std::string& check : instrument_checks(condensed_)) found_.notes.push_back(check);
+    effects_ = effects_for(bed_, recording);
+  }
+
+  Diagnosis run() {
+    tell("calibrating the soil numbers", 0.02);
+    calibrate_soil();
+    tell("testing for lack of fit", 0.05);
+    detect();
+    if (!rejected_ && !stopped()) found_.smallest_detectable = detectable();
+    tell("locating the mismatch", 0.1);
+    if (rejected_ && !stopped()) {
+      found_.where = locate(condensed_, remainder_of(base_), options_.seed + 1);
+    }
+    tell("scoring what may be wrong", 0.15);
+    score();
+    tell("proving it on held-out conditions", 0.85);
+    decide();
+    tell("choosing the next experiment", 0.95);
+    if (rejected_ && !stopped()) found_.next_experiments = experiments();
+    found_.interrupted = stopped();
+    found_.sentence = sentence_of(found_);
+    tell("done", 1);
+    return std::move(found_);
+  }
+
+ private:
+  bool stopped() const { return options_.stop.stop_requested(); }
+  void tell(std::string_view what, double share) const {
+    if (options_.progress) options_.progress(what, share);
+  }
+
+  void calibrate_soil() {
+    const Calibration calibration = calibrate(bed_, soil_);
+    base_.x = calibration.x;
+    base_.prediction = calibration.prediction;
+    base_.jacobian = calibration.jacobian;
+    base_.evidence.covariance = calibration.covariance;
+    base_.evidence.settings.assign(bed_.channels.size(), 0);
+    soil_free_ = soil_directions(bed_, base_.jacobian);
+    for (std::size_t i = 0; i < soil_.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const SoilParameter& p = soil_parameters()[soil_[i].parameter];
+      const Coordinate& c = soil_[i].coordinate;
+      SoilPull pull{.parameter = c.name,
+                    .prior = {c.centre / p.file_unit, c.spread / p.file_unit},
+                    .pull = base_.x[k]};
+      pull.calibrated = estimate(base_, k, p.file_unit);
+      pull.corrected = pull.calibrated;
+      pull.corrected_pull = pull.pull;
+      found_.soil.push_back(pull);
+    }
+  }
+
+  Estimate estimate(const CandidateFit& fit, Eigen::Index k, double unit) const {
+    const Coordinate& c = soil_[static_cast<std::size_t>(k)].coordinate;
+    return {c.value(fit.x[k]) / unit, c.spread * std::sqrt(fit.evidence.covariance(k, k)) / unit};
+  }
+
+  FitRemainder remainder_of(const CandidateFit& fit) const {
+    return {.residual = measured_ - fit.prediction, .x = fit.x, .jacobian = fit.jacobian};
+  }
+
+  void detect() {
+    const FitProblem wide{bed_, wide_soil_, discrepancy_, soil_free_};
+    const auto loose = fit_under(wide, {}, base_.evidence.settings, base_.x / kWideSoil, 12);
+    FitRemainder remainder = remainder_of(loose ? *loose : base_);
+    remainder.truth_spread = 1 / kWideSoil;
+    found_.before = lack_of_fit(condensed_, remainder, options_.seed);
+    found_.after = found_.before;
+    rejected_ = found_.before.f > found_.before.critical;
+    for (Eigen::Index i = 0; i < base_.x.size() && loose; ++i) {
+      if (std::abs(kWideSoil * loose->x[i]) > kWorstPull) pulled_ = true;
+    }
+    const FitRemainder fixed{
+        .residual = measured_ - *predict(bed_, soil_, {}, Eigen::VectorXd::Zero(base_.x.size())),
+        .x = Eigen::VectorXd(0),
+        .jacobian = Eigen::MatrixXd(bed_.size(), 0)};
+    const LackOfFit at_means = lack_of_fit(condensed_, fixed, options_.seed, 0.05);
+    consistent_ = at_means.f <= at_means.critical;
+  }
+
+  std::vector<SmallestDetectable> detectable() const {
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    return smallest_detectable(problem, base_, effects_, found_.before.critical);
+  }
+
+  void score() {
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    const FitProblem wide{bed_, wide_soil_, discrepancy_, soil_free_};
+    scored_ = score_candidates(
+        problem, wide, effects_,
+        {.threads = options_.threads, .stop = options_.stop, .progress = [&](double share) {
+           tell("scoring what may be wrong", 0.15 + 0.7 * share);
+         }});
+    double parameters = -INFINITY, named = -INFINITY;
+    for (const ScoredId& s : scored_) {
+      if (s.id == "parameters") parameters = s.score;
+      if (s.id != "none" && s.id != "parameters" && s.id != "unexplained") {
+        named = std::max(named, s.score);
+      }
+    }
+    rejected_ = rejected_ || pulled_ || named > parameters + kClearEvidence;
+    weigh(scored_, !rejected_);
+    for (const ScoredId& s : scored_) found_.ranking.push_back({s.id, s.probability});
+  }
+
+  void decide() {
+    if (!rejected_) {
+      found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
+      correct_with(hold_out(condensed_, soil_, base_, {}, options_.threads), base_, {});
+      return;
+    }
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    std::vector<NameClass> claimed = claimed_names(scored_);
+    const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
+    if (best != nullptr) {
+      const std::string doubt = objection(problem, best->fit);
+      const HeldOut proof =
+          hold_out(condensed_, soil_, base_, {.fit = &best->fit}, options_.threads);
+      const bool proven =
+          proof.gain > kClearGain * proof.gain_error && proof.share_explained > kWorthNaming;
+      if (doubt.empty() && proven) {
+        found_.claims = claims_of(problem, scored_, claimed, best->fit);
+        const bool single = std::ranges::all_of(
+            claimed, [](const NameClass& names) { return names.ids.size() == 1; });
+        found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
+        correct_with(proof, best->fit, {});
+        return;
+      }
+      found_.notes.push_back(fmt::format(
+          "{} scores best but is not claimed: {}", best->id,
+          !doubt.empty() ? doubt
+                         : fmt::format("on held-out conditions it explains {:.0f} % of the excess "
+                                       "misfit, gain {:.2g} +- {:.2g}",
+                                       100 * proof.share_explained, proof.gain, proof.gain_error)));
+    }
+    found_.verdict = Verdict::kUnexplained;
+    const std::vector<std::size_t> settings = remainder_settings(problem, base_);
+    correct_with(hold_out(condensed_, soil_, base_, {.remainder = settings}, options_.threads),
+                 base_, settings);
+  }
+
+  /// Takes a fit and the remainder added to it (settings; empty: none) for the corrected model.
+  void correct_with(const HeldOut& proof, const CandidateFit& fit,
+                    const std::vector<std::size_t>& settings) {
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    found_.fit = proof.fit;
+    found_.held_out_by = proof.families.by;
+    found_.share_explained = proof.share_explained;
+    FitRemainder remainder = remainder_of(fit);
+    Eigen::VectorXd corrected = fit.prediction;
+    found_.corrected_model = {.variant = bed_.setup.variant,
+                              .wheel = bed_.setup.wheel,
+                              .soil = soil_at(bed_.setup.soil, soil_, fit.x),
+                              .gravity_mps2 = bed_.setup.gravity_mps2};
+    found_.corrected_soil = {.mean = found_.corrected_model.soil,
+                             .standard_deviation = bed_.setup.soil.standard_deviation};
+    for (std::size_t i = 0; i < soil_.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const SoilParameter& p = soil_parameters()[soil_[i].parameter];
+      found_.soil[i].corrected = estimate(fit, k, p.file_unit);
+      found_.soil[i].corrected_pull = fit.x[k];
+      found_.corrected_soil.standard_deviation.*p.member =
+          soil_[i].coordinate.spread * std::sqrt(fit.evidence.covariance(k, k));
+    }
+    add_mechanisms(fit);
+    if (!settings.empty()) {
+      found_.corrected_model.generic =
+          unnamed_correction(problem, fit, settings, proof.remainder_share);
+      for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
+        const Eigen::Index from = bed_.offset(c), n = bed_.channels[c].mean.size();
+        const ChannelCovariance& covariance = discrepancy_.at(c, settings[c]);
+        if (covariance.discrepancy.size() == 0) continue;
+        corrected.segment(from, n) += proof.remainder_share[c] * covariance.discrepancy *
+                                      covariance.factor.solve(remainder.residual.segment(from, n));
+      }
+      remainder.residual = measured_ - corrected;
+    }
+    if (!found_.claims.empty() || !settings.empty()) {
+      found_.after = lack_of_fit(condensed_, remainder, options_.seed);
+    }
+    list_residuals(proof, corrected);
+  }
+
+  /// Faults of instruments are no part of a model of the wheel.
+  void add_mechanisms(const CandidateFit& fit) {
+    auto next = static_cast<Eigen::Index>(soil_.size());
+    for (const Effect& effect : fit.candidate.effects) {
+      const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
+      if (!is_instrument(effect.id)) {
+        found_.corrected_model.mechanisms.push_back(
+            mechanism_at(effect, fit.x.segment(next, size)));
+      }
+      next += size;
+    }
+  }
+
+  void list_residuals(const HeldOut& proof, const Eigen::VectorXd& corrected) {
+    const Eigen::VectorXd means = *predict(bed_, soil_, {}, Eigen::VectorXd::Zero(base_.x.size()));
+    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
+      const ChannelData& data = bed_.channels[c];
+      for (std::size_t i = 0; i < data.conditions.size(); ++i) {
+        const Eigen::Index row = bed_.offset(c) + static_cast<Eigen::Index>(i);
+        for (const std::size_t run : bed_.conditions[data.conditions[i]].runs) {
+          const double y = condensed_.adjusted[c][run];
+          if (!std::isfinite(y)) continue;
+          found_.residuals.push_back(
+              {.run = run,
+               .channel = data.channel,
+               .measured = y,
+               .noise = run_deviation(condensed_.noise[c], y),
+               .baseline = means[row],
+               .calibrated = base_.prediction[row],
+               .corrected = corrected[row],
+               .held_out = proof.corrected[row],
+               .held_out_standard_deviation = proof.corrected_deviation[row]});
+        }
+      }
+    }
+  }
+
+  /// Between the names of the claim, or else the likeliest.
+  std::vector<Experiment> experiments() const {
+    constexpr std::size_t kMostRivals = 4;
+    std::vector<ScoredId> rivals;
+    for (const ScoredId& s : scored_) {
+      if (rivals.size() == kMostRivals) break;
+      if (s.id == "none" || s.id == "parameters" || s.id == "unexplained") continue;
+      rivals.push_back(s);
+    }
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    return next_experiments(problem, rivals);
+  }
+
+  const DiagnosisOptions& options_;
+  CondensedRecording condensed_;
+  const TestBed& bed_;
+  std::vector<SoilCoordinate> soil_, wide_soil_;
+  Discrepancy discrepancy_;
+  Eigen::VectorXd measured_;
+  std::vector<Effect> effects_;
+  CandidateFit base_;
+  Eigen::MatrixXd soil_free_;
+  std::vector<ScoredId> scored_;
+  bool rejected_ = false, pulled_ = false, consistent_ = false;
+  Diagnosis found_;
+};
+
+}  // namespace
+
+Diagnosis diagnose(const Recording& recording, const DiagnosisSetup& setup,
+                   const DiagnosisOptions& options) {
+  return Diagnosing(recording, setup, options).run();
+}
+
+}  // namespace regoplan

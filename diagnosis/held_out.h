@@ -1,0 +1,43 @@
+#pragma once
+
+#include "diagnosis/candidate_fit.h"
+#include "diagnosis/condensed_recording.h"
+
+namespace regoplan {
+
+/// Conditions that are left out together, one family after the other.
+struct Families {
+  std::string by;  ///< `slip_angle`, `slip band`, `load`, `day`
+  std::vector<std::size_t> of_condition;
+  std::size_t count = 0;
+};
+
+/// The kind of families of which there are most (slip angles where they are at least 4; never fewer
+/// than 3 unless nothing else is there; slips in at most 6 bands).
+Families families_of(const TestBed& bed);
+
+/// The model that is to prove itself.
+struct CorrectedModel {
+  const CandidateFit* fit = nullptr;  ///< with the claim's effects; null: the calibrated base
+  /// Settings of the discrepancy whose mean is added to the model, per channel; empty: none.
+  std::vector<std::size_t> remainder;
+};
+
+/// How models do on conditions that they were not fitted to.
+struct HeldOut {
+  Families families;
+  std::vector<ChannelFit> fit;
+  Eigen::VectorXd calibrated;  ///< predictions without the condition's own family
+  Eigen::VectorXd corrected;
+  Eigen::VectorXd corrected_deviation;
+  double share_explained = 0;
+  double gain = 0;        ///< mean fall of the squared misfit per value, in noise variances
+  double gain_error = 0;  ///< its standard error over the conditions
+  std::vector<double> remainder_share;  ///< per channel: of the remainder that proves itself
+};
+
+/// \param base soil calibrated without any effect, its problem and settings without discrepancy
+HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
+                 const CandidateFit& base, const CorrectedModel& corrected, int threads);
+
+}  // namespace regoplan

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "diagnosis/condition_groups.h"
+#include "diagnosis/diagnosis.h"
+
+namespace regoplan {
+
+enum class NoiseSource { kReplicates, kSetup, kNeighbours };
+
+/// Scatter of one channel: a run's variance is constant^2 + (proportional y)^2, and every day has
+/// an offset and a share of the signal of its own.
+struct ChannelNoise {
+  Channel channel = Channel::kFx;
+  NoiseSource source = NoiseSource::kReplicates;
+  double constant = 0;
+  double proportional = 0;
+  double day_offset = 0;
+  double day_gain = 0;
+  bool day_assumed = false;  ///< no condition was run on two days: half of the scatter was taken
+  int degrees_of_freedom = 0;
+  std::vector<double> weight;         ///< per run, in [0, 1]: below 1 for outliers
+  std::vector<std::size_t> outliers;  ///< runs
+};
+
+/// Noise from replicates: restricted maximum likelihood over the contrasts within conditions, with
+/// outliers (3.5 standard deviations from their fellows) weighted down. Without replicates (fewer
+/// than 4 degrees of freedom) the setup's number; without that the scatter between neighbouring
+/// conditions, which counts some of the signal as noise and so errs on the cautious side.
+/// \param adjusted per run: the value moved to its condition's mean load, slip and slip angle
+/// \throws InputError where all replicates of the channel are identical
+ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
+                            Channel channel, const std::vector<double>& adjusted,
+                            const std::vector<double>& model, const DiagnosisSetup& setup);
+
+/// Standard deviation of one run that measures y, without its day's part.
+double run_deviation(const ChannelNoise& noise, double y);
+
+/// Correlation between channels of what replicates scatter. \return channels x channels
+Eigen::MatrixXd noise_correlation(const std::vector<ChannelNoise>& noise,
+                                  const std::vector<Condition>& conditions,
+                                  const std::vector<std::vector<double>>& adjusted);
+
+}  // namespace regoplan

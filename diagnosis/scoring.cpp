@@ -1,0 +1,204 @@
+#include "diagnosis/scoring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "diagnosis/parallel_for.h"
+
+namespace regoplan {
+namespace {
+
+/// Scores are tempered: forms are only proxies of what acts, so that their scores are sharper than
+/// they deserve.
+constexpr double kTemperature = 2;
+constexpr double kPairLogPrior = -4;  // each
+constexpr double kNoLackOfFitLogPrior = 12;
+constexpr std::size_t kBestSingles = 7;
+constexpr std::size_t kPartnersOfBest = 6;
+
+double log_sum(const std::vector<double>& terms) {
+  const double top = std::ranges::max(terms);
+  double sum = 0;
+  for (const double term : terms) sum += std::exp(term - top);
+  return top + std::log(sum);
+}
+
+Eigen::VectorXd start_of(const FitProblem& problem, const Candidate& candidate) {
+  std::vector<double> x(problem.soil.size(), 0.0);
+  for (const Effect& effect : candidate.effects) {
+    x.insert(x.end(), effect.start.begin(), effect.start.end());
+  }
+  return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// Fits of one id, one a form.
+using Forms = std::vector<CandidateFit>;
+
+ScoredId marginal(const std::string& id, const Forms& forms, std::size_t tried) {
+  std::vector<double> scores;
+  for (const CandidateFit& fit : forms) scores.push_back(fit.evidence.log_marginal);
+  const auto best = std::ranges::max_element(scores) - scores.begin();
+  return {.id = id,
+          .score = log_sum(scores) - std::log(static_cast<double>(tried)),
+          .fit = forms[static_cast<std::size_t>(best)]};
+}
+
+ScoredId base(const std::string& id, const FitProblem& problem, const SettingWeights& weights) {
+  const auto fit = fit_candidate(problem, {}, weights, start_of(problem, {}));
+  return marginal(id, {*fit}, 1);
+}
+
+/// Score of a fit with another effect added, to first order from its starting point.
+double quick_score(const FitProblem& problem, const CandidateFit& single, const Effect& effect) {
+  Candidate pair = single.candidate;
+  pair.effects.push_back(effect);
+  const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
+  Eigen::VectorXd x(single.x.size() + size);
+  x.head(single.x.size()) = single.x;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    x[single.x.size() + i] = effect.start[static_cast<std::size_t>(i)];
+  }
+  const bool linear = size > 0 && std::ranges::none_of(effect.coordinates,
+                                                       [](const auto& c) { return c.logarithmic; });
+  if (linear) x.tail(size).setConstant(0.5);
+  const auto prediction = predict(problem.bed, problem.soil, pair, x);
+  if (!prediction) return -INFINITY;
+  Linearised model{.residual =
+                       problem.bed.measured() - single.prediction + single.jacobian * single.x};
+  model.jacobian.resize(single.jacobian.rows(), single.jacobian.cols() + 1);
+  model.jacobian.leftCols(single.jacobian.cols()) = single.jacobian;
+  model.jacobian.rightCols(1) = (linear ? 2 : 1) * (*prediction - single.prediction);
+  const Posterior with =
+      posterior_of(problem.bed, problem.discrepancy, model, single.evidence.settings);
+  const double amount = with.x[with.x.size() - 1];
+  const Eigen::MatrixXd covariance =
+      with.precision.llt().solve(Eigen::MatrixXd::Identity(with.x.size(), with.x.size()));
+  const double gain = amount * amount / covariance(with.x.size() - 1, with.x.size() - 1);
+  return !linear && amount < 0 ? -gain : gain;
+}
+
+std::vector<Candidate> promising_pairs(const FitProblem& problem,
+                                       const std::vector<ScoredId>& singles,
+                                       const std::vector<Effect>& effects) {
+  std::vector<Candidate> pairs;
+  const auto add = [&](const Candidate& single, const Effect& effect) {
+    const Effect& first = single.effects.front();
+    if (first.id == effect.id) return;
+    const bool known = std::ranges::any_of(pairs, [&](const Candidate& pair) {
+      const auto same = [](const Effect& a, const Effect& b) {
+        return a.id == b.id && a.form == b.form && a.fixed == b.fixed;
+      };
+      return (same(pair.effects[0], first) && same(pair.effects[1], effect)) ||
+             (same(pair.effects[1], first) && same(pair.effects[0], effect));
+    });
+    if (!known) pairs.push_back({{first, effect}});
+  };
+  const std::size_t best = std::min(kBestSingles, singles.size());
+  for (std::size_t i = 0; i < best; ++i) {
+    for (std::size_t k = i + 1; k < best; ++k) {
+      add(singles[i].fit.candidate, singles[k].fit.candidate.effects.front());
+    }
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, best); ++i) {
+    std::vector<std::pair<double, std::size_t>> gains;
+    for (std::size_t k = 0; k < effects.size(); ++k) {
+      gains.emplace_back(-quick_score(problem, singles[i].fit, effects[k]), k);
+    }
+    std::ranges::sort(gains);
+    std::size_t taken = 0;
+    for (const auto& [gain, k] : gains) {
+      if (taken == kPartnersOfBest) break;
+      if (effects[k].id == singles[i].id) continue;
+      add(singles[i].fit.candidate, effects[k]);
+      ++taken;
+    }
+  }
+  return pairs;
+}
+
+/// Fits candidates in parallel; what is stopped stays empty.
+std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
+                                                 const std::vector<Candidate>& candidates,
+                                                 const ScoringOptions& options, double from,
+                                                 double to) {
+  std::vector<std::optional<CandidateFit>> fits(candidates.size());
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  diagnosis_threads::parallel_for(candidates.size(), options.threads, [&](std::size_t i) {
+    if (options.stop.stop_requested()) return;
+    fits[i] = fit_candidate(problem, candidates[i], SettingWeights::of_named(),
+                            start_of(problem, candidates[i]));
+    const std::scoped_lock lock(progress_mutex);
+    ++done;
+    if (options.progress) {
+      options.progress(from + (to - from) * static_cast<double>(done) /
+                                  static_cast<double>(candidates.size()));
+    }
+  });
+  return fits;
+}
+
+std::vector<ScoredId> gather(const std::vector<Candidate>& candidates,
+                             const std::vector<std::optional<CandidateFit>>& fits) {
+  std::map<std::string, Forms> by_id;
+  std::map<std::string, std::size_t> tried;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    std::vector<std::string> ids;
+    for (const Effect& effect : candidates[i].effects) ids.push_back(effect.id);
+    std::ranges::sort(ids);
+    std::string id;
+    for (const std::string& part : ids) id += (id.empty() ? "" : "+") + part;
+    ++tried[id];
+    if (fits[i]) by_id[id].push_back(*fits[i]);
+  }
+  std::vector<ScoredId> scored;
+  for (const auto& [id, forms] : by_id) scored.push_back(marginal(id, forms, tried[id]));
+  std::ranges::sort(scored, [](const auto& a, const auto& b) {
+    return a.score != b.score ? a.score > b.score : a.id < b.id;
+  });
+  return scored;
+}
+
+}  // namespace
+
+std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProblem& wide,
+                                       const std::vector<Effect>& effects,
+                                       const ScoringOptions& options) {
+  std::vector<ScoredId> all;
+  const std::vector<SoilCoordinate> known;
+  const Eigen::MatrixXd nothing_free(problem.bed.size(), 0);
+  const FitProblem fixed{problem.bed, known, problem.discrepancy, nothing_free};
+  all.push_back(base("none", fixed, SettingWeights::of_none()));
+  all.push_back(base("parameters", wide, SettingWeights::of_none()));
+  all.push_back(base("unexplained", problem, SettingWeights::of_unexplained()));
+  std::vector<Candidate> singles;
+  for (const Effect& effect : effects) singles.push_back({{effect}});
+  const std::vector<ScoredId> alone = gather(singles, fit_all(problem, singles, options, 0, 0.5));
+  all.insert(all.end(), alone.begin(), alone.end());
+  if (!options.stop.stop_requested()) {
+    const std::vector<Candidate> pairs = promising_pairs(problem, alone, effects);
+    const std::vector<ScoredId> together = gather(pairs, fit_all(problem, pairs, options, 0.5, 1));
+    all.insert(all.end(), together.begin(), together.end());
+  }
+  return all;
+}
+
+void weigh(std::vector<ScoredId>& scored, bool no_lack_of_fit) {
+  std::vector<double> terms;
+  for (const ScoredId& s : scored) {
+    const bool pair = s.id.find('+') != std::string::npos;
+    double prior = pair ? kPairLogPrior : 0;
+    if (no_lack_of_fit && (s.id == "none" || s.id == "parameters")) prior = kNoLackOfFitLogPrior;
+    terms.push_back(s.score / kTemperature + prior);
+  }
+  const double whole = log_sum(terms);
+  for (std::size_t i = 0; i < scored.size(); ++i) {
+    scored[i].probability = std::exp(terms[i] - whole);
+  }
+  std::ranges::stable_sort(
+      scored, [](const auto& a, const auto& b) { return a.probability > b.probability; });
+}
+
+}  // namespace regoplan
