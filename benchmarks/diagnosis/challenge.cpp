@@ -132,7 +132,7 @@ bool is_valid(const Soil& soil) {
 
 const TruthEffect& in_turn(const std::vector<TruthEffect>& effects, std::uint64_t turn) {
   // a stride that is prime to the length spreads neighbours of the list
-  return effects[turn * 7 % effects.size()];
+  return effects[turn * 11 % effects.size()];
 }
 
 std::vector<TruthEffect> rut_effects() {

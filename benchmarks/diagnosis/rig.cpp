@@ -254,6 +254,10 @@ Rig draw_rig(Random& random, const Needs& needs) {
                 .pass = {1}};
   if (needs.loads || chance(random, 0.3)) levels.load = {0.5 * w, w, 1.7 * w};
   if (!needs.loads && chance(random, 0.2)) levels.load = {0.7 * w, 1.3 * w};
+  constexpr std::size_t kFewestConditions = 14;
+  if (levels.slip.size() * levels.angle_deg.size() < kFewestConditions) {
+    levels.load = {0.5 * w, w, 1.7 * w};
+  }
   if (needs.times) levels.load.insert(levels.load.begin(), 0.3 * w);  // cohesion: small loads most
   rig.columns.speed = needs.speeds || chance(random, 0.4);
   if (needs.speeds || (rig.columns.speed && chance(random, 0.4))) {
@@ -266,6 +270,10 @@ Rig draw_rig(Random& random, const Needs& needs) {
   const int runs = std::uniform_int_distribution<int>(60, 130)(random);
   const int most = std::max(18, runs / rig.replicates);
   rig.conditions = design(random, levels, static_cast<std::size_t>(std::min(most, 43)));
+  constexpr std::size_t kFewestRuns = 40;
+  while (rig.conditions.size() * static_cast<std::size_t>(rig.replicates) < kFewestRuns) {
+    ++rig.replicates;
+  }
   rig.same_order = needs.sweep || chance(random, 0.3);
   rig.replicate_by_day = chance(random, 0.5);
   rig.columns.day = chance(random, 0.75);

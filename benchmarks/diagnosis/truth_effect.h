@@ -48,6 +48,12 @@ struct DrawnEffect {
 /// At least two forms of most ids of the vocabulary, none of them a form of terramech/mechanism.h.
 const std::vector<TruthEffect>& listed_effects();
 
+/// The parts of that list.
+std::vector<TruthEffect> effects_on_sinkage();
+std::vector<TruthEffect> effects_on_shear();
+std::vector<TruthEffect> effects_on_sides();
+std::vector<TruthEffect> effects_on_carriage();
+
 /// Effects on no list: whoever gives them a name of the vocabulary is wrong.
 const std::vector<TruthEffect>& unlisted_effects();
 

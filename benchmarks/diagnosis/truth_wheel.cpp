@@ -80,7 +80,7 @@ Sums strip(const TruthPhysics& p, const Kinematics& v, double slip, double depth
   const double phi = std::atan(tan_phi);
   const double xc = std::numbers::pi / 4 - phi / 2;
   const double cot_xc = 1 / std::tan(xc);
-  const double d1 = cot_xc + std::tan(xc + phi), d2 = cot_xc + cot_xc * cot_xc / tan_phi;
+  const double d1 = cot_xc + std::tan(xc + phi), d2 = cot_xc + cot_xc * cot_xc * tan_phi;
   Sums sum;
   double flank = 0;
   const auto add = [&](double theta, double mirrored, double arc) {
@@ -110,9 +110,11 @@ Sums strip(const TruthPhysics& p, const Kinematics& v, double slip, double depth
   };
   const double front = theta_f - theta_m, rear = theta_m - theta_r;
   for (int i = 0; i < kNodes; ++i) {
-    const double turn = std::numbers::pi * (i + 0.5) / kNodes;
-    const double t = (1 + std::cos(turn)) / 2;
-    const double weight = std::sin(turn) / 2 * std::numbers::pi / kNodes;
+    // Sidi's sine transformation: what is summed vanishes at both ends with its slope, for which
+    // the midpoint rule is as good as any
+    const double x = (i + 0.5) / kNodes, turn = 2 * std::numbers::pi * x;
+    const double t = x - std::sin(turn) / (2 * std::numbers::pi);
+    const double weight = (1 - std::cos(turn)) / kNodes;
     const double ahead = theta_m + t * front;
     add(ahead, ahead, weight * front);
     if (rear > 0) add(theta_r + t * rear, theta_f - t * front, weight * rear);
@@ -123,12 +125,13 @@ Sums strip(const TruthPhysics& p, const Kinematics& v, double slip, double depth
 }
 
 Sums integrate(const TruthPhysics& p, const Kinematics& v, double slip, double sinkage_m) {
-  if (p.rut_m == 0) return strip(p, v, slip, sinkage_m, 1);
+  if (p.rut == 0) return strip(p, v, slip, sinkage_m, 1);
   Sums total;
   const double r = p.wheel.radius_m;
   for (int i = 0; i < kStrips; ++i) {
     const double e = (i + 0.5) / kStrips - 0.5;
-    const double depth = std::clamp(sinkage_m + p.rut_m * profile_at(p.profile, e), 1e-6 * r, r);
+    const double depth =
+        std::clamp(sinkage_m * (1 + p.rut * profile_at(p.profile, e)), 1e-6 * r, r);
     const Sums s = strip(p, v, slip, depth, 1.0 / kStrips);
     total.fx_c += s.fx_c;
     total.fz_c += s.fz_c;
@@ -139,6 +142,10 @@ Sums integrate(const TruthPhysics& p, const Kinematics& v, double slip, double s
     total.torque_s += s.torque_s;
     total.fu_s += s.fu_s;
     total.flank_n += s.flank_n;
+  }
+  if (p.inner_flank) {
+    const double edge = std::min(sinkage_m * (1 + p.rut * profile_at(p.profile, 0.5)), r);
+    total.flank_n = strip(p, v, slip, edge, 1).flank_n;
   }
   return total;
 }
@@ -199,8 +206,8 @@ std::optional<TruthChannels> truth_channels(const TruthPhysics& p) {
   if (h != *h0 || at_rest) q = (p.at.load_n - sum.fz_c) / sum.fz_s;
   if (!(q > 0)) return std::nullopt;
   const double side = p.at.slip_angle_rad > 0 ? 1 : (p.at.slip_angle_rad < 0 ? -1 : 0);
-  const double inner = h + p.rut_m * profile_at(p.profile, 0.5);
-  const double outer = std::max(0.0, h + p.rut_m * profile_at(p.profile, -0.5));
+  const double inner = h * (1 + p.rut * profile_at(p.profile, 0.5));
+  const double outer = std::max(0.0, h * (1 + p.rut * profile_at(p.profile, -0.5)));
   const double shown = p.added_sinkage_m;
   return TruthChannels{.fx_n = sum.fx_c + q * sum.fx_s + p.added_fx_n,
                        .fy_n = side * (sum.fu_c + q * sum.fu_s + sum.flank_n) + p.added_fy_n,

@@ -56,9 +56,10 @@ struct TruthPhysics {
   double lug_m = 0;           ///< shear surface outside the rim by this
 
   RutProfile profile = RutProfile::kCubic;
-  double rut_m = 0;   ///< amplitude of the profile
-  double berm_m = 0;  ///< soil heaped beside the deepest point of the wheel
-  double flank = 0;   ///< share of mobilised shear on both flanks
+  double rut = 0;            ///< amplitude of the profile over the sinkage
+  bool inner_flank = false;  ///< bulldozing at the inner edge's depth; else at that of each strip
+  double berm_m = 0;         ///< soil heaped beside the deepest point of the wheel
+  double flank = 0;          ///< share of mobilised shear on both flanks
 
   double added_fx_n = 0, added_fy_n = 0, added_torque_nm = 0, added_sinkage_m = 0;
 };
@@ -68,8 +69,8 @@ struct TruthChannels {
   double fx_n = 0, fy_n = 0, torque_nm = 0, sinkage_m = 0, rut_left_m = 0, rut_right_m = 0;
 };
 
-/// Forces by a scheme of its own (strips across the width, midpoint rule in the cosine of the
-/// position along the contact, bisection for the sinkage) that shares no code with terramech.
+/// Forces by a scheme of its own (strips across the width, midpoint rule after Sidi's sine
+/// transformation, bisection for the sinkage) that shares no code with terramech.
 /// Unchanged physics agree with WheelModel to 1e-4 of the load
 /// (TruthWheel.AgreesWithTheWheelModel). Slip ratio from -0.95 to 0.95, slip angle up to 60 deg.
 /// \returns nothing where no sinkage below the radius carries the load
