@@ -49,6 +49,7 @@ ChartSettings chart_settings(const Options& options) {
     settings.soils = problem.map.soils();
     settings.wheel_variant = problem.wheel_variant;
     settings.mechanisms = problem.mechanisms;
+    settings.generic = problem.generic;
     settings.gravity_mps2 = problem.gravity_mps2;
     settings.limits = problem.limits;
   }

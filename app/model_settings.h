@@ -16,9 +16,16 @@ struct ModelSettings {
 };
 
 /// Reads `{model, wheel: {radius_m, width_m}, gravity_mps2, soil: {<soil keys>}, soil_name,
-/// mechanisms: []}`.
+/// mechanisms: [{id, form, parameters}]}`; the id `generic` is the unnamed correction.
 ModelSettings read_model(const SettingsNode& node);
 ModelSettings read_model_file(const std::string& file);
+
+/// The model as a model file that reads back to the same numbers, bit for bit, where an angle is
+/// one that degrees can express; else within its last place. Its soil is `settings.soil`.
+std::string model_text(const ModelSettings& settings);
+
+/// Reads `ishigami2007` or `yoshida2004`.
+WheelVariant read_variant(const SettingsNode& node);
 
 /// The word under which a variant stands in files: `ishigami2007`, `yoshida2004`.
 std::string variant_name(WheelVariant variant);

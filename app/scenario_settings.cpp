@@ -215,6 +215,7 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
                     .vehicle = std::move(vehicle),
                     .wheel_variant = variant,
                     .mechanisms = model ? model->spec.mechanisms : std::vector<Mechanism>{},
+                    .generic = model ? model->spec.generic : std::nullopt,
                     .gravity_mps2 = gravity_mps2,
                     .start = start,
                     .goal = goal,

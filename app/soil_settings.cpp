@@ -56,16 +56,8 @@ int soil_named(const std::vector<MapSoil>& soils, const SettingsNode& name, bool
 }
 
 std::string soil_text(const MapSoil& soil) {
-  std::string text =
-      fmt::format("  {}:\n    source: {}\n", quoted_text(soil.name), quoted_text(soil.source));
-  for (const SoilParameter& parameter : soil_parameters()) {
-    const std::string mean = number_in_unit(soil.soil.mean.*parameter.member, parameter.file_unit);
-    const double deviation = soil.soil.standard_deviation.*parameter.member;
-    text += deviation == 0 ? fmt::format("    {}: {}\n", parameter.name, mean)
-                           : fmt::format("    {}: {{mean: {}, std: {}}}\n", parameter.name, mean,
-                                         number_in_unit(deviation, parameter.file_unit));
-  }
-  return text;
+  return fmt::format("  {}:\n    source: {}\n", quoted_text(soil.name), quoted_text(soil.source)) +
+         soil_keys_text(soil.soil, "    ");
 }
 
 }  // namespace
@@ -111,6 +103,18 @@ SoilCatalogue read_soil_catalogue(const SettingsNode& node, WheelVariant variant
     }
     return catalogue;
   });
+}
+
+std::string soil_keys_text(const UncertainSoil& soil, const std::string& indent) {
+  std::string text;
+  for (const SoilParameter& parameter : soil_parameters()) {
+    const std::string mean = number_in_unit(soil.mean.*parameter.member, parameter.file_unit);
+    const double deviation = soil.standard_deviation.*parameter.member;
+    text += deviation == 0 ? fmt::format("{}{}: {}\n", indent, parameter.name, mean)
+                           : fmt::format("{}{}: {{mean: {}, std: {}}}\n", indent, parameter.name,
+                                         mean, number_in_unit(deviation, parameter.file_unit));
+  }
+  return text;
 }
 
 std::string quoted_text(const std::string& text) {

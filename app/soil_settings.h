@@ -20,6 +20,10 @@ SoilCatalogue read_soil_catalogue(const SettingsNode& node, WheelVariant variant
 /// The catalogue as a soils file that reads back to the same numbers, bit for bit.
 std::string soil_catalogue_text(const SoilCatalogue& catalogue);
 
+/// A soil's keys, one a line behind `indent`: numbers, or `{mean, std}` where the deviation is not
+/// 0.
+std::string soil_keys_text(const UncertainSoil& soil, const std::string& indent);
+
 /// A text as a YAML scalar, quoted.
 std::string quoted_text(const std::string& text);
 

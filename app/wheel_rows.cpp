@@ -12,6 +12,7 @@
 #include <ostream>
 
 #include "app/csv_cells.h"
+#include "app/csv_table.h"
 #include "app/number_text.h"
 #include "app/value_range.h"
 #include "terramech/input_error.h"
@@ -50,86 +51,10 @@ constexpr ValueRange kPasses{.min = 1, .max = 1e6};
 constexpr std::array<const char*, 7> kResults{"fx_n", "fy_n", "torque_nm", "sinkage_m",
                                               "fc_n", "fb_n", "status"};
 
-using Cells = std::vector<std::string>;
-
-/// A CSV table read line by line.
-class Table {
- public:
-  Table(std::istream& stream, std::string file) : stream_(stream), file_(std::move(file)) {
-    std::optional<Cells> header = next_line();
-    if (!header) throw InputError(file_ + ": empty (expected a header line)");
-    constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
-    if (header->front().starts_with(kByteOrderMark)) header->front().erase(0, 3);
-    for (std::string& column : *header) {
-      const std::size_t from = column.find_first_not_of(' ');
-      const std::size_t to = column.find_last_not_of(' ');
-      column = from == std::string::npos ? "" : column.substr(from, to - from + 1);
-      if (std::ranges::count(*header, column) > 1) throw error("column " + column + " given twice");
-    }
-    columns_ = std::move(*header);
-  }
-
-  const Cells& columns() const { return columns_; }
-
-  std::optional<std::size_t> find_column(const char* sought) const {
-    const auto found = std::ranges::find(columns_, sought);
-    if (found == columns_.end()) return {};
-    return static_cast<std::size_t>(found - columns_.begin());
-  }
-
-  std::size_t column(const char* sought) const {
-    const auto found = find_column(sought);
-    if (!found) throw error(fmt::format("column {} is missing", sought));
-    return *found;
-  }
-
-  /// The next row; nothing at the end.
-  std::optional<Cells> next() {
-    std::optional<Cells> cells = next_line();
-    if (cells && cells->size() != columns_.size()) {
-      throw error(fmt::format("{} cells (the header has {})", cells->size(), columns_.size()));
-    }
-    return cells;
-  }
-
-  double number(const Cells& cells, std::size_t index, const ValueRange& allowed) const {
-    const std::string& cell = cells[index];
-    const std::optional<double> value = parse_number(cell);
-    if (value && allowed.contains(*value)) return *value;
-    throw error(fmt::format("{}: {} is not valid (allowed: {})", columns_[index],
-                            cell.empty() ? "an empty cell" : cell, allowed.text()));
-  }
-
- private:
-  std::optional<Cells> next_line() {
-    std::string line;
-    int blank = 0;
-    while (std::getline(stream_, line)) {
-      ++line_;
-      if (line.ends_with('\r')) line.pop_back();
-      if (!line.empty()) break;
-      ++blank;
-    }
-    if (stream_.bad()) throw InputError(file_ + ": cannot be read");
-    if (line.empty()) return {};  // blank lines at the end say nothing
-    if (blank > 0) throw InputError(fmt::format("{}:{}: an empty line", file_, line_ - 1));
-    std::optional<Cells> cells = split_cells(line);
-    if (!cells) throw error("a quote is not closed");
-    return cells;
-  }
-
-  InputError error(const std::string& what) const {
-    return InputError(fmt::format("{}:{}: {}", file_, line_, what));
-  }
-
-  std::istream& stream_;
-  std::string file_;
-  std::int64_t line_ = 0;
-  Cells columns_;
-};
+using Cells = CsvTable::Cells;
 
 /// What a row says of the circumstances; only where a mechanism asks for them is it read.
-WheelConditions read_circumstances(const Table& table, const Cells& cells) {
+WheelConditions read_circumstances(const CsvTable& table, const Cells& cells) {
   WheelConditions conditions;
   for (const Circumstance& circumstance : kCircumstances) {
     if (const auto column = table.find_column(circumstance.column)) {
@@ -188,7 +113,7 @@ nlohmann::ordered_json json_row(const Cells& columns, const Cells& cells) {
 WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& file,
                                    const WheelModel& model, const WheelRowSinks& sinks,
                                    const std::stop_token& stop) {
-  Table table(conditions, file);
+  CsvTable table(conditions, file);
   std::array<std::size_t, kConditions.size()> condition_columns{};
   for (std::size_t i = 0; i < kConditions.size(); ++i) {
     condition_columns.at(i) = table.column(kConditions.at(i).column);

@@ -1,6 +1,8 @@
 #include "diagnosis/candidate_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace regoplan {
@@ -12,23 +14,61 @@ bool is_slow(const Candidate& candidate) {
   return std::ranges::any_of(candidate.effects, &Effect::slow);
 }
 
+/// The fit's own coordinates and the shape's factors as one linear model.
 Linearised linearised(const TestBed& bed, const CandidateFit& fit) {
-  return {.residual = bed.measured() - fit.prediction + fit.jacobian * fit.x,
-          .jacobian = fit.jacobian};
+  Linearised model{.residual = bed.measured() - fit.prediction + fit.jacobian * fit.x};
+  model.jacobian.resize(bed.size(), fit.jacobian.cols() + fit.shape.cols());
+  model.jacobian << fit.jacobian, fit.shape;
+  return model;
 }
+
+/// Misfit under given settings, the shape's factors marginalised.
+class ShapedMisfit {
+ public:
+  ShapedMisfit(const FitProblem& problem, const std::vector<std::size_t>& settings,
+               Eigen::MatrixXd shape)
+      : problem_(problem), settings_(settings), shape_(whitened(std::move(shape))) {
+    const Eigen::Index p = shape_.cols();
+    precision_.compute(shape_.transpose() * shape_ + Eigen::MatrixXd::Identity(p, p));
+  }
+
+  double of(const Eigen::VectorXd& residual) const {
+    const Eigen::VectorXd r = whitened(residual);
+    const Eigen::VectorXd b = shape_.transpose() * r;
+    return r.squaredNorm() - b.dot(precision_.solve(b));
+  }
+
+ private:
+  Eigen::MatrixXd whitened(Eigen::MatrixXd values) const {
+    const TestBed& bed = problem_.bed;
+    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+      auto block = values.middleRows(bed.offset(c), bed.channels[c].mean.size());
+      problem_.discrepancy.at(c, settings_[c]).factor.matrixL().solveInPlace(block);
+    }
+    return values;
+  }
+
+  const FitProblem& problem_;
+  const std::vector<std::size_t>& settings_;
+  Eigen::MatrixXd shape_;
+  Eigen::LLT<Eigen::MatrixXd> precision_;
+};
 
 /// One damped step; false where nothing better was found.
 bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, CandidateFit& fit) {
   const TestBed& bed = problem.bed;
   const Eigen::VectorXd measured = bed.measured();
+  const ShapedMisfit misfit(problem, settings, fit.shape);
   const auto cost = [&](const Eigen::VectorXd& prediction, const Eigen::VectorXd& x) {
-    return misfit_of(bed, problem.discrepancy, measured - prediction, settings) + x.squaredNorm();
+    return misfit.of(measured - prediction) + x.squaredNorm();
   };
-  const Posterior goal = posterior_of(bed, problem.discrepancy, linearised(bed, fit), settings);
+  const Posterior posterior =
+      posterior_of(bed, problem.discrepancy, linearised(bed, fit), settings);
+  const Eigen::VectorXd goal = posterior.x.head(fit.x.size());
   const double before = cost(fit.prediction, fit.x);
   for (double share = 1; share > 0.02; share *= 0.4) {
     const Eigen::VectorXd x =
-        (fit.x + share * (goal.x - fit.x)).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+        (fit.x + share * (goal - fit.x)).cwiseMin(kFarthest).cwiseMax(-kFarthest);
     const auto prediction = predict(bed, problem.soil, fit.candidate, x);
     if (!prediction) continue;
     const double after = cost(*prediction, x);
@@ -40,13 +80,64 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
   return false;
 }
 
-bool renew_jacobian(const FitProblem& problem, CandidateFit& fit, bool soil_too) {
-  const Eigen::Index from = soil_too ? 0 : static_cast<Eigen::Index>(problem.soil.size());
+/// Soil columns of slow candidates are those of the rest of the candidate.
+std::optional<Eigen::MatrixXd> soil_columns(const FitProblem& problem, const CandidateFit& fit) {
+  Candidate quick;
+  const auto soil = static_cast<Eigen::Index>(problem.soil.size());
+  std::vector<double> kept(fit.x.data(), fit.x.data() + soil);
+  for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
+    const Effect& effect = fit.candidate.effects[e];
+    if (effect.slow) continue;
+    const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
+    quick.effects.push_back(effect);
+    for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
+      kept.push_back(fit.x[first + static_cast<Eigen::Index>(i)]);
+    }
+  }
+  const Eigen::VectorXd x =
+      Eigen::Map<Eigen::VectorXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));
+  const auto prediction = predict(problem.bed, problem.soil, quick, x);
+  if (!prediction) return std::nullopt;
+  const auto columns = jacobian_of(problem.bed, problem.soil, quick, x, *prediction);
+  if (!columns) return std::nullopt;
+  return columns->leftCols(soil);
+}
+
+bool renew_jacobian(const FitProblem& problem, CandidateFit& fit) {
+  const bool slow = is_slow(fit.candidate);
+  const auto soil = static_cast<Eigen::Index>(problem.soil.size());
+  if (slow) {
+    const auto columns = soil_columns(problem, fit);
+    if (!columns) return false;
+    fit.jacobian.leftCols(soil) = *columns;
+  }
   const auto columns =
-      jacobian_of(problem.bed, problem.soil, fit.candidate, fit.x, fit.prediction, from);
+      jacobian_of(problem.bed, problem.soil, fit.candidate, fit.x, fit.prediction, slow ? soil : 0);
   if (!columns) return false;
   fit.jacobian.rightCols(columns->cols()) = *columns;
   return true;
+}
+
+void renew_shape(const FitProblem& problem, const Eigen::MatrixXd& functions, CandidateFit& fit) {
+  const TestBed& bed = problem.bed;
+  fit.shape.resize(bed.size(), 0);
+  if (fit.shape_spread == 0) return;
+  for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
+    const Effect& effect = fit.candidate.effects[e];
+    if (effect.kind != EffectKind::kMechanism || is_instrument(effect.id)) continue;
+    const auto part = part_of(bed, problem.soil, fit, e);
+    if (!part) continue;
+    const Eigen::Index from = fit.shape.cols();
+    fit.shape.conservativeResize(Eigen::NoChange, from + functions.cols());
+    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+      for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
+        const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
+        fit.shape.row(row).tail(functions.cols()) =
+            fit.shape_spread * (*part)[row] *
+            functions.row(static_cast<Eigen::Index>(bed.channels[c].conditions[i]));
+      }
+    }
+  }
 }
 
 /// \return whether the start could be evaluated
@@ -55,16 +146,17 @@ bool begin(const FitProblem& problem, CandidateFit& fit) {
   if (!prediction) return false;
   fit.prediction = *prediction;
   fit.jacobian.resize(problem.bed.size(), fit.x.size());
-  return renew_jacobian(problem, fit, true);
+  return renew_jacobian(problem, fit);
 }
 
 void descend(const FitProblem& problem, const std::vector<std::size_t>& settings, int steps,
-             CandidateFit& fit) {
-  const bool slow = is_slow(fit.candidate);
+             const Eigen::MatrixXd& functions, CandidateFit& fit) {
   for (int i = 0; i < steps; ++i) {
+    renew_shape(problem, functions, fit);
     const bool better = step(problem, settings, fit);
-    if (!renew_jacobian(problem, fit, !slow || i == steps - 1 || !better) || !better) break;
+    if (!renew_jacobian(problem, fit) || !better) break;
   }
+  renew_shape(problem, functions, fit);
 }
 
 }  // namespace
@@ -96,12 +188,35 @@ std::optional<Eigen::MatrixXd> jacobian_of(const TestBed& bed,
   return columns;
 }
 
+std::optional<Eigen::VectorXd> part_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
+                                       const CandidateFit& fit, std::size_t effect) {
+  Candidate others = fit.candidate;
+  others.effects.erase(others.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  const Eigen::Index first = first_of(soil, fit.candidate, effect);
+  const auto size = static_cast<Eigen::Index>(fit.candidate.effects[effect].coordinates.size());
+  Eigen::VectorXd x(fit.x.size() - size);
+  x << fit.x.head(first), fit.x.tail(fit.x.size() - first - size);
+  const auto rest = predict(bed, soil, others, x);
+  if (!rest) return std::nullopt;
+  return fit.prediction - *rest;
+}
+
+Eigen::Index first_of(const std::vector<SoilCoordinate>& soil, const Candidate& candidate,
+                      std::size_t effect) {
+  auto first = static_cast<Eigen::Index>(soil.size());
+  for (std::size_t i = 0; i < effect; ++i) {
+    first += static_cast<Eigen::Index>(candidate.effects[i].coordinates.size());
+  }
+  return first;
+}
+
 std::optional<CandidateFit> fit_under(const FitProblem& problem, const Candidate& candidate,
                                       const std::vector<std::size_t>& settings,
-                                      const Eigen::VectorXd& start, int steps) {
-  CandidateFit fit{.candidate = candidate, .x = start};
+                                      const Eigen::VectorXd& start, int steps,
+                                      double shape_spread) {
+  CandidateFit fit{.candidate = candidate, .x = start, .shape_spread = shape_spread};
   if (!begin(problem, fit)) return std::nullopt;
-  descend(problem, settings, steps, fit);
+  descend(problem, settings, steps, smooth_functions(problem.bed), fit);
   fit.evidence.settings = settings;
   return fit;
 }
@@ -109,7 +224,8 @@ std::optional<CandidateFit> fit_under(const FitProblem& problem, const Candidate
 std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Candidate& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start) {
-  CandidateFit fit{.candidate = candidate, .x = start};
+  const Eigen::MatrixXd functions = smooth_functions(problem.bed);
+  CandidateFit fit{.candidate = candidate, .x = start, .shape_spread = kShapeSpreads.back()};
   if (!begin(problem, fit)) return std::nullopt;
   // begin under a discrepancy of twice a run's noise over middling scales
   std::size_t middling = 0;
@@ -119,13 +235,27 @@ std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Candi
   }
   std::vector<std::size_t> settings(problem.bed.channels.size(), middling);
   constexpr int kRounds = 3;
+  const auto weigh = [&] {
+    return evidence_of(problem.bed, problem.discrepancy, linearised(problem.bed, fit),
+                       problem.soil_free, weights);
+  };
   for (int round = 0; round < kRounds; ++round) {
-    descend(problem, settings, round == 0 ? 5 : 3, fit);
-    fit.evidence = evidence_of(problem.bed, problem.discrepancy, linearised(problem.bed, fit),
-                               problem.soil_free, weights);
+    descend(problem, settings, round == 0 ? 5 : 3, functions, fit);
+    fit.evidence = weigh();
     if (fit.evidence.settings == settings) break;
     settings = fit.evidence.settings;
   }
+  if (fit.shape.cols() == 0 || candidate.effects.size() > 1) return fit;  // pairs: rough forms only
+  // forms that hold closely deserve to be told from forms that hold roughly
+  const CandidateFit rough = fit;
+  fit.shape_spread = kShapeSpreads.front();
+  renew_shape(problem, functions, fit);
+  descend(problem, settings, 2, functions, fit);
+  fit.evidence = weigh();
+  const double a = fit.evidence.log_marginal, b = rough.evidence.log_marginal;
+  if (b > a) fit = rough;
+  fit.evidence.log_marginal =
+      std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))) - std::log(2.0);
   return fit;
 }
 

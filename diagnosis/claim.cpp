@@ -45,28 +45,6 @@ NameClass cover(const std::vector<Weighted>& candidates) {
   return chosen;
 }
 
-Eigen::Index first_of(const FitProblem& problem, const CandidateFit& fit, std::size_t effect) {
-  auto first = static_cast<Eigen::Index>(problem.soil.size());
-  for (std::size_t i = 0; i < effect; ++i) {
-    first += static_cast<Eigen::Index>(fit.candidate.effects[i].coordinates.size());
-  }
-  return first;
-}
-
-/// What one effect adds to the model values, the rest as fitted.
-std::optional<Eigen::VectorXd> part_of(const FitProblem& problem, const CandidateFit& fit,
-                                       std::size_t effect) {
-  Candidate others = fit.candidate;
-  others.effects.erase(others.effects.begin() + static_cast<std::ptrdiff_t>(effect));
-  const Eigen::Index first = first_of(problem, fit, effect);
-  const auto size = static_cast<Eigen::Index>(fit.candidate.effects[effect].coordinates.size());
-  Eigen::VectorXd x(fit.x.size() - size);
-  x << fit.x.head(first), fit.x.tail(fit.x.size() - first - size);
-  const auto rest = predict(problem.bed, problem.soil, others, x);
-  if (!rest) return std::nullopt;
-  return fit.prediction - *rest;
-}
-
 }  // namespace
 
 std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
@@ -118,14 +96,14 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
   }
   for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
     const Effect& effect = fit.candidate.effects[e];
-    const Eigen::Index first = first_of(problem, fit, e);
+    const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
     for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
       const double x = fit.x[first + static_cast<Eigen::Index>(i)];
       if (std::abs(x) < kPlausible) continue;
       return fmt::format("{} would need {} = {:.3g}, far from what is usual", effect.id,
                          effect.coordinates[i].name, effect.coordinates[i].value(x));
     }
-    const auto part = part_of(problem, fit, e);
+    const auto part = part_of(problem.bed, problem.soil, fit, e);
     if (!part) continue;
     for (const Channel channel : channels_of(problem, fit, e)) {
       for (std::size_t c = 0; c < problem.bed.channels.size(); ++c) {
@@ -147,7 +125,7 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
 std::vector<Channel> channels_of(const FitProblem& problem, const CandidateFit& fit,
                                  std::size_t effect) {
   std::vector<Channel> channels;
-  const auto part = part_of(problem, fit, effect);
+  const auto part = part_of(problem.bed, problem.soil, fit, effect);
   if (!part) return channels;
   std::vector<double> strength;
   for (std::size_t c = 0; c < problem.bed.channels.size(); ++c) {
@@ -176,7 +154,7 @@ std::vector<Claim> claims_of(const FitProblem& problem, const std::vector<Scored
                   .form = effect.form,
                   .probability = std::min(names.probability, 1.0),
                   .channels = channels_of(problem, fit, e)};
-      const Eigen::Index first = first_of(problem, fit, e);
+      const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
       for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
         const Eigen::Index k = first + static_cast<Eigen::Index>(i);
         const Coordinate& c = effect.coordinates[i];

@@ -219,6 +219,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup) {
     result.adjusted.push_back(std::move(adjusted));
   }
   if (bed.channels.empty()) throw InputError("recording: no channel is measured");
+  bed.accuracy = sufficient_accuracy(bed);
   result.correlation = noise_correlation(result.noise, bed.conditions, result.adjusted);
   return result;
 }

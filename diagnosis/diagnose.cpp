@@ -22,7 +22,7 @@ constexpr double kWorstPull = 4.5;    // prior standard deviations that calibrat
 constexpr double kWideSoil = 3;       // priors are widened so far for the verdict `parameters`
 constexpr double kClearEvidence = 9;  // nats by which a name must beat `parameters` unprompted
 constexpr double kClearGain = 2;      // standard errors of the held-out gain
-constexpr double kWorthNaming = 0.5;  // share of the excess misfit that a claim explains
+constexpr double kWorthNaming = 0.3;  // share of the excess misfit that a claim explains
 
 /// One diagnosis under way: what has been found, and the parts that later steps build on.
 class Diagnosing {
@@ -103,15 +103,16 @@ class Diagnosing {
 
   void detect() {
     const FitProblem wide{bed_, wide_soil_, discrepancy_, soil_free_};
-    const auto loose = fit_under(wide, {}, base_.evidence.settings, base_.x / kWideSoil, 12);
+    const auto loose = fit_under(wide, {}, base_.evidence.settings, base_.x / kWideSoil, 12, 0);
     FitRemainder remainder = remainder_of(loose ? *loose : base_);
     remainder.truth_spread = 1 / kWideSoil;
     found_.before = lack_of_fit(condensed_, remainder, options_.seed);
     found_.after = found_.before;
-    rejected_ = found_.before.f > found_.before.critical;
+    unfit_ = found_.before.f > found_.before.critical;
     for (Eigen::Index i = 0; i < base_.x.size() && loose; ++i) {
-      if (std::abs(kWideSoil * loose->x[i]) > kWorstPull) pulled_ = true;
+      if (std::abs(kWideSoil * loose->x[i]) > kWorstPull) unfit_ = true;
     }
+    rejected_ = unfit_;
     const FitRemainder fixed{
         .residual = measured_ - *predict(bed_, soil_, {}, Eigen::VectorXd::Zero(base_.x.size())),
         .x = Eigen::VectorXd(0),
@@ -123,6 +124,10 @@ class Diagnosing {
   std::vector<SmallestDetectable> detectable() const {
     const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
     return smallest_detectable(problem, base_, effects_, found_.before.critical);
+  }
+
+  HeldOut held_out(const CorrectedModel& corrected) const {
+    return hold_out(condensed_, soil_, base_, corrected, families_of(bed_), options_.threads);
   }
 
   void score() {
@@ -140,7 +145,7 @@ class Diagnosing {
         named = std::max(named, s.score);
       }
     }
-    rejected_ = rejected_ || pulled_ || named > parameters + kClearEvidence;
+    rejected_ = unfit_ || named > parameters + kClearEvidence;
     weigh(scored_, !rejected_);
     for (const ScoredId& s : scored_) found_.ranking.push_back({s.id, s.probability});
   }
@@ -148,7 +153,7 @@ class Diagnosing {
   void decide() {
     if (!rejected_) {
       found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
-      correct_with(hold_out(condensed_, soil_, base_, {}, options_.threads), base_, {});
+      correct_with(held_out({}), base_, {});
       return;
     }
     const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
@@ -156,29 +161,57 @@ class Diagnosing {
     const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
     if (best != nullptr) {
       const std::string doubt = objection(problem, best->fit);
-      const HeldOut proof =
-          hold_out(condensed_, soil_, base_, {.fit = &best->fit}, options_.threads);
-      const bool proven =
-          proof.gain > kClearGain * proof.gain_error && proof.share_explained > kWorthNaming;
+      const std::vector<std::size_t> left = remainder_settings(problem, best->fit);
+      const HeldOut proof = best_hold_out(condensed_, soil_, base_,
+                                          {.fit = &best->fit, .remainder = left}, options_.threads);
+      const double gain = gain_in_errors(proof);
+      const bool proven = gain > kClearGain && proof.share_explained > kWorthNaming;
       if (doubt.empty() && proven) {
         found_.claims = claims_of(problem, scored_, claimed, best->fit);
         const bool single = std::ranges::all_of(
             claimed, [](const NameClass& names) { return names.ids.size() == 1; });
         found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
-        correct_with(proof, best->fit, {});
+        correct_with(proof, best->fit, left);
         return;
       }
       found_.notes.push_back(fmt::format(
           "{} scores best but is not claimed: {}", best->id,
           !doubt.empty() ? doubt
                          : fmt::format("on held-out conditions it explains {:.0f} % of the excess "
-                                       "misfit, gain {:.2g} +- {:.2g}",
-                                       100 * proof.share_explained, proof.gain, proof.gain_error)));
+                                       "misfit, {:.1f} standard errors",
+                                       100 * proof.share_explained, gain)));
+    }
+    if (!unfit_) {
+      // only a name's evidence spoke against the calibrated model, and the name does not hold
+      found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
+      correct_with(held_out({}), base_, {});
+      weigh(scored_, true);
+      found_.ranking.clear();
+      for (const ScoredId& s : scored_) found_.ranking.push_back({s.id, s.probability});
+      return;
     }
     found_.verdict = Verdict::kUnexplained;
-    const std::vector<std::size_t> settings = remainder_settings(problem, base_);
-    correct_with(hold_out(condensed_, soil_, base_, {.remainder = settings}, options_.threads),
-                 base_, settings);
+    describe_without_name();
+  }
+
+  /// A surface over the calibrated soil, or over the soil that a discrepancy leaves to be found:
+  /// the one that does better on held-out conditions.
+  void describe_without_name() {
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    const auto unexplained =
+        std::ranges::find_if(scored_, [](const ScoredId& s) { return s.id == "unexplained"; });
+    const std::vector<std::size_t> over_base = remainder_settings(problem, base_);
+    const HeldOut on_base = held_out({.remainder = over_base});
+    if (unexplained != scored_.end()) {
+      const CandidateFit& fit = unexplained->fit;
+      const std::vector<std::size_t> over_fit = remainder_settings(problem, fit);
+      const HeldOut on_fit = held_out({.fit = &fit, .remainder = over_fit});
+      if (on_fit.share_explained > on_base.share_explained) {
+        correct_with(on_fit, fit, over_fit);
+        return;
+      }
+    }
+    correct_with(on_base, base_, over_base);
   }
 
   /// Takes a fit and the remainder added to it (settings; empty: none) for the corrected model.
@@ -283,7 +316,9 @@ class Diagnosing {
   CandidateFit base_;
   Eigen::MatrixXd soil_free_;
   std::vector<ScoredId> scored_;
-  bool rejected_ = false, pulled_ = false, consistent_ = false;
+  bool unfit_ = false;     // lack of fit, or soil numbers that calibration pulled too far
+  bool rejected_ = false;  // that, or a name far better than calibration alone
+  bool consistent_ = false;
   Diagnosis found_;
 };
 

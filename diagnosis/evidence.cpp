@@ -1,6 +1,8 @@
 #include "diagnosis/evidence.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -146,6 +148,24 @@ double misfit_of(const TestBed& bed, const Discrepancy& discrepancy,
     sum += discrepancy.at(c, settings[c]).factor.matrixL().solve(part).squaredNorm();
   }
   return sum;
+}
+
+Eigen::MatrixXd smooth_functions(const TestBed& bed) {
+  constexpr std::size_t kMiddling = 1;
+  constexpr Eigen::Index kMost = 8;
+  const auto n = static_cast<Eigen::Index>(bed.conditions.size());
+  Eigen::MatrixXd kernel(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      kernel(i, k) = discrepancy_kernel(discrepancy_scales()[kMiddling], Channel::kFx,
+                                        bed.conditions[static_cast<std::size_t>(i)],
+                                        bed.conditions[static_cast<std::size_t>(k)]);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(kernel);
+  const Eigen::Index count = std::min(kMost, n);
+  return modes.eigenvectors().rightCols(count) *
+         modes.eigenvalues().tail(count).cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
 Evidence evidence_of(const TestBed& bed, const Discrepancy& discrepancy, const Linearised& linear,

@@ -46,6 +46,10 @@ Posterior posterior_of(const TestBed& bed, const Discrepancy& discrepancy, const
 double misfit_of(const TestBed& bed, const Discrepancy& discrepancy,
                  const Eigen::VectorXd& residual, const std::vector<std::size_t>& settings);
 
+/// Orthonormal-like functions of the conditions whose standard normal mixtures are smooth random
+/// functions of unit variance. \return conditions x functions
+Eigen::MatrixXd smooth_functions(const TestBed& bed);
+
 /// Log marginal likelihood of a linear model with x standard normal beforehand.
 /// \param soil_free the soil's directions (soil_directions), of which the discrepancy keeps clear
 Evidence evidence_of(const TestBed& bed, const Discrepancy& discrepancy, const Linearised& linear,

@@ -14,7 +14,7 @@ constexpr std::size_t kFewestFamilies = 3, kMostBands = 6;
 
 /// The conditions outside one family.
 TestBed without(const TestBed& bed, const Families& families, std::size_t family) {
-  TestBed rest{.setup = bed.setup};
+  TestBed rest{.setup = bed.setup, .accuracy = bed.accuracy};
   std::vector<std::size_t> new_index(bed.conditions.size());
   for (std::size_t k = 0; k < bed.conditions.size(); ++k) {
     new_index[k] = rest.conditions.size();
@@ -82,7 +82,7 @@ Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>
   Prediction prediction{.calibrated = base.prediction,
                         .remainder = Eigen::VectorXd::Zero(bed.size()),
                         .variance = Eigen::VectorXd::Zero(bed.size())};
-  const auto calibrated = fit_under(problem, {}, noise_only, base.x, kSteps);
+  const auto calibrated = fit_under(problem, {}, noise_only, base.x, kSteps, 0);
   if (calibrated) {
     if (const auto all = predict(bed, soil, {}, calibrated->x)) prediction.calibrated = *all;
   }
@@ -90,7 +90,7 @@ Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>
   std::optional<CandidateFit> named = calibrated;
   if (corrected.fit != nullptr) {
     named = fit_under(problem, corrected.fit->candidate, corrected.fit->evidence.settings,
-                      corrected.fit->x, kSteps);
+                      corrected.fit->x, kSteps, corrected.fit->shape_spread);
     prediction.named = corrected.fit->prediction;
     if (named) {
       if (const auto all = predict(bed, soil, corrected.fit->candidate, named->x)) {
@@ -131,6 +131,19 @@ Families merged(Families families, std::size_t most) {
 
 }  // namespace
 
+std::vector<Families> all_families(const TestBed& bed) {
+  std::vector<Families> all;
+  for (const auto& [column, by, most] : {std::tuple{"slip_angle_deg", "slip angle", 2 * kMostBands},
+                                         std::tuple{"slip_ratio", "slip band", kMostBands},
+                                         std::tuple{"load_n", "load band", kMostBands}}) {
+    Families families = merged(by_axis(bed, column), most);
+    families.by = by;
+    if (families.count >= kFewestFamilies) all.push_back(std::move(families));
+  }
+  if (all.empty()) all.push_back(families_of(bed));
+  return all;
+}
+
 Families families_of(const TestBed& bed) {
   Families angles = merged(by_axis(bed, "slip_angle_deg"), 2 * kMostBands);
   angles.by = "slip angle";
@@ -150,9 +163,10 @@ Families families_of(const TestBed& bed) {
 }
 
 HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
-                 const CandidateFit& base, const CorrectedModel& corrected, int threads) {
+                 const CandidateFit& base, const CorrectedModel& corrected,
+                 const Families& families, int threads) {
   const TestBed& bed = recording.bed;
-  HeldOut result{.families = families_of(bed)};
+  HeldOut result{.families = families};
   std::vector<Prediction> folds(result.families.count);
   diagnosis_threads::parallel_for(folds.size(), threads, [&](std::size_t family) {
     folds[family] = predict_without(bed, soil, result.families, family, base, corrected);
@@ -220,13 +234,26 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
   const auto dof = static_cast<double>(bed.size());
   const double excess = chi2_calibrated - dof;
   result.share_explained = excess > 0 ? 1 - (chi2_corrected - dof) / excess : 0;
-  const auto n = static_cast<double>(gain.size());
-  double mean = 0, square = 0;
-  for (const double g : gain) mean += g / n;
-  for (const double g : gain) square += (g - mean) * (g - mean) / (n - 1);
-  result.gain = mean;
-  result.gain_error = std::sqrt(square / n);
+  result.gain = std::move(gain);
   return result;
+}
+
+double gain_in_errors(const HeldOut& held_out) {
+  const auto n = static_cast<double>(held_out.gain.size());
+  double mean = 0, square = 0;
+  for (const double g : held_out.gain) mean += g / n;
+  for (const double g : held_out.gain) square += (g - mean) * (g - mean) / (n - 1);
+  return mean / std::max(std::sqrt(square / n), 1e-12);
+}
+
+HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
+                      const CandidateFit& base, const CorrectedModel& corrected, int threads) {
+  std::optional<HeldOut> best;
+  for (const Families& families : all_families(recording.bed)) {
+    HeldOut out = hold_out(recording, soil, base, corrected, families, threads);
+    if (!best || gain_in_errors(out) > gain_in_errors(*best)) best = std::move(out);
+  }
+  return *best;
 }
 
 }  // namespace regoplan

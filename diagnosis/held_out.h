@@ -16,6 +16,9 @@ struct Families {
 /// than 3 unless nothing else is there; slips in at most 6 bands).
 Families families_of(const TestBed& bed);
 
+/// Every kind of families of which there are at least 3; families_of() where there is none.
+std::vector<Families> all_families(const TestBed& bed);
+
 /// The model that is to prove itself.
 struct CorrectedModel {
   const CandidateFit* fit = nullptr;  ///< with the claim's effects; null: the calibrated base
@@ -31,13 +34,21 @@ struct HeldOut {
   Eigen::VectorXd corrected;
   Eigen::VectorXd corrected_deviation;
   double share_explained = 0;
-  double gain = 0;        ///< mean fall of the squared misfit per value, in noise variances
-  double gain_error = 0;  ///< its standard error over the conditions
+  std::vector<double> gain;  ///< per condition: fall of the squared misfit, in noise variances
   std::vector<double> remainder_share;  ///< per channel: of the remainder that proves itself
 };
 
 /// \param base soil calibrated without any effect, its problem and settings without discrepancy
 HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
-                 const CandidateFit& base, const CorrectedModel& corrected, int threads);
+                 const CandidateFit& base, const CorrectedModel& corrected,
+                 const Families& families, int threads);
+
+/// Standard errors by which a correction falls below the calibrated misfit on held-out conditions.
+double gain_in_errors(const HeldOut& held_out);
+
+/// Held out by the kind of families in which the correction does best: a form that holds between
+/// conditions need not hold beyond them.
+HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
+                      const CandidateFit& base, const CorrectedModel& corrected, int threads);
 
 }  // namespace regoplan

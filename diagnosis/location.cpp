@@ -63,7 +63,7 @@ class Scan {
  private:
   void corners(const ConditionAxis& a, const ConditionAxis& b) {
     constexpr std::size_t kMostLevels = 12;
-    if (a.levels > kMostLevels || b.levels > kMostLevels) return;
+    if (a.levels > kMostLevels || b.levels > kMostLevels || b.column == "time_s") return;
     for (const Interval& of_a : intervals(a.levels, false)) {
       const std::vector<std::size_t> in_a = members(a, of_a);
       for (const Interval& of_b : intervals(b.levels, false)) {

@@ -23,7 +23,8 @@ std::optional<Forecast> forecast(const TestBed& trial, const FitProblem& problem
   if (!mean) return std::nullopt;
   const auto j = jacobian_of(trial, problem.soil, physics, fit.x, *mean);
   if (!j) return std::nullopt;
-  const Eigen::MatrixXd spread = *j * fit.evidence.covariance;
+  const Eigen::Index p = fit.x.size();
+  const Eigen::MatrixXd spread = *j * fit.evidence.covariance.topLeftCorner(p, p);
   return Forecast{*mean, spread.cwiseProduct(*j).rowwise().sum()};
 }
 

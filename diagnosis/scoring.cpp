@@ -95,10 +95,18 @@ std::vector<Candidate> promising_pairs(const FitProblem& problem,
     });
     if (!known) pairs.push_back({{first, effect}});
   };
+  // from where it ended alone
+  const auto settled = [&](const ScoredId& single) {
+    Effect effect = single.fit.candidate.effects.front();
+    const auto size = static_cast<Eigen::Index>(effect.start.size());
+    const Eigen::VectorXd x = single.fit.x.tail(size);
+    effect.start.assign(x.data(), x.data() + size);
+    return effect;
+  };
   const std::size_t best = std::min(kBestSingles, singles.size());
   for (std::size_t i = 0; i < best; ++i) {
     for (std::size_t k = i + 1; k < best; ++k) {
-      add(singles[i].fit.candidate, singles[k].fit.candidate.effects.front());
+      add({{settled(singles[i])}}, singles[k].fit.candidate.effects.front());
     }
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(4, best); ++i) {
@@ -111,7 +119,7 @@ std::vector<Candidate> promising_pairs(const FitProblem& problem,
     for (const auto& [gain, k] : gains) {
       if (taken == kPartnersOfBest) break;
       if (effects[k].id == singles[i].id) continue;
-      add(singles[i].fit.candidate, effects[k]);
+      add({{settled(singles[i])}}, effects[k]);
       ++taken;
     }
   }

@@ -1,5 +1,7 @@
 #include "diagnosis/wheel_bed.h"
 
+#include <algorithm>
+
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -45,7 +47,8 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
                             .wheel = bed.setup.wheel,
                             .soil = soil,
                             .gravity_mps2 = bed.setup.gravity_mps2,
-                            .mechanisms = mechanisms});
+                            .mechanisms = mechanisms},
+                           bed.accuracy);
     std::vector<std::array<double, kChannelCount>> values;
     values.reserve(bed.conditions.size());
     for (const Condition& at : bed.conditions) {
@@ -66,6 +69,20 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
   } catch (const InputError&) {  // a trial soil beyond what is valid
     return std::nullopt;
   }
+}
+
+WheelAccuracy sufficient_accuracy(const TestBed& bed) {
+  constexpr double kFarAboveError = 5e-3;  // kFast: 1.3e-4 of the load
+  double load = 0;
+  for (const Condition& at : bed.conditions) load = std::max(load, at.load_n);
+  const double r = bed.setup.wheel.radius_m;
+  const std::array<double, kChannelCount> unit{load, load, load * r, r / 10, r / 10, r / 10};
+  for (const ChannelData& data : bed.channels) {
+    if (data.scale < kFarAboveError * unit[static_cast<std::size_t>(data.channel)]) {
+      return WheelAccuracy::kExact;
+    }
+  }
+  return WheelAccuracy::kFast;
 }
 
 }  // namespace regoplan

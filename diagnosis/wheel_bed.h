@@ -30,6 +30,7 @@ struct TestBed {
   DiagnosisSetup setup;
   std::vector<Condition> conditions;
   std::vector<ChannelData> channels;
+  WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise
 
   Eigen::Index size() const;
   Eigen::Index offset(std::size_t channel) const;  ///< where its values begin
@@ -40,5 +41,8 @@ struct TestBed {
 /// the soil is not valid.
 std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
                                        const std::vector<Mechanism>& mechanisms);
+
+/// The fast integration where every channel's noise is above 0.5 % of what the load makes of it.
+WheelAccuracy sufficient_accuracy(const TestBed& bed);
 
 }  // namespace regoplan

@@ -22,7 +22,8 @@ class Plane {
                 .wheel = settings.vehicle.wheel,
                 .soil = settings.soils[soil].soil.mean,
                 .gravity_mps2 = settings.gravity_mps2,
-                .mechanisms = settings.mechanisms},
+                .mechanisms = settings.mechanisms,
+                .generic = settings.generic},
                WheelAccuracy::kFast),
         laws_{WheelLaw(model_)},
         dynamics_(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct ChartSettings {
   Vehicle vehicle;
   std::vector<MapSoil> soils;  ///< their means count
   WheelVariant wheel_variant = WheelVariant::kIshigami2007;
-  std::vector<Mechanism> mechanisms = {};  ///< of the wheel model, on every soil
+  std::vector<Mechanism> mechanisms = {};                   ///< of the wheel model, on every soil
+  std::optional<GenericCorrection> generic = std::nullopt;  ///< likewise
   double gravity_mps2 = 9.80665;
   Limits limits;
   std::vector<double> speeds_mps;

@@ -86,7 +86,8 @@ WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil
           .wheel = problem.vehicle.wheel,
           .soil = soil,
           .gravity_mps2 = problem.gravity_mps2,
-          .mechanisms = problem.mechanisms};
+          .mechanisms = problem.mechanisms,
+          .generic = problem.generic};
 }
 
 void validate(const PlanningProblem& problem) {

@@ -61,6 +61,7 @@ struct PlanningProblem {
   Vehicle vehicle;
   WheelVariant wheel_variant = WheelVariant::kIshigami2007;
   std::vector<Mechanism> mechanisms = {};  ///< of the wheel model, on every soil
+  std::optional<GenericCorrection> generic = std::nullopt;  ///< likewise
   double gravity_mps2 = 9.80665;
   StartState start;
   Goal goal;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "terramech/corrected_forces.h"
 #include "terramech/cubic_spline.h"
 #include "terramech/force_table_axes.h"
 #include "terramech/input_error.h"
@@ -153,18 +154,20 @@ REGOPLAN_VECTOR_CLONES WheelForces ForceTable::forces(double load_n,
                                  load.value, slip.value),
                         y.value);
   const double radius_m = spec_.model.wheel.radius_m;
-  return {.fx_n = at.x_sign * load_n * in_v(side.fx),
-          .fy_n = at.y_sign * load_n * fy,
-          .torque_nm = at.x_sign * load_n * radius_m * in_v(side.torque),
-          .sinkage_m = radius_m * in_v(side.sinkage),
-          .status = status_at(at)};
+  const WheelForces result{.fx_n = at.x_sign * load_n * in_v(side.fx),
+                           .fy_n = at.y_sign * load_n * fy,
+                           .torque_nm = at.x_sign * load_n * radius_m * in_v(side.torque),
+                           .sinkage_m = radius_m * in_v(side.sinkage),
+                           .status = status_at(at)};
+  const auto& generic = spec_.model.generic;
+  return generic ? corrected(*generic, load_n, motion, result) : result;
 }
 
 REGOPLAN_VECTOR_CLONES PlaneForces ForceTable::plane_forces(double load_n,
                                                             const WheelMotion& motion) const {
   Place at;
-  if (!place(load_n, motion, at)) [[unlikely]] {
-    const WheelForces forces = direct_.forces(load_n, motion);
+  if (spec_.model.generic || !place(load_n, motion, at)) [[unlikely]] {
+    const WheelForces forces = this->forces(load_n, motion);
     return {forces.fx_n, forces.fy_n};
   }
   const Side& side = sides_[at.driving];
@@ -302,7 +305,8 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
   result.fy.by_load *= at.y_sign;
   result.fy.by_vx_nspm *= at.x_sign * at.y_sign;
   result.fy.by_rim_speed_nspm *= at.x_sign * at.y_sign;
-  return result;
+  const auto& generic = spec_.model.generic;
+  return generic ? corrected(*generic, load_n, motion, result) : result;
 }
 
 double ForceTable::v_at(double tangent) const {
@@ -329,7 +333,7 @@ WheelMotion ForceTable::motion_with_lateral(double slip, double y) const {
   return motion;
 }
 
-ForceTable::Side ForceTable::fill_side(bool driving) const {
+ForceTable::Side ForceTable::fill_side(const WheelModel& model, bool driving) const {
   using cubic_spline::coefficients;
   using cubic_spline::interpolate;
   using cubic_spline::nodes;
@@ -374,7 +378,7 @@ ForceTable::Side ForceTable::fill_side(bool driving) const {
       for (std::size_t k = 0; k < kPowers; ++k) {
         WheelMotion motion = rolling(slip, 0);
         motion.vy_mps = motion.vx_mps * tangents[k];
-        const WheelForces forces = direct_.forces(load_n, motion);
+        const WheelForces forces = model.forces(load_n, motion);
         const double r = spec_.model.wheel.radius_m;
         in_v[0](Eigen::Index(k)) = forces.fx_n / load_n;
         in_v[1](Eigen::Index(k)) = forces.torque_nm / (load_n * r);
@@ -385,7 +389,7 @@ ForceTable::Side ForceTable::fill_side(bool driving) const {
       torque.insert(torque.end(), in_v[1].begin(), in_v[1].end());
       sinkage.insert(sinkage.end(), in_v[2].begin(), in_v[2].end());
       for (const WheelMotion& motion : sideways[j]) {
-        fy.push_back(direct_.forces(load_n, motion).fy_n / load_n);
+        fy.push_back(model.forces(load_n, motion).fy_n / load_n);
       }
     }
   }
@@ -429,7 +433,11 @@ void ForceTable::scale_loads() {
 
 void ForceTable::fill() {
   scale_loads();
-  for (const bool driving : {false, true}) sides_[driving] = fill_side(driving);
+  // A generic correction has edges that no spline follows: it is added to what the table gives.
+  WheelModelSpec spec = spec_.model;
+  spec.generic.reset();
+  const WheelModel model(spec);
+  for (const bool driving : {false, true}) sides_[driving] = fill_side(model, driving);
 }
 
 ForceTable::ForceTable(const ForceTableSpec& spec, const Grid& grid)

@@ -52,6 +52,7 @@ struct PlaneForces {
 /// at slip 0; for Fx and T v = beta/(beta + kx0/kx1), in which they are cubics; for Fy the lateral
 /// displacement as y = u/(u + 3 ky/(r dtheta)), in which Fy has no corners. It covers slips from
 /// -0.92 to 0.97 and slip angles to 62 deg; beyond, and beyond its loads, the direct model answers.
+/// A generic correction is no part of the splines: it is added to what they give.
 class ForceTable {
  public:
   /// Refines until the check against the direct model is within the accuracy asked; where the
@@ -113,7 +114,7 @@ class ForceTable {
   void write(std::ostream& stream) const;
   void fill();
   void scale_loads();
-  Side fill_side(bool driving) const;
+  Side fill_side(const WheelModel& model, bool driving) const;
   void limit_loads();
   double lateral_scale(double angle_rad) const;
   double v_at(double tangent) const;

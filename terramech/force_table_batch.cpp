@@ -80,6 +80,11 @@ REGOPLAN_VECTOR_CLONES std::vector<PlaneForces> ForceTable::plane_forces(
     throw InputError(fmt::format("{} loads for {} motions", loads_n.size(), motions.size()));
   }
   std::vector<PlaneForces> result(loads_n.size());
+  if (spec_.model.generic) {
+    for (std::size_t i = 0; i < result.size(); ++i)
+      result[i] = plane_forces(loads_n[i], motions[i]);
+    return result;
+  }
   const std::size_t slips = cubic_spline::coefficients(grid_.slips);
   const std::size_t laterals = cubic_spline::coefficients(grid_.laterals);
   const Soil& soil = spec_.model.soil;

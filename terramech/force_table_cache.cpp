@@ -44,7 +44,7 @@ T get(std::istream& stream) {
   return value;
 }
 
-/// All that a table depends on.
+/// All that a table depends on; a generic correction is added to tables, not part of them.
 std::string inputs(const ForceTableSpec& spec) {
   std::ostringstream stream;
   stream << kFormat;

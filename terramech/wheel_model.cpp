@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "terramech/corrected_forces.h"
 #include "terramech/forward_motion.h"
 #include "terramech/input_error.h"
 #include "terramech/mechanism_model.h"
@@ -70,6 +71,7 @@ const WheelModelSpec& checked(const WheelModelSpec& spec) {
     throw ValueError("kc", spec.soil.kc,
                      fmt::format("kc/width_m + kphi above 0, with kphi {}", spec.soil.kphi));
   }
+  if (spec.generic) validate(*spec.generic);
   return spec;
 }
 
@@ -143,11 +145,23 @@ WheelChannels WheelModel::channels(double load_n, const WheelMotion& motion,
                                    const WheelConditions& conditions) const {
   require_valid(load_n, motion);
   if (conditions.pass < 1) throw ValueError("pass", conditions.pass, "1 or more");
-  return mechanism_channels(*this, load_n, motion, conditions);
+  WheelChannels channels = mechanism_channels(*this, load_n, motion, conditions);
+  if (spec_.generic) {
+    const double sinkage_m = channels.forces.sinkage_m;
+    channels.forces = corrected(*spec_.generic, load_n, motion, channels.forces);
+    channels.rut_left_m += channels.forces.sinkage_m - sinkage_m;
+    channels.rut_right_m += channels.forces.sinkage_m - sinkage_m;
+  }
+  return channels;
 }
 
 WheelForces WheelModel::forces(double load_n, const WheelMotion& motion) const {
   require_valid(load_n, motion);
+  const WheelForces forces = without_correction(load_n, motion);
+  return spec_.generic ? corrected(*spec_.generic, load_n, motion, forces) : forces;
+}
+
+WheelForces WheelModel::without_correction(double load_n, const WheelMotion& motion) const {
   if (!mechanisms_.empty()) return mechanism_channels(*this, load_n, motion, {}).forces;
   const ForwardMotion forward = forward_motion(motion);
   return spec_.variant == WheelVariant::kIshigami2007

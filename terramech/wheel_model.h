@@ -75,8 +75,8 @@ struct WheelModelSpec {
   Wheel wheel;
   Soil soil;
   double gravity_mps2 = 9.80665;
-  std::vector<Mechanism> mechanisms = {};  ///< empty: the base model
-  std::optional<GenericCorrection> generic = {};
+  std::vector<Mechanism> mechanisms = {};                   ///< empty: the base model
+  std::optional<GenericCorrection> generic = std::nullopt;  ///< added to all that the others give
 };
 
 /// All that a single wheel shows, ruts included.
@@ -107,6 +107,7 @@ class WheelModel {
   const WheelModelSpec& spec() const { return spec_; }
 
  private:
+  WheelForces without_correction(double load_n, const WheelMotion& motion) const;
   friend WheelChannels mechanism_channels(const WheelModel& model, double load_n,
                                           const WheelMotion& motion,
                                           const WheelConditions& conditions);

@@ -1,0 +1,64 @@
+#include "app/diagnosis_setup.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/app/error_text.h"
+#include "tests/app/simulant_model.h"
+
+namespace regoplan {
+namespace {
+
+SetupSettings setup(const std::string& yaml) {
+  return read_setup(parse_settings(yaml, "s.yaml"));
+}
+
+std::string error_of(const std::string& from, const std::string& to) {
+  return error_text([&] { setup(replaced(kSimulantModel, from, to)); });
+}
+
+TEST(DiagnosisSetup, AModelFileWillDo) {
+  const SetupSettings read =
+      setup(replaced(kSimulantModel, "cohesion_pa: 800", "cohesion_pa: {mean: 800, std: 90}"));
+  EXPECT_EQ(read.setup.wheel.radius_m, 0.09);
+  EXPECT_EQ(read.setup.soil.mean.cohesion_pa, 800);
+  EXPECT_EQ(read.setup.soil.standard_deviation.cohesion_pa, 90);
+  EXPECT_EQ(read.soil_name, "simulant");
+  EXPECT_TRUE(read.setup.noise_standard_deviation.empty());
+  EXPECT_TRUE(read.warnings.empty());
+}
+
+TEST(DiagnosisSetup, NoiseIsOfAChannelAndAbove0) {
+  const SetupSettings read =
+      setup(std::string(kSimulantModel) + "noise: {fx_n: 0.8, sinkage_m: 6.5e-4}\n");
+  EXPECT_EQ(read.setup.noise_standard_deviation.at(Channel::kFx), 0.8);
+  EXPECT_EQ(read.setup.noise_standard_deviation.at(Channel::kSinkage), 6.5e-4);
+  EXPECT_EQ(error_text([] { setup(std::string(kSimulantModel) + "noise: {fx_n: 0}\n"); }),
+            "s.yaml:20: noise.fx_n: 0 is not valid (allowed: above 0)");
+  EXPECT_NE(error_text([] {
+              setup(std::string(kSimulantModel) + "noise: {fz_n: 1}\n");
+            }).find("s.yaml:20: noise.fz_n: unknown key"),
+            std::string::npos);
+}
+
+TEST(DiagnosisSetup, WhatCannotBeIsAnErrorWithItsLine) {
+  EXPECT_EQ(error_of("radius_m: 0.09", "radius_m: 90"),
+            "s.yaml:2: wheel.radius_m: 90 is not valid (allowed: above 0 to 5); suspected: mm");
+  EXPECT_EQ(error_of("ishigami2007", "bekker1956"),
+            "s.yaml:1: model: bekker1956 is not valid (allowed: ishigami2007 | yoshida2004)");
+  EXPECT_NE(error_of("gravity_mps2", "gravity").find("s.yaml:1: gravity_mps2 is missing"),
+            std::string::npos);
+  EXPECT_EQ(error_of("mechanisms: []", "mechanisms: [{id: grousers}]"),
+            "s.yaml:19: mechanisms: a diagnosis starts from the base model (allowed: none)");
+  EXPECT_NE(error_of("lambda", "lamda").find("lambda is missing"), std::string::npos);
+}
+
+TEST(DiagnosisSetup, NumbersThatLookLikeAnotherUnitAreReported) {
+  const SetupSettings read =
+      setup(replaced(kSimulantModel, "friction_angle_deg: 37.2", "friction_angle_deg: 0.65"));
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_EQ(read.warnings[0],
+            "s.yaml:7: soil.friction_angle_deg: 0.65 is small for a soil; suspected: radians");
+}
+
+}  // namespace
+}  // namespace regoplan

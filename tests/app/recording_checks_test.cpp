@@ -1,0 +1,124 @@
+#include "app/recording_checks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "app/diagnosis_setup.h"
+#include "tests/app/error_text.h"
+#include "tests/app/simulant_model.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+DiagnosisSetup simulant() {
+  return read_setup(parse_settings(kSimulantModel, "setup.yaml")).setup;
+}
+
+/// What the model itself shows, of which a part is changed.
+RecordingFile changed(const std::function<void(WheelRun&)>& change) {
+  const DiagnosisSetup setup = simulant();
+  const WheelModel model({.variant = setup.variant, .wheel = setup.wheel, .soil = setup.soil.mean});
+  RecordingFile file{.file = "r.csv"};
+  for (const double beta_deg : {0.0, 8.0, 16.0}) {
+    for (const double slip : {-0.4, 0.0, 0.3, 0.6}) {
+      WheelRun run{.run_id = "r", .load_n = 64.7, .slip_ratio = slip};
+      run.slip_angle_rad = beta_deg * kDegree;
+      const WheelForces forces = model.forces(run.load_n, motion_at(slip, run.slip_angle_rad));
+      run.measured[0] = forces.fx_n;
+      run.measured[1] = forces.fy_n;
+      run.measured[2] = forces.torque_nm;
+      run.measured[3] = forces.sinkage_m;
+      change(run);
+      file.recording.runs.push_back(run);
+      file.lines.push_back(static_cast<std::int64_t>(file.lines.size()) + 2);
+    }
+  }
+  file.recording.channels = {Channel::kFx, Channel::kFy, Channel::kTorque, Channel::kSinkage};
+  return file;
+}
+
+void scale(WheelRun& run, Channel channel, double factor) {
+  run.measured[static_cast<std::size_t>(channel)] *= factor;
+}
+
+std::string refusal(const std::function<void(WheelRun&)>& change) {
+  return error_text([&] { doubtful_values(changed(change), simulant()); });
+}
+
+void expect_words(const std::string& text, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    EXPECT_NE(text.find(word), std::string::npos) << word << " in: " << text;
+  }
+}
+
+TEST(RecordingChecks, FindNothingWhereUnitsAndSignsAreRight) {
+  EXPECT_EQ(doubtful_values(changed([](WheelRun&) {}), simulant()), std::vector<std::string>{});
+  // far off as physics goes, yet no unit does that
+  const auto wrong_physics = [](WheelRun& run) {
+    scale(run, Channel::kFx, -2);
+    scale(run, Channel::kFy, 2.5);
+    scale(run, Channel::kSinkage, 3);
+  };
+  EXPECT_EQ(doubtful_values(changed(wrong_physics), simulant()), std::vector<std::string>{});
+}
+
+TEST(RecordingChecks, AUnitOffByPowersOfTenIsRefusedByItsName) {
+  struct Case {
+    Channel channel;
+    double factor;
+    const char* suspected;
+  };
+  for (const Case& at :
+       {Case{Channel::kFx, 1e3, "fx_n in mN"}, Case{Channel::kFx, 1e-3, "fx_n in kN"},
+        Case{Channel::kFy, 1e3, "fy_n in mN"}, Case{Channel::kTorque, 1e3, "torque_nm in N mm"},
+        Case{Channel::kTorque, 1e2, "torque_nm in N cm"},
+        Case{Channel::kSinkage, 1e3, "sinkage_m in mm"},
+        Case{Channel::kSinkage, 1e2, "sinkage_m in cm"},
+        Case{Channel::kSinkage, 1e-3, "sinkage_m in km"}}) {
+    const std::string text = refusal([&](WheelRun& run) { scale(run, at.channel, at.factor); });
+    expect_words(text, {"r.csv:", std::string(name(at.channel)), "suspected: ", at.suspected});
+  }
+}
+
+TEST(RecordingChecks, ALoadInOtherUnitsIsSuspected) {
+  expect_words(refusal([](WheelRun& run) { run.load_n /= 1000; }), {"load_n in kN"});
+  expect_words(refusal([](WheelRun& run) { run.load_n *= 1000; }),
+               {"r.csv:2: load_n: 64700", "suspected: load_n not in N"});
+}
+
+TEST(RecordingChecks, SlipAnglesInRadiansAreSeenByTheirSideForces) {
+  expect_words(refusal([](WheelRun& run) { run.slip_angle_rad *= kDegree; }),
+               {"r.csv:6: slip_angle_deg: 0.139", "suspected: radians"});
+  // angles that are truly small have small side forces
+  const auto truly_small = [](WheelRun& run) {
+    run.slip_angle_rad *= kDegree;
+    scale(run, Channel::kFy, kDegree);
+  };
+  EXPECT_EQ(refusal(truly_small), "");
+}
+
+TEST(RecordingChecks, ASideForceThatOpposesTheConventionIsReported) {
+  const auto warnings =
+      doubtful_values(changed([](WheelRun& run) { scale(run, Channel::kFy, -1); }), simulant());
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_words(warnings[0], {"r.csv:", "fy_n opposes the convention", "8 of 8 runs"});
+}
+
+TEST(RecordingChecks, OneOddValueIsAnOutlierNotAUnit) {
+  const auto warnings = doubtful_values(changed([](WheelRun& run) {
+                                          if (run.slip_ratio == 0.3 && run.slip_angle_rad == 0) {
+                                            run.measured[0] = 5000;
+                                          }
+                                        }),
+                                        simulant());
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_words(warnings[0], {"r.csv:4: fx_n: 5000 is an outlier by size"});
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,133 @@
+#include "app/recording_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "tests/app/error_text.h"
+
+namespace regoplan {
+namespace {
+
+constexpr const char* kRecording =
+    "run_id,day,replicate,load_n,slip_ratio,slip_angle_deg,fx_n,fy_n,torque_nm,sinkage_m,wheel,"
+    "oven_deg\n"
+    "r1,2020-11-16,1,64.7,-0.25,0,-20,0.5,-0.8,0.012,smooth,21\n"
+    "r2,2020-11-17,,65.1,0.30,16,4.5,18,1.2,,smooth,22\n"
+    "\"r, 3\",2020-11-17,2,64.9,0.60,-16,6,-11,1.9,.021,smooth,\n";
+
+RecordingFile read(const std::string& text) {
+  std::istringstream stream(text);
+  return read_recording(stream, "r.csv");
+}
+
+std::string error_of(const std::string& from, const std::string& to) {
+  return error_text([&] { read(replaced(kRecording, from, to)); });
+}
+
+TEST(RecordingFile, IsReadAsItStands) {
+  const RecordingFile file = read(kRecording);
+  const Recording& recording = file.recording;
+  ASSERT_EQ(recording.runs.size(), 3u);
+  const WheelRun& second = recording.runs[1];
+  EXPECT_EQ(second.run_id, "r2");
+  EXPECT_EQ(second.load_n, 65.1);
+  EXPECT_EQ(second.slip_ratio, 0.3);
+  EXPECT_EQ(second.slip_angle_rad, 16 * std::numbers::pi / 180);
+  EXPECT_EQ(second.value(Channel::kFy), 18);
+  EXPECT_EQ(second.wheel, "smooth");
+  EXPECT_FALSE(second.replicate);
+  EXPECT_EQ(recording.runs[2].replicate, 2);
+  EXPECT_EQ(recording.runs[2].run_id, "r, 3");
+  EXPECT_EQ(recording.runs[1].day - recording.runs[0].day, 1);
+  EXPECT_EQ(file.lines, (std::vector<std::int64_t>{2, 3, 4}));
+}
+
+TEST(RecordingFile, AnEmptyCellIsNotMeasured) {
+  const Recording recording = read(kRecording).recording;
+  EXPECT_TRUE(std::isnan(recording.runs[1].value(Channel::kSinkage)));
+  EXPECT_EQ(recording.runs[2].value(Channel::kSinkage), 0.021);
+}
+
+TEST(RecordingFile, SaysWhatWasRecorded) {
+  const Recording recording = read(kRecording).recording;
+  EXPECT_TRUE(recording.columns.day);
+  EXPECT_TRUE(recording.columns.wheel);
+  EXPECT_FALSE(recording.columns.pass);
+  EXPECT_FALSE(recording.columns.speed);
+  EXPECT_EQ(recording.channels, (std::vector<Channel>{Channel::kFx, Channel::kFy, Channel::kTorque,
+                                                      Channel::kSinkage}));
+  EXPECT_EQ(recording.ignored, std::vector<std::string>{"oven_deg"});
+}
+
+TEST(RecordingFile, AColumnOfEmptyCellsIsNotGivenAndHalfAColumnIsAnError) {
+  const std::string head = "run_id,load_n,slip_ratio,slip_angle_deg,fx_n,pass,sinkage_m\n";
+  const Recording recording = read(head + "a,60,0.1,0,3,,\nb,60,0.2,0,4,,\n").recording;
+  EXPECT_FALSE(recording.columns.pass);
+  EXPECT_EQ(recording.channels, std::vector<Channel>{Channel::kFx});
+  EXPECT_EQ(
+      error_text([&] { read(head + "a,60,0.1,0,3,1,\nb,60,0.2,0,4,,\n"); }),
+      "r.csv:3: pass: an empty cell is not valid (allowed: a value in every row, or in none)");
+}
+
+TEST(RecordingFile, CircumstancesGoWhereTheModelLooksForThem) {
+  const Recording recording =
+      read(
+          "run_id,load_n,slip_ratio,slip_angle_deg,fx_n,pass,speed_mps,position_m,time_s,"
+          "wheel_angle_deg,day\na,60,0.1,0,3,2,0.05,1.5,-7,90,3.5\n")
+          .recording;
+  const WheelConditions& conditions = recording.runs[0].conditions;
+  EXPECT_EQ(conditions.pass, 2);
+  EXPECT_EQ(conditions.speed_mps, 0.05);
+  EXPECT_EQ(conditions.position_m, 1.5);
+  EXPECT_EQ(conditions.time_s, -7);
+  EXPECT_EQ(conditions.wheel_angle_rad, 90 * (std::numbers::pi / 180));
+  EXPECT_EQ(recording.runs[0].day, 3.5);
+}
+
+TEST(RecordingFile, WhatCannotBeIsAnErrorWithItsPlace) {
+  EXPECT_EQ(error_of("64.7,", "0,"), "r.csv:2: load_n: 0 is not valid (allowed: above 0)");
+  EXPECT_EQ(error_of("64.7,", "-3,"), "r.csv:2: load_n: -3 is not valid (allowed: above 0)");
+  EXPECT_EQ(error_of("-20,", "nan,"),
+            "r.csv:2: fx_n: nan is not valid (allowed: any finite number)");
+  EXPECT_EQ(error_of("4.5,18", "4.5,inf"),
+            "r.csv:3: fy_n: inf is not valid (allowed: any finite number)");
+  EXPECT_EQ(error_of("0.30,16", "0.30,106"),
+            "r.csv:3: slip_angle_deg: 106 is not valid (allowed: -90 to 90)");
+  EXPECT_EQ(error_of("2020-11-16", "2020-02-30"),
+            "r.csv:2: day: 2020-02-30 is not valid (allowed: a number or an ISO date such as "
+            "2020-11-16)");
+  EXPECT_EQ(error_of("17,2,", "17,two,"),
+            "r.csv:4: replicate: two is not valid (allowed: 0 to 1000000)");
+  EXPECT_EQ(error_of(",wheel,", ",wheel"), "r.csv:2: 12 cells (the header has 11)");
+}
+
+TEST(RecordingFile, ASlipInPerCentIsSuspectedAsSuch) {
+  EXPECT_EQ(error_of("0.30", "30"),
+            "r.csv:3: slip_ratio: 30 is not valid (allowed: -1 to 1); is it in per cent?");
+  EXPECT_EQ(error_of("-0.25", "-25"),
+            "r.csv:2: slip_ratio: -25 is not valid (allowed: -1 to 1); is it in per cent?");
+  EXPECT_NE(error_of("-0.25", "-1.5").find("a braking wheel's slip is (r w - Vx)/Vx"),
+            std::string::npos);
+}
+
+TEST(RecordingFile, MissingColumnsAreNamed) {
+  for (const char* column : {"run_id", "load_n", "slip_ratio", "slip_angle_deg"}) {
+    EXPECT_EQ(error_of(column, "other"), std::string("r.csv:1: column ") + column + " is missing");
+  }
+  EXPECT_NE(error_text([] {
+              read("run_id,load_n,slip_ratio,slip_angle_deg\na,60,0,0\n");
+            }).find("r.csv:1: no measured column"),
+            std::string::npos);
+  EXPECT_EQ(error_text([] { read("run_id,load_n,slip_ratio,slip_angle_deg,fx_n\na,60,0,0,\n"); }),
+            "r.csv: no channel is measured in any run");
+  EXPECT_EQ(error_text([] { read("run_id,load_n,slip_ratio,slip_angle_deg,fx_n\n"); }),
+            "r.csv: no runs below the header");
+  EXPECT_EQ(error_text([] { read_recording("/no/such/file.csv"); }),
+            "/no/such/file.csv: no such file");
+}
+
+}  // namespace
+}  // namespace regoplan
