@@ -157,15 +157,28 @@ std::optional<double> carrying_sinkage(const TruthPhysics& p, const Kinematics& 
     const Sums sum = integrate(p, v, slip, h);
     return sum.fz_c + sum.fz_s - p.at.load_n;
   };
-  double low = 0, high = 1e-4 * r;
-  while (missing_n(high) < 0) {
+  double low = 0, high = 1e-4 * r, at_low = -p.at.load_n, at_high = missing_n(high);
+  while (at_high < 0) {
     low = high;
-    high *= 1.25;
-    if (high >= r) return std::nullopt;
+    at_low = at_high;
+    if (low == r) return std::nullopt;
+    high = std::min(1.5 * high, r);
+    at_high = missing_n(high);
   }
-  while (high - low > 1e-9 * r) {
-    const double middle = (low + high) / 2;
-    (missing_n(middle) < 0 ? low : high) = middle;
+  // false position that halves the end which stays (Illinois)
+  for (int i = 0; i < 100 && high - low > 1e-10 * r; ++i) {
+    const double middle = (low * at_high - high * at_low) / (at_high - at_low);
+    const double there = missing_n(middle);
+    if (std::abs(there) < 1e-9 * p.at.load_n) return middle;
+    if (there < 0) {
+      low = middle;
+      at_low = there;
+      at_high /= 2;
+    } else {
+      high = middle;
+      at_high = there;
+      at_low /= 2;
+    }
   }
   return (low + high) / 2;
 }

@@ -70,7 +70,7 @@ struct TruthChannels {
 };
 
 /// Forces by a scheme of its own (strips across the width, midpoint rule after Sidi's sine
-/// transformation, bisection for the sinkage) that shares no code with terramech.
+/// transformation, false position for the sinkage) that shares no code with terramech.
 /// Unchanged physics agree with WheelModel to 1e-4 of the load
 /// (TruthWheel.AgreesWithTheWheelModel). Slip ratio from -0.95 to 0.95, slip angle up to 60 deg.
 /// \returns nothing where no sinkage below the radius carries the load
