@@ -157,7 +157,7 @@ class Diagnosing {
       return;
     }
     const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
-    std::vector<NameClass> claimed = claimed_names(scored_);
+    const std::vector<NameClass> claimed = proven_one_by_one(claimed_names(scored_));
     const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
     if (best != nullptr) {
       const std::string doubt = objection(problem, best->fit);
@@ -192,6 +192,38 @@ class Diagnosing {
     }
     found_.verdict = Verdict::kUnexplained;
     describe_without_name();
+  }
+
+  /// Of two effects each must do its part on held-out conditions; else it is dropped: scores take
+  /// what one mechanism's form leaves for a second mechanism.
+  std::vector<NameClass> proven_one_by_one(const std::vector<NameClass>& claimed) {
+    const ScoredId* pair = claimed.size() == 2 ? best_of(scored_, claimed) : nullptr;
+    if (pair == nullptr) return claimed;
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    const auto correction = [&](const CandidateFit& fit) {
+      return CorrectedModel{.fit = &fit, .remainder = remainder_settings(problem, fit)};
+    };
+    const HeldOut both =
+        best_hold_out(condensed_, soil_, base_, correction(pair->fit), options_.threads);
+    double least = INFINITY;
+    std::vector<NameClass> kept = claimed;
+    for (std::size_t alone = 0; alone < 2; ++alone) {
+      const ScoredId* single = best_of(scored_, {claimed[alone]});
+      if (single == nullptr) continue;
+      const HeldOut without = hold_out(condensed_, soil_, base_, correction(single->fit),
+                                       both.families, options_.threads);
+      const double gain = gain_in_errors(both, without);
+      if (gain > kClearGain || gain > least) continue;
+      least = gain;
+      kept = {claimed[alone]};
+    }
+    if (kept.size() == 1) {
+      found_.notes.push_back(fmt::format(
+          "{} scores best, but on held-out conditions the second effect adds {:.1f} standard "
+          "errors only: {} alone is judged",
+          pair->id, least, kept.front().ids.front()));
+    }
+    return kept;
   }
 
   /// A surface over the calibrated soil, or over the soil that a discrepancy leaves to be found:

@@ -39,18 +39,23 @@ const std::vector<DiscrepancySetting>& discrepancy_settings() {
 
 double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, const Condition& a,
                           const Condition& b) {
-  double side = 1;
-  if (channel == Channel::kFy) side = side_of(a.slip_angle_rad) * side_of(b.slip_angle_rad);
-  if (side == 0) return 0;
-  double d =
-      squared((a.slip_ratio - b.slip_ratio) / scales.slip) +
-      squared((std::abs(a.slip_angle_rad) - std::abs(b.slip_angle_rad)) / scales.slip_angle_rad) +
-      squared(std::log(a.load_n / b.load_n) / scales.log_load);
+  const double from = std::abs(a.slip_angle_rad), to = std::abs(b.slip_angle_rad);
+  const auto along_angle = [&](double distance) {
+    return std::exp(-squared(distance / scales.slip_angle_rad) / 2);
+  };
+  double angle = along_angle(from - to);
+  if (channel == Channel::kFy) {
+    const double side = side_of(a.slip_angle_rad) * side_of(b.slip_angle_rad);
+    if (side == 0) return 0;
+    angle = side * (angle - along_angle(from + to));
+  }
+  double d = squared((a.slip_ratio - b.slip_ratio) / scales.slip) +
+             squared(std::log(a.load_n / b.load_n) / scales.log_load);
   const WheelConditions& p = a.conditions;
   const WheelConditions& q = b.conditions;
-  d += squared(std::log(static_cast<double>(p.pass) / q.pass) / 1.0);
+  d += squared(std::log(static_cast<double>(p.pass) / q.pass));
   if (p.speed_mps > 0 && q.speed_mps > 0) d += squared(std::log(p.speed_mps / q.speed_mps) / 1.5);
-  return side * std::exp(-d / 2);
+  return angle * std::exp(-d / 2);
 }
 
 Discrepancy::Discrepancy(const TestBed& bed) {

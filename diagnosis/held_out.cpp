@@ -238,12 +238,27 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
   return result;
 }
 
-double gain_in_errors(const HeldOut& held_out) {
-  const auto n = static_cast<double>(held_out.gain.size());
+namespace {
+
+/// Mean over its standard error.
+double in_errors(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
   double mean = 0, square = 0;
-  for (const double g : held_out.gain) mean += g / n;
-  for (const double g : held_out.gain) square += (g - mean) * (g - mean) / (n - 1);
+  for (const double value : values) mean += value / n;
+  for (const double value : values) square += (value - mean) * (value - mean) / (n - 1);
   return mean / std::max(std::sqrt(square / n), 1e-12);
+}
+
+}  // namespace
+
+double gain_in_errors(const HeldOut& held_out) {
+  return in_errors(held_out.gain);
+}
+
+double gain_in_errors(const HeldOut& held_out, const HeldOut& over) {
+  std::vector<double> difference = held_out.gain;
+  for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= over.gain[k];
+  return in_errors(difference);
 }
 
 HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,

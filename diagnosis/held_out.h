@@ -46,6 +46,9 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
 /// Standard errors by which a correction falls below the calibrated misfit on held-out conditions.
 double gain_in_errors(const HeldOut& held_out);
 
+/// The same for one correction over another, held out by the same families.
+double gain_in_errors(const HeldOut& held_out, const HeldOut& over);
+
 /// Held out by the kind of families in which the correction does best: a form that holds between
 /// conditions need not hold beyond them.
 HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,

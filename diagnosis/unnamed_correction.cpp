@@ -2,8 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace regoplan {
+namespace {
+
+constexpr double kMargin = 0.1;  // of the measured range, beyond either end
+
+struct Span {
+  double low = INFINITY, high = -INFINITY;
+
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  std::array<double, 2> with_margin(double least, double min, double max) const {
+    const double margin = std::max(kMargin * (high - low), least);
+    return {std::max(low - margin, min), std::min(high + margin, max)};
+  }
+};
+
+}  // namespace
 
 std::vector<std::size_t> remainder_settings(const FitProblem& problem, const CandidateFit& fit) {
   const TestBed& bed = problem.bed;
@@ -51,19 +70,21 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
     correction.slip_angle_scale_rad = scales.slip_angle_rad;
     correction.log_load_scale = scales.log_load;
   }
-  correction.slip_ratio_region = {INFINITY, -INFINITY};
-  correction.slip_angle_rad_region = correction.load_n_region = correction.slip_ratio_region;
+  Span slip, angle, log_load;
   for (const Condition& at : bed.conditions) {
-    const auto widen = [](std::array<double, 2>& region, double value) {
-      region = {std::min(region[0], value), std::max(region[1], value)};
-    };
-    widen(correction.slip_ratio_region, at.slip_ratio);
-    widen(correction.slip_angle_rad_region, std::abs(at.slip_angle_rad));
-    widen(correction.load_n_region, at.load_n);
+    slip.take(at.slip_ratio);
+    angle.take(std::abs(at.slip_angle_rad));
+    log_load.take(std::log(at.load_n));
     correction.nodes.push_back({.slip_ratio = at.slip_ratio,
                                 .slip_angle_rad = std::abs(at.slip_angle_rad),
                                 .load_n = at.load_n});
   }
+  // what was measured counts in full; the fade lies outside
+  correction.slip_ratio_region = slip.with_margin(0.02, -1, 1);
+  correction.slip_angle_rad_region = angle.with_margin(0.02, 0, std::numbers::pi / 2);
+  const auto [lightest, heaviest] = log_load.with_margin(0.05, -INFINITY, INFINITY);
+  correction.load_n_region = {std::exp(lightest), std::exp(heaviest)};
+  correction.fade_share = kMargin / (1 + 2 * kMargin);
   const Eigen::VectorXd left = bed.measured() - fit.prediction;
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const ChannelData& data = bed.channels[c];
@@ -75,9 +96,9 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
     for (std::size_t i = 0; i < data.conditions.size(); ++i) {
       GenericCorrection::Node& node = correction.nodes[data.conditions[i]];
       const double h = height[static_cast<Eigen::Index>(i)];
-      const double angle = bed.conditions[data.conditions[i]].slip_angle_rad;
+      const bool left_side = bed.conditions[data.conditions[i]].slip_angle_rad > 0;
       if (data.channel == Channel::kFx) node.fx_n = h;
-      if (data.channel == Channel::kFy) node.fy_n = angle > 0 ? h : -h;
+      if (data.channel == Channel::kFy) node.fy_n = left_side ? h : -h;
       if (data.channel == Channel::kTorque) node.torque_nm = h;
       if (data.channel == Channel::kSinkage) node.sinkage_m = h;
     }

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "diagnosis/diagnosis.h"
+#include "synthetic_bed.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+bool names(const Diagnosis& found, const std::string& id) {
+  return std::ranges::any_of(found.claims, [&](const Claim& claim) {
+    return claim.id == id || std::ranges::count(claim.equivalent, id) > 0;
+  });
+}
+
+TrueWheel digging_by_slip() {
+  TrueWheel wheel;  // saturating: no form that the tool carries
+  wheel.sinkage = [](const WheelRun& run, double h) {
+    return h * (1 + 0.8 * (1 - std::exp(-2.5 * std::max(run.slip_ratio, 0.0))));
+  };
+  return wheel;
+}
+
+/// A recording in which the physics is as given and the soil is drawn from its priors.
+Diagnosis diagnosed(const TrueWheel& truth, std::uint64_t seed, BedPlan plan = {},
+                    const DiagnosisOptions& options = {}) {
+  const DiagnosisSetup setup = simulant_setup();
+  std::mt19937_64 random(seed);
+  return diagnose(record(truth, setup, draw(setup.soil, random), plan, seed), setup, options);
+}
+
+TEST(Diagnose, OtherSoilNumbersWithinTheirPriorsAreNoMissingPhysics) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const Diagnosis found = diagnosed({}, seed);
+    EXPECT_TRUE(found.verdict == Verdict::kConsistent || found.verdict == Verdict::kParameters)
+        << found.sentence;
+    EXPECT_TRUE(found.claims.empty());
+    EXPECT_FALSE(found.smallest_detectable.empty());
+  }
+}
+
+TEST(Diagnose, WrongSoilNumbersAreParameters) {
+  const DiagnosisSetup setup = simulant_setup();
+  Soil soil = setup.soil.mean;
+  soil.friction_angle_rad -= 3.5 * setup.soil.standard_deviation.friction_angle_rad;
+  soil.kphi += 3 * setup.soil.standard_deviation.kphi;
+  const Diagnosis found = diagnose(record({}, setup, soil, {}, 3), setup);
+  EXPECT_EQ(found.verdict, Verdict::kParameters) << found.sentence;
+}
+
+TEST(Diagnose, SinkageThatGrowsWithSlipIsNamedInAFormTheToolDoesNotCarry) {
+  const Diagnosis found = diagnosed(digging_by_slip(), 4);
+  EXPECT_TRUE(names(found, "slip_sinkage")) << found.sentence;
+  ASSERT_FALSE(found.where.empty());
+  for (const ChannelFit& fit : found.fit) {
+    EXPECT_LT(fit.corrected_rmse, 1.2 * fit.calibrated_rmse) << name(fit.channel);
+  }
+  EXPECT_FALSE(found.corrected_model.mechanisms.empty());
+  const double sum = std::accumulate(
+      found.ranking.begin(), found.ranking.end(), 0.0,
+      [](double before, const ScoredCandidate& next) { return before + next.probability; });
+  EXPECT_NEAR(sum, 1, 1e-9);
+}
+
+TEST(Diagnose, ABiasedSensorIsCalledASensor) {
+  BedPlan plan;
+  plan.instruments = [](WheelRun& run) { run.measured[0] += 5; };
+  const Diagnosis found = diagnosed({}, 5, plan);
+  EXPECT_TRUE(names(found, "sensor_bias")) << found.sentence;
+  EXPECT_TRUE(found.corrected_model.mechanisms.empty());
+}
+
+TEST(Diagnose, AnEffectOnNoListIsUnexplainedAndItsCorrectionKeepsToWhatWasMeasured) {
+  TrueWheel wheel;
+  wheel.fx_n = [](const WheelRun& run, double) {
+    return 9 * std::sin(9 * run.slip_ratio + 15 * std::abs(run.slip_angle_rad));
+  };
+  const Diagnosis found = diagnosed(wheel, 6);
+  EXPECT_EQ(found.verdict, Verdict::kUnexplained) << found.sentence;
+  ASSERT_TRUE(found.corrected_model.generic.has_value());
+  EXPECT_GT(found.corrected_model.generic->load_n_region[0], 30);
+}
+
+TEST(Diagnose, ASideForceAgainstTheConventionIsTurnedAndReported) {
+  BedPlan plan;
+  plan.instruments = [](WheelRun& run) { run.measured[1] *= -1; };
+  const Diagnosis found = diagnosed({}, 7, plan);
+  EXPECT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
+    return note.find("opposes the convention") != std::string::npos;
+  }));
+  EXPECT_TRUE(found.claims.empty()) << found.sentence;
+}
+
+TEST(Diagnose, IsTheSameWhateverTheThreads) {
+  const Diagnosis one = diagnosed(digging_by_slip(), 8, {.conditions = 20}, {.threads = 1});
+  const Diagnosis two = diagnosed(digging_by_slip(), 8, {.conditions = 20}, {.threads = 2});
+  EXPECT_EQ(one.sentence, two.sentence);
+  ASSERT_EQ(one.ranking.size(), two.ranking.size());
+  for (std::size_t i = 0; i < one.ranking.size(); ++i) {
+    EXPECT_EQ(one.ranking[i].id, two.ranking[i].id);
+    EXPECT_EQ(one.ranking[i].probability, two.ranking[i].probability);
+  }
+}
+
+TEST(Diagnose, StopsWhenToldAndSaysSo) {
+  std::stop_source source;
+  source.request_stop();
+  const Diagnosis found =
+      diagnosed(digging_by_slip(), 9, {.conditions = 20}, {.stop = source.get_token()});
+  EXPECT_TRUE(found.interrupted);
+}
+
+TEST(Diagnose, FewerThanEightConditionsAreAnError) {
+  EXPECT_THROW(diagnosed({}, 10, {.conditions = 7}), InputError);
+  EXPECT_NO_THROW(diagnosed({}, 10, {.conditions = 8}));
+}
+
+TEST(Diagnose, IdenticalReplicatesAreAnError) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, {.conditions = 10}, 11);
+  const std::size_t conditions = recording.runs.size() / 3;
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    recording.runs[i] = recording.runs[i % conditions];
+  }
+  EXPECT_THROW(diagnose(recording, setup), InputError);
+}
+
+}  // namespace
+}  // namespace regoplan
