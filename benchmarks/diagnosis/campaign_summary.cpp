@@ -296,7 +296,7 @@ std::string summary_markdown(const std::vector<CaseResult>& results, const std::
   std::vector<double> seconds;
   for (const Scored& s : all) seconds.push_back(s.outcome->seconds);
   return fmt::format(
-             "# Diagnosis campaign\n\n{}; {} cases. Seconds a diagnosis on one thread: median "
+             "# Diagnosis campaign\n\n{}; {} cases. Processor seconds a diagnosis: median "
              "{:.1f}, 90 % {:.1f}, longest {:.1f}.\n\n",
              label, results.size(), quantile(seconds, 0.5), quantile(seconds, 0.9),
              quantile(seconds, 1)) +

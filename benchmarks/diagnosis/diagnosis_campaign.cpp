@@ -2,6 +2,7 @@
 // what it said against the truth. Killed and started again it goes on where it was.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -129,6 +130,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     if (one->parsed()) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // a killed campaign leaves nobody behind
       run_case({stratum_named(stratum), index}, plan.seed, baselines, folder);
       return 0;
     }

@@ -29,7 +29,7 @@ struct Outcome {
   std::vector<std::string> further_sensors;  ///< that the next experiments ask for
   double share_explained = 0;
   double p_before = 1, p_after = 1;
-  double seconds = 0;
+  double seconds = 0;  ///< of the processor
   std::string sentence;
 };
 
