@@ -105,12 +105,16 @@ InstrumentFault draw_fault(Random& random, const Rig& rig, std::uint64_t turn) {
 
 /// Moves one or two soil numbers out of what the tests say.
 Plan with_wrong_soil(Random& random, Plan plan) {
-  const int count = chance(random, 0.5) ? 1 : 2;
-  for (int i = 0; i < count; ++i) {
-    const auto& parameter = soil_parameters()[std::uniform_int_distribution<std::size_t>(
-        0, soil_parameters().size() - 1)(random)];
+  std::vector<SoilParameter> known_by_tests;
+  for (const SoilParameter& parameter : soil_parameters()) {
+    if (plan.rig.setup.soil.standard_deviation.*parameter.member > 0) {
+      known_by_tests.push_back(parameter);
+    }
+  }
+  std::shuffle(known_by_tests.begin(), known_by_tests.end(), random);
+  known_by_tests.resize(chance(random, 0.5) ? 1 : 2);
+  for (const SoilParameter& parameter : known_by_tests) {
     const double deviation = plan.rig.setup.soil.standard_deviation.*parameter.member;
-    if (deviation == 0) continue;
     const double off = sign(random) * uniform(random, 2, 4);
     plan.rig.soil.*parameter.member = plan.rig.setup.soil.mean.*parameter.member + off * deviation;
     plan.truth.causes.push_back({.id = "parameters",
@@ -208,7 +212,7 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
       return planned(random, {});
     case Stratum::kParameters: {
       Plan plan = with_wrong_soil(random, planned(random, {}));
-      if (plan.truth.causes.empty() || !is_valid(plan.rig.soil)) return std::nullopt;
+      if (!is_valid(plan.rig.soil)) return std::nullopt;
       const auto signal = signal_of(plan.rig, plan.noise, {}, {});
       if (!signal || signal->before < kWrongSoilSigma) return std::nullopt;
       plan.truth.signal = *signal;
