@@ -190,6 +190,31 @@ std::string reliability_table(const std::vector<CaseResult>& results) {
   return text;
 }
 
+constexpr std::array<double, 5> kSignalBins{5, 8, 15, 40, 1e9};
+
+std::string signal_table(const std::vector<Scored>& all) {
+  std::string text =
+      "\n## As asked, by signal after calibration (the weakest cause)\n\n"
+      "| stratum | 5-8 sigma | 8-15 | 15-40 | above |\n|---|---|---|---|---|\n";
+  for (const Stratum stratum : strata()) {
+    if (stratum == Stratum::kNulls || stratum == Stratum::kParameters) continue;
+    text += fmt::format("| {} |", name(stratum));
+    for (std::size_t i = 0; i + 1 < kSignalBins.size(); ++i) {
+      int good = 0, cases = 0;
+      for (const Scored& s : all) {
+        if (s.truth->stratum != stratum || s.truth->causes.empty()) continue;
+        const double signal = std::ranges::min(s.truth->causes, {}, &TrueCause::signal).signal;
+        if (!(signal >= kSignalBins[i] && signal < kSignalBins[i + 1])) continue;
+        ++cases;
+        good += is_good(s);
+      }
+      text += fmt::format(" {}/{} |", good, cases);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 std::string confusion_table(const std::vector<Scored>& all) {
   std::map<std::string, std::map<std::string, int>> counts;
   for (const Scored& s : all) ++counts[causes_of(*s.truth)][claimed(*s.outcome)];

@@ -191,6 +191,9 @@ std::optional<Plan> with_fault(Random& random, std::uint64_t turn) {
   Plan plan = planned(random, {.torque = chance(random, 0.5), .sinkage = chance(random, 0.5)});
   const InstrumentFault fault = draw_fault(random, plan.rig, turn);
   plan.faults = {fault};
+  if (fault.id == "sensor_crosstalk" && !std::ranges::count(plan.rig.channels, fault.from)) {
+    return std::nullopt;
+  }
   const auto signal = signal_of(plan.rig, plan.noise, {}, plan.faults);
   if (!signal || !(signal->after >= kOneEffectSigma)) return std::nullopt;
   std::vector<std::string> accepted{fault.id};
@@ -229,7 +232,7 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
     case Stratum::kRutHidden:
     case Stratum::kRutShown: {
       static const std::vector<TruthEffect> kRuts = rut_effects();
-      return with_effect(random, kRuts[turn % kRuts.size()], kOneEffectSigma,
+      return with_effect(random, kRuts[turn % kRuts.size()], kClearSigma,
                          stratum == Stratum::kRutShown);
     }
   }

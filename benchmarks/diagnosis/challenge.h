@@ -16,7 +16,7 @@ enum class Stratum {
   kOneEffect,    ///< one listed effect in another form, 5 sigma and more after calibration
   kTwoEffects,   ///< two, each 8 sigma and more beyond the other
   kUnlisted,     ///< one effect on no list, 8 sigma and more
-  kRutHidden,    ///< rut asymmetry, no rut depths recorded
+  kRutHidden,    ///< rut asymmetry, 8 sigma and more, no rut depths recorded
   kRutShown,     ///< rut asymmetry with rut depths
 };
 
