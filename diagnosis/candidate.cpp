@@ -96,6 +96,12 @@ class EffectList {
         effect.coordinates.push_back(coordinate_of(parameter));
       }
     }
+    if (form.id == "shear_hump") {
+      // the hump's modulus is where the peak lies, some times the exponential's
+      effect.own_modulus = true;
+      effect.coordinates.push_back(
+          {.name = "modulus_factor", .logarithmic = true, .centre = std::log(2.5), .spread = 0.5});
+    }
     if (form.id == "soil_zone") {
       for (Coordinate& c : effect.coordinates) c.centre = 0;
       for (const auto& [from, to] : zones(bed_)) {
@@ -256,9 +262,22 @@ std::string id_of(const Candidate& candidate) {
   return id;
 }
 
+Soil soil_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
+             const Candidate& candidate, const Eigen::VectorXd& x) {
+  Soil at = soil_at(bed.setup.soil, soil, x);
+  auto next = static_cast<Eigen::Index>(soil.size());
+  for (const Effect& effect : candidate.effects) {
+    next += static_cast<Eigen::Index>(effect.coordinates.size());
+    if (!effect.own_modulus) continue;
+    const double factor = effect.coordinates.back().value(x[next - 1]);
+    for (double* modulus : {&at.kx0_m, &at.kx1_m, &at.ky0_m, &at.ky1_m}) *modulus *= factor;
+  }
+  return at;
+}
+
 Mechanism mechanism_at(const Effect& effect, const Eigen::VectorXd& x) {
   Mechanism mechanism{.id = effect.id, .form = effect.form, .parameters = effect.fixed};
-  for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
+  for (std::size_t i = 0; i + (effect.own_modulus ? 1 : 0) < effect.coordinates.size(); ++i) {
     mechanism.parameters[effect.coordinates[i].name] =
         effect.coordinates[i].value(x[static_cast<Eigen::Index>(i)]);
   }
@@ -277,7 +296,7 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const std::vector<Soi
     }
     next += size;
   }
-  auto values = predict(bed, soil_at(bed.setup.soil, soil, x), mechanisms);
+  auto values = predict(bed, soil_of(bed, soil, candidate, x), mechanisms);
   if (!values) return values;
   next = static_cast<Eigen::Index>(soil.size());
   for (const Effect& effect : candidate.effects) {

@@ -45,7 +45,10 @@ struct Effect {
   std::map<std::string, double> fixed;
   std::size_t to = 0, from = 0;  ///< instruments: index into TestBed::channels
   std::vector<double> start;     ///< x to start a fit from
-  bool slow = false;             ///< its stress integrals are some thirty times slower
+  /// Its last coordinate is a factor on kx and ky of the soil: the modulus of another shear law is
+  /// not the one that soil tests state.
+  bool own_modulus = false;
+  bool slow = false;  ///< its stress integrals are some thirty times slower
 };
 
 /// Whether an id is a fault of instruments and not physics of wheel and soil.
@@ -62,6 +65,10 @@ struct Candidate {
 
 /// `a`, `a+b`.
 std::string id_of(const Candidate& candidate);
+
+/// The soil at x with the factors of effects that have a shear modulus of their own.
+Soil soil_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
+             const Candidate& candidate, const Eigen::VectorXd& x);
 
 /// The mechanism with its numbers at x (the effect's own coordinates).
 Mechanism mechanism_at(const Effect& effect, const Eigen::VectorXd& x);

@@ -118,6 +118,21 @@ bool renew_jacobian(const FitProblem& problem, CandidateFit& fit) {
   return true;
 }
 
+/// Appends columns to the shape: a smooth function of the conditions times a weight, per channel.
+void append_shape(const TestBed& bed, const Eigen::MatrixXd& functions, const auto& weight,
+                  CandidateFit& fit) {
+  const Eigen::Index from = fit.shape.cols(), count = functions.cols();
+  fit.shape.conservativeResize(Eigen::NoChange, from + count);
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
+      const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
+      const std::size_t at = bed.channels[c].conditions[i];
+      fit.shape.row(row).tail(count) =
+          weight(c, row, bed.conditions[at]) * functions.row(static_cast<Eigen::Index>(at));
+    }
+  }
+}
+
 void renew_shape(const FitProblem& problem, const Eigen::MatrixXd& functions, CandidateFit& fit) {
   const TestBed& bed = problem.bed;
   fit.shape.resize(bed.size(), 0);
@@ -127,15 +142,27 @@ void renew_shape(const FitProblem& problem, const Eigen::MatrixXd& functions, Ca
     if (effect.kind != EffectKind::kMechanism || is_instrument(effect.id)) continue;
     const auto part = part_of(bed, problem.soil, fit, e);
     if (!part) continue;
-    const Eigen::Index from = fit.shape.cols();
-    fit.shape.conservativeResize(Eigen::NoChange, from + functions.cols());
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
-        const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
-        fit.shape.row(row).tail(functions.cols()) =
-            fit.shape_spread * (*part)[row] *
-            functions.row(static_cast<Eigen::Index>(bed.channels[c].conditions[i]));
-      }
+    append_shape(
+        bed, functions,
+        [&](std::size_t, Eigen::Index row, const Condition&) {
+          return fit.shape_spread * (*part)[row];
+        },
+        fit);
+    if (effect.id != "skid_branch") continue;
+    // named by where it is, whatever it does there: each channel for itself, growing with skid
+    constexpr double kSkidAmplitude = 10;  // of a run's noise, per shape_spread and unit of skid
+    const Eigen::MatrixXd coarse = functions.rightCols(std::min<Eigen::Index>(4, functions.cols()));
+    for (std::size_t own = 0; own < bed.channels.size(); ++own) {
+      append_shape(
+          bed, coarse,
+          [&](std::size_t c, Eigen::Index, const Condition& at) {
+            const double side =
+                bed.channels[c].channel == Channel::kFy ? std::sin(at.slip_angle_rad) * 4 : 1;
+            return c == own ? fit.shape_spread * kSkidAmplitude * bed.channels[c].scale * side * 4 *
+                                  std::max(-at.slip_ratio, 0.0)
+                            : 0.0;
+          },
+          fit);
     }
   }
 }

@@ -164,8 +164,14 @@ class Diagnosing {
       const std::vector<std::size_t> left = remainder_settings(problem, best->fit);
       const HeldOut proof = best_hold_out(condensed_, soil_, base_,
                                           {.fit = &best->fit, .remainder = left}, options_.threads);
-      const double gain = gain_in_errors(proof);
-      const bool proven = gain > kClearGain && proof.share_explained > kWorthNaming;
+      // soil tests are data that no family holds out: numbers that go back to them count
+      const Eigen::Index soil = base_.x.size();
+      const double pulls = base_.x.squaredNorm() - best->fit.x.head(soil).squaredNorm();
+      const double back = std::max(pulls, 0.0);
+      const double gain = gain_in_errors(bed_, proof.corrected, proof.calibrated, back);
+      const double excess = std::max(proof.excess, 0.0);
+      const double share = (proof.share_explained * excess + back) / std::max(excess + back, 1e-12);
+      const bool proven = gain > kClearGain && share > kWorthNaming;
       if (doubt.empty() && proven) {
         found_.claims = claims_of(problem, scored_, claimed, best->fit);
         const bool single = std::ranges::all_of(
@@ -179,7 +185,7 @@ class Diagnosing {
           !doubt.empty() ? doubt
                          : fmt::format("on held-out conditions it explains {:.0f} % of the excess "
                                        "misfit, {:.1f} standard errors",
-                                       100 * proof.share_explained, gain)));
+                                       100 * share, gain)));
     }
     if (!unfit_) {
       // only a name's evidence spoke against the calibrated model, and the name does not hold
@@ -212,7 +218,7 @@ class Diagnosing {
       if (single == nullptr) continue;
       const HeldOut without = hold_out(condensed_, soil_, base_, correction(single->fit),
                                        both.families, options_.threads);
-      const double gain = gain_in_errors(both, without);
+      const double gain = gain_in_errors(bed_, both.corrected, without.corrected);
       if (gain > kClearGain || gain > least) continue;
       least = gain;
       kept = {claimed[alone]};
@@ -257,7 +263,7 @@ class Diagnosing {
     Eigen::VectorXd corrected = fit.prediction;
     found_.corrected_model = {.variant = bed_.setup.variant,
                               .wheel = bed_.setup.wheel,
-                              .soil = soil_at(bed_.setup.soil, soil_, fit.x),
+                              .soil = soil_of(bed_, soil_, fit.candidate, fit.x),
                               .gravity_mps2 = bed_.setup.gravity_mps2};
     found_.corrected_soil = {.mean = found_.corrected_model.soil,
                              .standard_deviation = bed_.setup.soil.standard_deviation};

@@ -199,7 +199,6 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
   }
   // rows against predictions: what a run would see
   double chi2_calibrated = 0, chi2_corrected = 0;
-  std::vector<double> gain(bed.conditions.size(), 0);
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const ChannelData& data = bed.channels[c];
     const ChannelNoise& noise = recording.noise[c];
@@ -213,7 +212,6 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
       const double after = std::pow(measured[row] - result.corrected[row], 2) / variance;
       chi2_calibrated += before;
       chi2_corrected += after;
-      gain[data.conditions[i]] += before - after;
       for (const std::size_t run : bed.conditions[data.conditions[i]].runs) {
         const double y = recording.adjusted[c][run];
         if (!std::isfinite(y) || noise.weight[run] < 0.5) continue;
@@ -234,31 +232,24 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
   const auto dof = static_cast<double>(bed.size());
   const double excess = chi2_calibrated - dof;
   result.share_explained = excess > 0 ? 1 - (chi2_corrected - dof) / excess : 0;
-  result.gain = std::move(gain);
+  result.excess = excess;
   return result;
 }
 
-namespace {
-
-/// Mean over its standard error.
-double in_errors(const std::vector<double>& values) {
-  const auto n = static_cast<double>(values.size());
-  double mean = 0, square = 0;
-  for (const double value : values) mean += value / n;
-  for (const double value : values) square += (value - mean) * (value - mean) / (n - 1);
-  return mean / std::max(std::sqrt(square / n), 1e-12);
-}
-
-}  // namespace
-
-double gain_in_errors(const HeldOut& held_out) {
-  return in_errors(held_out.gain);
-}
-
-double gain_in_errors(const HeldOut& held_out, const HeldOut& over) {
-  std::vector<double> difference = held_out.gain;
-  for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= over.gain[k];
-  return in_errors(difference);
+double gain_in_errors(const TestBed& bed, const Eigen::VectorXd& better,
+                      const Eigen::VectorXd& worse, double prior_gain) {
+  const Eigen::VectorXd measured = bed.measured();
+  double fall = prior_gain, spread = prior_gain;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    for (Eigen::Index i = 0; i < bed.channels[c].mean.size(); ++i) {
+      const Eigen::Index row = bed.offset(c) + i;
+      const double variance = bed.channels[c].noise(i, i);
+      fall += (std::pow(measured[row] - worse[row], 2) - std::pow(measured[row] - better[row], 2)) /
+              variance;
+      spread += std::pow(better[row] - worse[row], 2) / variance;
+    }
+  }
+  return fall / (2 * std::sqrt(std::max(spread, 1e-12)));
 }
 
 HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
@@ -266,7 +257,10 @@ HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<Soi
   std::optional<HeldOut> best;
   for (const Families& families : all_families(recording.bed)) {
     HeldOut out = hold_out(recording, soil, base, corrected, families, threads);
-    if (!best || gain_in_errors(out) > gain_in_errors(*best)) best = std::move(out);
+    if (!best || gain_in_errors(recording.bed, out.corrected, out.calibrated) >
+                     gain_in_errors(recording.bed, best->corrected, best->calibrated)) {
+      best = std::move(out);
+    }
   }
   return *best;
 }

@@ -34,7 +34,7 @@ struct HeldOut {
   Eigen::VectorXd corrected;
   Eigen::VectorXd corrected_deviation;
   double share_explained = 0;
-  std::vector<double> gain;  ///< per condition: fall of the squared misfit, in noise variances
+  double excess = 0;                    ///< of the calibrated misfit over the degrees of freedom
   std::vector<double> remainder_share;  ///< per channel: of the remainder that proves itself
 };
 
@@ -43,11 +43,11 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
                  const CandidateFit& base, const CorrectedModel& corrected,
                  const Families& families, int threads);
 
-/// Standard errors by which a correction falls below the calibrated misfit on held-out conditions.
-double gain_in_errors(const HeldOut& held_out);
-
-/// The same for one correction over another, held out by the same families.
-double gain_in_errors(const HeldOut& held_out, const HeldOut& over);
+/// Standard errors by which one prediction's misfit falls below another's: the sum of the falls
+/// over what noise makes of it, 2 sqrt(sum of (difference/noise)^2). \param prior_gain fall of the
+/// misfit to the soil tests, which counts as data
+double gain_in_errors(const TestBed& bed, const Eigen::VectorXd& better,
+                      const Eigen::VectorXd& worse, double prior_gain = 0);
 
 /// Held out by the kind of families in which the correction does best: a form that holds between
 /// conditions need not hold beyond them.

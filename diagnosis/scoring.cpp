@@ -12,8 +12,8 @@ namespace {
 
 /// Scores are tempered: forms are only proxies of what acts, so that their scores are sharper than
 /// they deserve.
-constexpr double kTemperature = 2;
-constexpr double kPairLogPrior = -4;  // each
+constexpr double kTemperature = 1.6;
+constexpr double kPairLogPrior = -6;  // each
 constexpr double kNoLackOfFitLogPrior = 12;
 constexpr std::size_t kBestSingles = 7;
 constexpr std::size_t kPartnersOfBest = 6;

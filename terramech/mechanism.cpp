@@ -92,6 +92,16 @@ std::vector<Definition> definitions() {
          e.rut_tilt_rad += p[0] * std::max(at.beta_abs_rad - p[1], 0.0);
          return e;
        }},
+      {{"rut_asymmetry",
+        "tilt_in_balance",
+        "as tilt; the strips together carry the load, and all forces are theirs",
+        "proxy; Yoshida & Ishigami 2004, section V.B",
+        {{"kappa", .2, 1, .5}, {"beta0_rad", .05, .2, .1}}},
+       [](E e, P p, S at) {
+         e.rut_tilt_rad += p[0] * std::max(at.beta_abs_rad - p[1], 0.0);
+         e.rut_in_balance = true;
+         return e;
+       }},
       {{"shear_modulus_slip_angle",
         "linear",
         "kx += kx1 |beta|, ky += ky1 |beta|",

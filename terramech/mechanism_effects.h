@@ -40,7 +40,9 @@ struct Effects {
   double residual = 1;        ///< shear hump: residual over peak
   double sinkage_factor = 1;  ///< h = h0 factor + added
   double sinkage_added_m = 0;
-  double rut_tilt_rad = 0;      ///< psi, the inner side deeper
+  double rut_tilt_rad = 0;  ///< psi, the inner side deeper
+  bool rut_in_balance =
+      false;  ///< the strips under a tilted rut find the depth that carries the load
   double bulldoze_height = 1;   ///< h_b/h beside the wheel
   double surcharge_pa = 0;      ///< on the soil beside the wheel
   double front_bulldozing = 0;  ///< eta

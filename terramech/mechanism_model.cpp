@@ -48,12 +48,25 @@ class ModifiedContact {
 
   /// Whether it is the base model's contact on another soil.
   bool is_plain() const {
-    return effects_.shear == ShearLaw::kSeparate && effects_.layer_depth_m == 0;
+    return effects_.shear == ShearLaw::kSeparate && effects_.layer_depth_m == 0 &&
+           !strips_in_balance();
   }
 
-  /// The wheel's middle at an entry angle.
+  /// The wheel's middle at an entry angle; the mean of all strips where they carry the load
+  /// together.
   wheel_contact::LawIntegrals at(double theta_f) const {
-    return strip(sinkage_of(theta_f, ground_.wheel.radius_m)).integrals;
+    const double h = sinkage_of(theta_f, ground_.wheel.radius_m);
+    if (!strips_in_balance()) return strip(h).integrals;
+    wheel_contact::LawIntegrals mean;
+    for (std::size_t i = 0; i < kStrips; ++i) {
+      const double share = 1.0 / kStrips;
+      const wheel_contact::LawIntegrals one = strip(depth_of(i, kStrips, h)).integrals;
+      mean.plane.cohesion = mean.plane.cohesion + share * one.plane.cohesion;
+      mean.plane.stress = mean.plane.stress + share * one.plane.stress;
+      mean.fu_cohesion_n += share * one.fu_cohesion_n;
+      mean.fu_stress_n += share * one.fu_stress_n;
+    }
+    return mean;
   }
 
   struct Sideways {
@@ -64,14 +77,13 @@ class ModifiedContact {
   /// Side force and roll moment from strips across the width, the inner ones (towards the centre of
   /// the turn) deeper; together they carry the load.
   Sideways sideways(double theta_f, double q, double load_n) const {
-    const double r = ground_.wheel.radius_m, b = ground_.wheel.width_m;
-    const double h = sinkage_of(theta_f, r);
+    const double h = sinkage_of(theta_f, ground_.wheel.radius_m);
     const std::size_t strips = effects_.rut_tilt_rad == 0 ? 1 : kStrips;
     const double share = 1.0 / static_cast<double>(strips);
     double fz = 0, fu = 0, fs = 0, roll = 0;
     for (std::size_t i = 0; i < strips; ++i) {
-      const double inner = b * ((static_cast<double>(i) + 0.5) * share - 0.5);
-      const Strip at = strip(std::clamp(h + inner * std::tan(effects_.rut_tilt_rad), 1e-9 * r, r));
+      const double inner = inner_of(i, strips);
+      const Strip at = strip(depth_of(i, strips, h));
       const double strip_fz = share * at.integrals.plane.at(q).fz_n;
       fz += strip_fz;
       roll += strip_fz * inner;
@@ -119,6 +131,19 @@ class ModifiedContact {
 
  private:
   static constexpr std::size_t kStrips = 7;
+
+  bool strips_in_balance() const { return effects_.rut_in_balance && effects_.rut_tilt_rad != 0; }
+
+  /// Distance of a strip from the wheel's middle, towards the centre of the turn.
+  double inner_of(std::size_t i, std::size_t strips) const {
+    return ground_.wheel.width_m *
+           ((static_cast<double>(i) + 0.5) / static_cast<double>(strips) - 0.5);
+  }
+
+  double depth_of(std::size_t i, std::size_t strips, double h) const {
+    const double r = ground_.wheel.radius_m;
+    return std::clamp(h + inner_of(i, strips) * std::tan(effects_.rut_tilt_rad), 1e-9 * r, r);
+  }
 
   struct Strip {
     Contact contact;

@@ -89,6 +89,8 @@ const std::vector<Case> kBundles{
     {"lateral_digging", "sine", 0.2, 0, 60, "0", "0", "0", "0"},
     {"rut_asymmetry", "tilt", 0.2, 20, 60, "~", "?", "~", "~"},
     {"rut_asymmetry", "tilt", 0.2, 4, 60, "0", "0", "0", "0"},
+    {"rut_asymmetry", "tilt_in_balance", 0.2, 20, 60, "?", "?", "?", "?"},
+    {"rut_asymmetry", "tilt_in_balance", 0.2, 4, 60, "0", "0", "0", "0"},
     {"shear_modulus_slip_angle", "linear", 0.4, 30, 60, "-", "-", "-", "?"},
     {"shear_modulus_slip_angle", "linear", 0.4, 0, 60, "0", "0", "0", "0"},
     {"coupled_shear", "displacement", 0.5, 30, 60, "-", "-", "-", "?"},
