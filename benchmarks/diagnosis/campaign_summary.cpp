@@ -326,7 +326,7 @@ std::string summary_markdown(const std::vector<CaseResult>& results, const std::
              label, results.size(), quantile(seconds, 0.5), quantile(seconds, 0.9),
              quantile(seconds, 1)) +
          measures_table(results) + held_out_table(results) + reliability_table(results) +
-         confusion_table(all) + failures_table(all);
+         signal_table(all) + confusion_table(all) + failures_table(all);
 }
 
 nlohmann::json summary_json(const std::vector<CaseResult>& results, const std::string& label) {
