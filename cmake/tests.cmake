@@ -14,6 +14,7 @@ endfunction()
 
 regoplan_tests(terramech regoplan_terramech)
 regoplan_tests(diagnosis regoplan_diagnosis)
+regoplan_tests(diagnosis_challenge regoplan_challenge)
 regoplan_tests(maps regoplan_maps GDAL::GDAL)
 regoplan_tests(planner regoplan_planner ompl::ompl)
 regoplan_tests(benchmarking regoplan_benchmarking nlohmann_json::nlohmann_json SQLite::SQLite3)

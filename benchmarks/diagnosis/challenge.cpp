@@ -1,0 +1,284 @@
+#include "benchmarks/diagnosis/challenge.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "terramech/input_error.h"
+
+namespace regoplan::challenge {
+namespace {
+
+constexpr double kOneEffectSigma = 5, kClearSigma = 8, kWrongSoilSigma = 10;
+constexpr int kTriesOfOneEffect = 25;  // then the next of the list has its turn
+
+struct NamedStratum {
+  Stratum stratum;
+  std::string_view name;
+};
+constexpr std::array<NamedStratum, 8> kNames{{{Stratum::kNulls, "nulls"},
+                                              {Stratum::kParameters, "parameters"},
+                                              {Stratum::kInstruments, "instruments"},
+                                              {Stratum::kOneEffect, "one_effect"},
+                                              {Stratum::kTwoEffects, "two_effects"},
+                                              {Stratum::kUnlisted, "unlisted"},
+                                              {Stratum::kRutHidden, "rut_hidden"},
+                                              {Stratum::kRutShown, "rut_shown"}}};
+
+/// Everything that makes a recording, before it is recorded.
+struct Plan {
+  Rig rig;
+  MeasurementNoise noise;
+  std::vector<DrawnEffect> effects;
+  std::vector<InstrumentFault> faults;
+  Truth truth;
+};
+
+double as_in_file(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
+}
+
+/// The setup with its numbers as they stand in the file.
+DiagnosisSetup written(const Rig& rig, const MeasurementNoise& noise, Random& random) {
+  DiagnosisSetup setup = rig.setup;
+  for (const SoilParameter& parameter : soil_parameters()) {
+    for (Soil* soil : {&setup.soil.mean, &setup.soil.standard_deviation}) {
+      double& value = soil->*parameter.member;
+      value = as_in_file(value / parameter.file_unit) * parameter.file_unit;
+    }
+  }
+  if (rig.replicates > 1) return setup;
+  for (const Channel channel : rig.channels) {
+    const double typical = channel == Channel::kSinkage ? rig.middle_sinkage_m
+                           : channel == Channel::kTorque
+                               ? 0.3 * rig.middle_load_n * rig.setup.wheel.radius_m
+                               : 0.3 * rig.middle_load_n;
+    setup.noise_standard_deviation[channel] =
+        as_in_file(uniform(random, 0.95, 1.1) * noise_sigma(noise, channel, typical));
+  }
+  return setup;
+}
+
+DrawnEffect drawn(Random& random, const TruthEffect& effect) {
+  const double size = uniform(random, effect.low, effect.high);
+  return {&effect, effect.either_sign ? sign(random) * size : size, uniform(random, 0, 1)};
+}
+
+TrueCause cause_of(const DrawnEffect& effect, double signal) {
+  return {.id = std::string(effect.effect->id),
+          .form = std::string(effect.effect->form),
+          .accepted = {std::string(effect.effect->id)},
+          .amplitude = effect.amplitude,
+          .shape = effect.shape,
+          .signal = signal};
+}
+
+InstrumentFault draw_fault(Random& random, const Rig& rig, std::uint64_t turn) {
+  using enum Channel;
+  const double w = rig.middle_load_n, r = rig.setup.wheel.radius_m;
+  const auto unit = [&](Channel c) {
+    return c == kTorque ? w * r : (c == kSinkage ? 3 * rig.middle_sinkage_m : w);
+  };
+  const Channel channel = one_of(random, rig.channels);
+  const double s = sign(random);
+  switch (turn % 6) {
+    case 0:
+    case 1:
+      return {"sensor_bias", channel, channel, s * uniform(random, 0.03, 0.12) * unit(channel)};
+    case 2:
+      return {"sensor_gain", channel, channel, s * uniform(random, 0.06, 0.25)};
+    case 3: {
+      const bool side = std::ranges::count(rig.channels, kFy) > 0;
+      const Channel to = side && chance(random, 0.6) ? kFy : kFx;
+      const Channel from = to == kFy ? kFx : (side ? kFy : kTorque);
+      const double lever = from == kTorque ? 1 / r : 1;
+      return {"sensor_crosstalk", to, from, s * uniform(random, 0.04, 0.2) * lever};
+    }
+    case 4:
+      return {"slip_scale", channel, channel, s * uniform(random, 0.02, 0.08)};
+    default:
+      return {"load_cell", channel, channel, s * uniform(random, 0.06, 0.25)};
+  }
+}
+
+/// Moves one or two soil numbers out of what the tests say.
+Plan with_wrong_soil(Random& random, Plan plan) {
+  std::vector<SoilParameter> known_by_tests;
+  for (const SoilParameter& parameter : soil_parameters()) {
+    if (plan.rig.setup.soil.standard_deviation.*parameter.member > 0) {
+      known_by_tests.push_back(parameter);
+    }
+  }
+  std::shuffle(known_by_tests.begin(), known_by_tests.end(), random);
+  known_by_tests.resize(chance(random, 0.5) ? 1 : 2);
+  for (const SoilParameter& parameter : known_by_tests) {
+    const double deviation = plan.rig.setup.soil.standard_deviation.*parameter.member;
+    const double off = sign(random) * uniform(random, 2, 4);
+    plan.rig.soil.*parameter.member = plan.rig.setup.soil.mean.*parameter.member + off * deviation;
+    plan.truth.causes.push_back({.id = "parameters",
+                                 .form = std::string(parameter.name),
+                                 .accepted = {"parameters"},
+                                 .amplitude = off});
+  }
+  return plan;
+}
+
+bool is_valid(const Soil& soil) {
+  try {
+    validate(soil);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+const TruthEffect& in_turn(const std::vector<TruthEffect>& effects, std::uint64_t turn) {
+  // a stride that is prime to the length spreads neighbours of the list
+  return effects[turn * 11 % effects.size()];
+}
+
+std::vector<TruthEffect> rut_effects() {
+  std::vector<TruthEffect> ruts;
+  for (const TruthEffect& effect : listed_effects()) {
+    if (effect.id != "rut_asymmetry") continue;
+    ruts.push_back(effect);
+    ruts.back().needs.torque = ruts.back().needs.sinkage = true;
+  }
+  return ruts;
+}
+
+Plan planned(Random& random, const Needs& needs) {
+  Plan plan{.rig = draw_rig(random, needs)};
+  plan.noise = draw_noise(random, plan.rig);
+  return plan;
+}
+
+std::optional<Plan> with_effect(Random& random, const TruthEffect& effect, double least_sigma,
+                                bool ruts_shown) {
+  Plan plan = planned(random, effect.needs);
+  if (ruts_shown) {
+    plan.rig.channels.push_back(Channel::kRutLeft);
+    plan.rig.channels.push_back(Channel::kRutRight);
+  }
+  plan.effects = {drawn(random, effect)};
+  const auto signal = signal_of(plan.rig, plan.noise, plan.effects, {});
+  if (!signal || !(signal->after >= least_sigma)) return std::nullopt;
+  plan.truth.causes = {cause_of(plan.effects[0], signal->after)};
+  plan.truth.signal = *signal;
+  return plan;
+}
+
+std::optional<Plan> with_two_effects(Random& random, const TruthEffect& first) {
+  const TruthEffect& second = one_of(random, listed_effects());
+  if (first.id == second.id) return std::nullopt;
+  Plan plan = planned(random, first.needs | second.needs);
+  plan.effects = {drawn(random, first), drawn(random, second)};
+  const auto signal = signal_of(plan.rig, plan.noise, plan.effects, {});
+  if (!signal) return std::nullopt;
+  plan.truth.signal = *signal;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto share =
+        share_of_signal(plan.rig, plan.noise, plan.effects[i], {plan.effects[1 - i]});
+    if (!share || !(*share >= kClearSigma)) return std::nullopt;
+    plan.truth.causes.push_back(cause_of(plan.effects[i], *share));
+  }
+  return plan;
+}
+
+std::optional<Plan> with_fault(Random& random, std::uint64_t turn) {
+  Plan plan = planned(random, {.torque = chance(random, 0.5), .sinkage = chance(random, 0.5)});
+  const InstrumentFault fault = draw_fault(random, plan.rig, turn);
+  plan.faults = {fault};
+  if (fault.id == "sensor_crosstalk" && !std::ranges::count(plan.rig.channels, fault.from)) {
+    return std::nullopt;
+  }
+  const auto signal = signal_of(plan.rig, plan.noise, {}, plan.faults);
+  if (!signal || !(signal->after >= kOneEffectSigma)) return std::nullopt;
+  std::vector<std::string> accepted{fault.id};
+  if (fault.id == "load_cell") accepted = {"load_transfer", "sensor_gain"};
+  plan.truth.causes = {{.id = fault.id,
+                        .form = std::string(regoplan::name(fault.channel)),
+                        .accepted = accepted,
+                        .instrument = true,
+                        .amplitude = fault.amount,
+                        .signal = signal->after}};
+  plan.truth.signal = *signal;
+  return plan;
+}
+
+/// One draw; nothing where it does not meet the stratum's terms.
+std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn) {
+  switch (stratum) {
+    case Stratum::kNulls:
+      return planned(random, {});
+    case Stratum::kParameters: {
+      Plan plan = with_wrong_soil(random, planned(random, {}));
+      if (!is_valid(plan.rig.soil)) return std::nullopt;
+      const auto signal = signal_of(plan.rig, plan.noise, {}, {});
+      if (!signal || signal->before < kWrongSoilSigma) return std::nullopt;
+      plan.truth.signal = *signal;
+      return plan;
+    }
+    case Stratum::kInstruments:
+      return with_fault(random, turn);
+    case Stratum::kOneEffect:
+      return with_effect(random, in_turn(listed_effects(), turn), kOneEffectSigma, false);
+    case Stratum::kTwoEffects:
+      return with_two_effects(random, in_turn(listed_effects(), turn));
+    case Stratum::kUnlisted:
+      return with_effect(random, in_turn(unlisted_effects(), turn), kClearSigma, false);
+    case Stratum::kRutHidden:
+    case Stratum::kRutShown: {
+      static const std::vector<TruthEffect> kRuts = rut_effects();
+      return with_effect(random, kRuts[turn % kRuts.size()], kClearSigma,
+                         stratum == Stratum::kRutShown);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const std::vector<Stratum>& strata() {
+  static const std::vector<Stratum> all = [] {
+    std::vector<Stratum> list;
+    for (const NamedStratum& named : kNames) list.push_back(named.stratum);
+    return list;
+  }();
+  return all;
+}
+
+std::string_view name(Stratum stratum) {
+  return kNames[static_cast<std::size_t>(stratum)].name;
+}
+
+Stratum stratum_named(std::string_view text) {
+  std::vector<std::string_view> names;
+  for (const NamedStratum& named : kNames) {
+    if (named.name == text) return named.stratum;
+    names.push_back(named.name);
+  }
+  throw InputError(fmt::format("stratum: {} is none of {}", text, fmt::join(names, ", ")));
+}
+
+Challenge generate(Stratum stratum, std::uint64_t seed, std::uint64_t index) {
+  Random random(seed_of(seed, name(stratum), index));
+  for (int tries = 0;; ++tries) {
+    auto plan =
+        attempt(random, stratum, index + static_cast<std::uint64_t>(tries / kTriesOfOneEffect));
+    if (!plan) continue;
+    auto recording = record(random, plan->rig, plan->noise, plan->effects, plan->faults);
+    if (!recording) continue;
+    plan->truth.stratum = stratum;
+    plan->truth.index = index;
+    plan->truth.soil = plan->rig.soil;
+    plan->truth.attempts = tries + 1;
+    return {.recording = std::move(*recording),
+            .setup = written(plan->rig, plan->noise, random),
+            .truth = std::move(plan->truth)};
+  }
+}
+
+}  // namespace regoplan::challenge
