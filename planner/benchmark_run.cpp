@@ -123,7 +123,7 @@ Properties counted_properties(const OmplProblem& problem) {
 BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run) {
   ompl::msg::noOutputHandler();
   seed_ompl(run.guidance.seed);
-  const OmplProblem problem(searched, run.guidance);
+  OmplProblem problem(searched, run.guidance);
   ob::PlannerPtr planner = make_planner(run.planner, problem);
   set_parameters(*planner, run.planner, run.parameters);
   if (run.iterations) planner = std::make_shared<BoundedPlanner>(planner, *run.iterations);

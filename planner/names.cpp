@@ -55,7 +55,7 @@ std::string_view name(PlanStatus status) {
 }
 
 const std::vector<std::string>& planner_names() {
-  static const std::vector<std::string> names{"auto", "SST", "RRT", "KPIECE1", "EST", "PDST"};
+  static const std::vector<std::string> names{"auto", "Lattice", "SST", "RRT", "KPIECE1", "EST", "PDST"};
   return names;
 }
 

@@ -19,60 +19,33 @@ namespace oc = ompl::control;
 class DynamicsPropagator : public oc::StatePropagator {
  public:
   // A plain pointer: the space information owns the propagator.
-  DynamicsPropagator(oc::SpaceInformation* si, const World& world, std::int64_t& propagations)
-      : oc::StatePropagator(si), world_(world), propagations_(propagations) {}
+  DynamicsPropagator(oc::SpaceInformation* si, SearchSteps& steps)
+      : oc::StatePropagator(si), steps_(steps) {}
 
   void propagate(const ob::State* state, const oc::Control* control, double duration,
                  ob::State* result) const override {
     const auto* from = state->as<VehicleSpace::StateType>();
     auto* to = result->as<VehicleSpace::StateType>();
-    const StepResult step =
-        world_.dynamics().step(from->vehicle, VehicleControlSpace::control(control), duration);
-    ++propagations_;
-    to->vehicle = step.state;
-    to->strain = step.strain;
-    // Off the known ground there is no dynamics: the state stays, and bounds or terrain tell why.
-    to->possible = step.converged || !step.on_known_ground;
-    if (!step.on_known_ground) leave_ground(*to, step.state, duration);
+    static_cast<VehicleSpace::Values&>(*to) =
+        steps_.next(*from, VehicleControlSpace::control(control), duration).values;
   }
   bool canPropagateBackward() const override { return false; }
 
  private:
-  /// Rolls on straight to where the ground ends, so that validity sees it.
-  static void leave_ground(VehicleSpace::StateType& to, const VehicleState& from, double duration) {
-    const double travel = from.motion.vx_mps * duration;
-    to.vehicle = from;
-    to.vehicle.x_m += travel * std::cos(from.yaw_rad);
-    to.vehicle.y_m += travel * std::sin(from.yaw_rad);
-  }
-
-  const World& world_;
-  std::int64_t& propagations_;
+  SearchSteps& steps_;
 };
 
 class WorldValidity : public ob::StateValidityChecker {
  public:
-  WorldValidity(ob::SpaceInformation* si, const World& world, double margin_min, RejectionLog& log)
-      : ob::StateValidityChecker(si), world_(world), margin_min_(margin_min), log_(log) {}
+  WorldValidity(ob::SpaceInformation* si, SearchSteps& steps)
+      : ob::StateValidityChecker(si), steps_(steps) {}
 
   bool isValid(const ob::State* state) const override {
-    const auto* typed = state->as<VehicleSpace::StateType>();
-    auto rejection = world_.rejected(typed->vehicle, typed->strain, margin_min_);
-    if (!rejection && !typed->possible) {
-      rejection = RejectedState{.reason = Rejection::kSlip,
-                                .x_m = typed->vehicle.x_m,
-                                .y_m = typed->vehicle.y_m,
-                                .yaw_rad = typed->vehicle.yaw_rad};
-    }
-    if (!rejection) return true;
-    log_.add(*rejection);
-    return false;
+    return steps_.allowed(*state->as<VehicleSpace::StateType>());
   }
 
  private:
-  const World& world_;
-  double margin_min_;
-  RejectionLog& log_;
+  SearchSteps& steps_;
 };
 
 /// The goal of a problem, in metres and radians.
@@ -128,7 +101,8 @@ oc::SpaceInformationPtr space_of(const World& world) {
 OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
     : world_(world),
       way_(world.problem(), guidance.variety, guidance.seed),
-      rejections_(guidance.seed),
+      steps_(world, guidance.margin_min, guidance.seed),
+      improves_(guidance.improve),
       space_(space_of(world)) {
   space_->getControlSpace()->setControlSamplerAllocator([this](const oc::ControlSpace* controls) {
     return std::make_shared<SteeringSampler>(controls, world_, way_);
@@ -136,10 +110,8 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
   space_->setDirectedControlSamplerAllocator([this](const oc::SpaceInformation* space) {
     return std::make_shared<PursuitSampler>(space, world_, way_);
   });
-  space_->setStatePropagator(
-      std::make_shared<DynamicsPropagator>(space_.get(), world, propagations_));
-  space_->setStateValidityChecker(
-      std::make_shared<WorldValidity>(space_.get(), world, guidance.margin_min, rejections_));
+  space_->setStatePropagator(std::make_shared<DynamicsPropagator>(space_.get(), steps_));
+  space_->setStateValidityChecker(std::make_shared<WorldValidity>(space_.get(), steps_));
   space_->setPropagationStepSize(world.search_step_s());
   space_->setMinMaxControlDuration(1, 24);
   space_->setup();
@@ -152,8 +124,8 @@ void OmplProblem::pose(ob::ProblemDefinition& definition) const {
   space_->freeState(start);
   definition.setGoal(std::make_shared<VehicleGoal>(space_, world_));
   auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(space_);
-  // SST stops at the first path: by default it would use all its time.
-  objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::max()));
+  // By default a threshold is 0, which no path reaches: the search would use all its time.
+  objective->setCostThreshold(ob::Cost(improves_ ? 0 : std::numeric_limits<double>::max()));
   definition.setOptimizationObjective(objective);
 }
 
