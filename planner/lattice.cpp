@@ -172,8 +172,4 @@ ob::PlannerStatus Lattice::solve(const ob::PlannerTerminationCondition& stop) {
   return ob::PlannerStatus::EXACT_SOLUTION;
 }
 
-void Lattice::getPlannerData(ob::PlannerData& data) const {
-  Planner::getPlannerData(data);
-}
-
 }  // namespace regoplan

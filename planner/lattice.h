@@ -29,7 +29,6 @@ class Lattice : public ompl::base::Planner {
 
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& stop) override;
   void clear() override;
-  void getPlannerData(ompl::base::PlannerData& data) const override;
 
  private:
   /// Of one round: how it looks, how greedily, and how long.

@@ -3,9 +3,11 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/control/PathControl.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/steering_samplers.h"
 #include "planner/vehicle_space.h"
@@ -67,14 +69,20 @@ class VehicleGoal : public ob::GoalSampleableRegion {
     const VehicleState& v = state->as<VehicleSpace::StateType>()->vehicle;
     return std::hypot(v.x_m - goal_.x_m, v.y_m - goal_.y_m);
   }
+  /// A state that may well be: not at the very limit of speed, any place and heading that counts.
   void sampleGoal(ob::State* state) const override {
+    constexpr double kSpeedShare = 0.5;
+    const double share = World::kSearchGoalShare;
+    const double away_m = share * goal_.radius_m * std::sqrt(random_.uniform01());
+    const double aside_rad = random_.uniformReal(-std::numbers::pi, std::numbers::pi);
+    const double turn = random_.uniformReal(-1, 1);
+    const double heading_rad = goal_.heading_rad
+                                   ? *goal_.heading_rad + share * turn * goal_.heading_tolerance_rad
+                                   : turn * std::numbers::pi;
     auto* typed = state->as<VehicleSpace::StateType>();
-    const double speed = world_.problem().speed_max_mps;
-    typed->vehicle = {.x_m = goal_.x_m,
-                      .y_m = goal_.y_m,
-                      .yaw_rad = goal_.heading_rad.value_or(0),
-                      .motion = {.vx_mps = speed},
-                      .rim_speed_mps = speed};
+    typed->vehicle = world_.dynamics().rolling_state(
+        goal_.x_m + away_m * std::cos(aside_rad), goal_.y_m + away_m * std::sin(aside_rad),
+        heading_rad, kSpeedShare * world_.problem().speed_max_mps);
     typed->strain = {};
     typed->possible = true;
   }
@@ -83,6 +91,7 @@ class VehicleGoal : public ob::GoalSampleableRegion {
  private:
   const World& world_;
   const regoplan::Goal& goal_;
+  mutable ompl::RNG random_;
 };
 
 oc::SpaceInformationPtr space_of(const World& world) {
@@ -102,6 +111,7 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
     : world_(world),
       way_(world.problem(), guidance.variety, guidance.seed),
       steps_(world, guidance.margin_min, guidance.seed),
+      seed_(guidance.seed),
       improves_(guidance.improve),
       space_(space_of(world)) {
   space_->getControlSpace()->setControlSamplerAllocator([this](const oc::ControlSpace* controls) {

@@ -33,6 +33,9 @@ class OmplProblem {
   /// Of the map, metres.
   double diagonal_m() const;
 
+  /// For planners that own their random numbers.
+  std::uint64_t seed() const { return seed_; }
+
   /// Whether a search goes on for a better path once it has one.
   bool improves() const { return improves_; }
 
@@ -47,6 +50,7 @@ class OmplProblem {
   const World& world_;
   CostToGo way_;
   SearchSteps steps_;
+  std::uint64_t seed_;
   bool improves_;
   ompl::control::SpaceInformationPtr space_;
 };
