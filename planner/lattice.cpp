@@ -10,12 +10,6 @@ namespace regoplan {
 
 namespace ob = ompl::base;
 
-namespace {
-
-constexpr double kFirstWeight = 2.5;
-
-}  // namespace
-
 Lattice::Lattice(OmplProblem& problem)
     : ob::Planner(problem.space(), "Lattice"), problem_(problem) {
   specs_.optimizingPaths = true;
@@ -42,8 +36,17 @@ void Lattice::push(const Round& round, double cost, const VehicleState& state, i
                    const std::optional<Drive>& drive) {
   const double rest = rough_cost_to_go(round.resolution, problem_, state);
   if (!std::isfinite(rest)) return;
-  open_.push(
-      {.priority = cost + round.weight * rest, .order = pushed_++, .node = node, .drive = drive});
+  open_.push({.priority = cost + round.weight * rest,
+              .order = pushed_++,
+              .node = node,
+              .drive = drive,
+              .cost = cost,
+              .cell = lattice_cell(round.resolution, problem_.world().problem(), state)});
+}
+
+bool Lattice::covered(std::uint64_t cell, double cost) const {
+  const auto known = cells_.find(cell);
+  return known != cells_.end() && (known->second.closed || known->second.cost <= cost);
 }
 
 void Lattice::expand(const Round& round, int index) {
@@ -115,6 +118,7 @@ Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminati
       expand(round, entry.node);
       continue;
     }
+    if (covered(entry.cell, entry.cost)) continue;
     if (stop) return RoundEnd::kStopped;
     if (++drives > round.drives_most) return RoundEnd::kBoundReached;
     if (try_drive(round, entry.node, *entry.drive)) return RoundEnd::kFound;
@@ -125,29 +129,31 @@ Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminati
 void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
   const std::vector<LatticeResolution> resolutions =
       lattice_resolutions(problem_.world().problem());
-  std::vector<bool> exhausted(resolutions.size(), false);
-  constexpr int kFirstBound = 4000, kLargestBound = 1 << 28;
-  for (int bound = kFirstBound; bound < kLargestBound; bound *= 2) {
-    for (std::size_t i = 0; i < resolutions.size(); ++i) {
-      if (exhausted[i]) continue;
-      first_found_by_ = i;
-      const RoundEnd end = search(
-          {.resolution = resolutions[i], .weight = kFirstWeight, .drives_most = bound}, stop);
+  // A careful look first; where that does not lead there soon, greedier ones.
+  constexpr double kCareful = 2.5, kGreedy = 6;
+  std::vector<Round> rounds{{.resolution = resolutions.front(), .weight = kCareful}};
+  for (const LatticeResolution& resolution : resolutions) {
+    rounds.push_back({.resolution = resolution, .weight = kGreedy});
+  }
+  constexpr int kFirstBound = 2000, kLargestBound = 1 << 28;
+  for (int bound = kFirstBound; bound < kLargestBound && !rounds.empty(); bound *= 2) {
+    for (auto round = rounds.begin(); round != rounds.end();) {
+      round->drives_most = bound;
+      const RoundEnd end = search(*round, stop);
       if (end == RoundEnd::kFound || end == RoundEnd::kStopped) return;
-      exhausted[i] = end == RoundEnd::kExhausted;
+      round = end == RoundEnd::kExhausted ? rounds.erase(round) : round + 1;
     }
-    if (std::all_of(exhausted.begin(), exhausted.end(), [](bool done) { return done; })) return;
   }
 }
 
 void Lattice::improve(const ob::PlannerTerminationCondition& stop) {
   const std::vector<LatticeResolution> resolutions =
       lattice_resolutions(problem_.world().problem());
-  for (std::size_t i = first_found_by_; i < resolutions.size(); ++i) {
-    for (const double weight : {1.8, 1.4, 1.15, 1.0}) {
+  for (const LatticeResolution& resolution : resolutions) {
+    for (const double weight : {2.5, 1.8, 1.4, 1.15, 1.0}) {
       constexpr int kBound = 1 << 28;
       for (RoundEnd end = RoundEnd::kFound; end == RoundEnd::kFound;) {
-        end = search({.resolution = resolutions[i], .weight = weight, .drives_most = kBound}, stop);
+        end = search({.resolution = resolution, .weight = weight, .drives_most = kBound}, stop);
         if (end == RoundEnd::kStopped) return;
         if (end == RoundEnd::kFound) announce(*this, problem_, starts_.front(), best_);
         if (weight > 1) break;

@@ -2,6 +2,7 @@
 
 #include <ompl/base/Planner.h>
 
+#include <cstdint>
 #include <optional>
 #include <queue>
 #include <unordered_map>
@@ -15,7 +16,8 @@ namespace regoplan {
 /// Weighted A* over drives of the vehicle's own dynamics (hybrid A*; Dolgov et al. 2010), states
 /// that fall into one cell of place, heading and speed counting as one. Drives are tried lazily
 /// (Cohen, Phillips, Likhachev 2014): the queue holds rough ends, and only the most promising drive
-/// is propagated, exactly, step by step, the goal tested at each. Rounds with growing bounds go
+/// is propagated, exactly, step by step, the goal tested at each; one whose rough end another drive
+/// has reached for less is dropped. Rounds with growing bounds go
 /// through finer resolutions and driving in reverse until a path is found; then, where the problem
 /// asks to improve, through smaller weights, each round pruned against the best cost so far.
 /// Deterministic; draws nothing.
@@ -44,6 +46,8 @@ class Lattice : public ompl::base::Planner {
     std::uint32_t order = 0;
     int node = 0;
     std::optional<Drive> drive;  ///< to be driven from the node; nothing: the node itself is due
+    double cost = 0;             ///< roughly, at the drive's end
+    std::uint64_t cell = 0;      ///< of the rough end
   };
   struct Later {
     bool operator()(const Entry& a, const Entry& b) const {
@@ -65,6 +69,8 @@ class Lattice : public ompl::base::Planner {
   bool hopeless(double cost, const VehicleState& state) const;
   void push(const Round& round, double cost, const VehicleState& state, int node,
             const std::optional<Drive>& drive);
+  /// Whether a cell has been reached for no more.
+  bool covered(std::uint64_t cell, double cost) const;
 
   OmplProblem& problem_;
   std::vector<VehicleSpace::Values> starts_;
@@ -73,7 +79,6 @@ class Lattice : public ompl::base::Planner {
   std::priority_queue<Entry, std::vector<Entry>, Later> open_;
   std::uint32_t pushed_ = 0;
   BestPath best_;
-  std::size_t first_found_by_ = 0;  ///< the resolution
 };
 
 }  // namespace regoplan

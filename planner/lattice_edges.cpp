@@ -164,24 +164,27 @@ double rough_cost_to_go(const LatticeResolution& resolution, const OmplProblem& 
   if (!std::isfinite(way_m)) return way_m;
   const double radius_m = 1 / problem.vehicle.curvature_max_1pm;
   const double away_m = std::hypot(state.x_m - problem.goal.x_m, state.y_m - problem.goal.y_m);
-  if (problem.goal.heading_rad && away_m < 8 * radius_m) {
-    way_m =
-        std::max(way_m, tightest_way_m(problem, resolution.reverse, state) - problem.goal.radius_m);
-  }
-  // An arc that turns by an angle is longer than the progress it makes that way.
-  const CostToGo::Place place = lattice.way().ahead(state.x_m, state.y_m, 2 * radius_m);
-  const double to_x = place.x_m - state.x_m, to_y = place.y_m - state.y_m;
-  if (away_m > problem.goal.radius_m) {
-    const double turn =
-        std::abs(std::remainder(std::atan2(to_y, to_x) - state.yaw_rad, 2 * std::numbers::pi));
-    const double speed = std::max(state.motion.vx_mps, kSlow * problem.speed_max_mps);
-    const double excess_m = (turn - std::sin(turn)) / curvature_reach_1pm(problem, speed);
-    way_m += resolution.reverse ? std::min(excess_m, 6 * radius_m) : excess_m;
-  }
+  // Turns are driven at the speed that turns fastest; what they add counts at that speed.
   const double top = kFast * problem.speed_max_mps;
-  const double short_of_top = std::max(0.0, top - state.motion.vx_mps);
+  const double turning =
+      std::clamp(fastest_turning_mps(problem), kSlow * problem.speed_max_mps, top);
+  double excess_m = 0;
+  if (problem.goal.heading_rad) {
+    const double around_m = tightest_way_m(problem, resolution.reverse, state);
+    excess_m = std::max(0.0, around_m - away_m - problem.goal.radius_m);
+  } else if (away_m > problem.goal.radius_m) {
+    // An arc that turns by an angle is longer than the progress it makes that way.
+    const CostToGo::Place place = lattice.way().ahead(state.x_m, state.y_m, 2 * radius_m);
+    const double toward_rad = std::atan2(place.y_m - state.y_m, place.x_m - state.x_m);
+    const double turn = std::abs(std::remainder(toward_rad - state.yaw_rad, 2 * std::numbers::pi));
+    excess_m = (turn - std::sin(turn)) * radius_m;
+    if (resolution.reverse) excess_m = std::min(excess_m, 3 * radius_m);
+  }
+  way_m += excess_m * top / turning;
+  const double wanted = excess_m > radius_m ? turning : top;
+  const double short_of = std::max(0.0, wanted - state.motion.vx_mps);
   const double acceleration_s =
-      short_of_top * short_of_top / (2 * top * problem.vehicle.acceleration_max_mps2);
+      short_of * short_of / (2 * wanted * problem.vehicle.acceleration_max_mps2);
   return least_cost(problem, way_m) + problem.search.objective.per_s * acceleration_s;
 }
 

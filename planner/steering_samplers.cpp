@@ -18,10 +18,15 @@ const VehicleState& vehicle(const ob::State* state) {
   return state->as<VehicleSpace::StateType>()->vehicle;
 }
 
+constexpr double kShareOfWeight = 0.38;  // what loose soil gives, with margin to spare
+
 }  // namespace
 
+double fastest_turning_mps(const PlanningProblem& problem) {
+  return std::sqrt(kShareOfWeight * problem.gravity_mps2 / problem.vehicle.curvature_max_1pm);
+}
+
 double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps) {
-  constexpr double kShareOfWeight = 0.38;  // what loose soil gives, with margin to spare
   const double reach =
       kShareOfWeight * problem.gravity_mps2 / std::max(speed_mps * speed_mps, 1e-9);
   return std::min(reach, problem.vehicle.curvature_max_1pm);

@@ -12,6 +12,9 @@ namespace regoplan {
 /// to spare: 0.38 of the weight, within the steering.
 double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps);
 
+/// The speed at which the tightest turn is what the soil can hold: none turns the vehicle faster.
+double fastest_turning_mps(const PlanningProblem& problem);
+
 /// A speed target: half of the time the fastest that stays below the limit downhill.
 double drawn_speed_mps(const PlanningProblem& problem, ompl::RNG& random);
 

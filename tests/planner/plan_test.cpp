@@ -58,8 +58,7 @@ TEST_P(EveryPlanner, FindsAVerifiedPathAcrossOpenGround) {
   EXPECT_GT(result.propagations, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stock, EveryPlanner,
-                         testing::Values("SST", "RRT", "KPIECE1", "EST", "PDST", "auto"),
+INSTANTIATE_TEST_SUITE_P(All, EveryPlanner, testing::ValuesIn(planner_names()),
                          [](const auto& planner) { return planner.param; });
 
 TEST(Plan, SameSeedAndIterationsGiveTheSameBitsWithAnyNumberOfThreads) {
