@@ -130,7 +130,7 @@ void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
   const std::vector<LatticeResolution> resolutions =
       lattice_resolutions(problem_.world().problem());
   // A careful look first; where that does not lead there soon, greedier ones.
-  constexpr double kCareful = 2.5, kGreedy = 6;
+  constexpr double kCareful = 2.5, kGreedy = 4;
   std::vector<Round> rounds{{.resolution = resolutions.front(), .weight = kCareful}};
   for (const LatticeResolution& resolution : resolutions) {
     rounds.push_back({.resolution = resolution, .weight = kGreedy});

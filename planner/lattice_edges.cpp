@@ -67,14 +67,15 @@ double tightest_way_m(const PlanningProblem& problem, bool reverse, const Vehicl
 
 std::vector<LatticeResolution> lattice_resolutions(const PlanningProblem& problem) {
   const double radius_m = 1 / problem.vehicle.curvature_max_1pm;
+  // Drives three cells long: shorter ones end in the cell they began in, or where others did.
   std::vector<LatticeResolution> resolutions;
   for (const bool reverse : {false, true}) {
     double scale = 1;
     for (int level = 0; level < 3; ++level, scale /= 2) {
-      resolutions.push_back({.cell_m = scale * radius_m / 3,
-                             .headings = 32 << level,
+      resolutions.push_back({.cell_m = scale * radius_m / 2,
+                             .headings = 24 << level,
                              .speeds = 4 << level,
-                             .travel_m = scale * radius_m,
+                             .travel_m = scale * radius_m * 1.5,
                              .curvatures = 2 + level,
                              .reverse = reverse});
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "planner/candidate.h"
+#include "planner/relaxed_problem.h"
 #include "planner/search_processes.h"
 #include "planner/what_if.h"
 
@@ -126,6 +127,7 @@ PlanResult plan(const PlanningProblem& problem,
   result.seed = problem.search.seed;
   const World verdict(problem, WorldUse::kVerdict, problem.search.threads);
   result.certificate = start_certificate(verdict);
+  if (!result.certificate) result.certificate = certificate_of_infeasibility(problem);
   if (result.certificate) {
     result.status = PlanStatus::kInfeasible;
     result.reason = reason_of(result, 0);
