@@ -57,9 +57,8 @@ void Lattice::expand(const Round& round, int index) {
   for (const Drive& drive : lattice_drives(round.resolution, problem_, from)) {
     const VehicleState end = rough_end(problem.vehicle, from, drive, step_s);
     const double duration_s = drive.steps * step_s;
-    const double cost = node.cost + problem.search.objective.per_s * duration_s +
-                        problem.search.objective.per_m * duration_s *
-                            std::abs(from.rim_speed_mps + end.rim_speed_mps) / 2;
+    const double length_m = duration_s * std::abs(from.rim_speed_mps + end.rim_speed_mps) / 2;
+    const double cost = node.cost + rough_cost(problem, length_m, duration_s);
     push(round, cost, end, index, drive);
   }
 }

@@ -186,7 +186,8 @@ double rough_cost_to_go(const LatticeResolution& resolution, const OmplProblem& 
   const double short_of = std::max(0.0, wanted - state.motion.vx_mps);
   const double acceleration_s =
       short_of * short_of / (2 * wanted * problem.vehicle.acceleration_max_mps2);
-  return least_cost(problem, way_m) + problem.search.objective.per_s * acceleration_s;
+  return rough_cost(problem, way_m, way_m / problem.speed_max_mps) +
+         problem.search.objective.per_s * acceleration_s;
 }
 
 }  // namespace regoplan

@@ -22,6 +22,13 @@ double step_cost(const World& world, const VehicleSpace::Values& from, const Sea
   return cost;
 }
 
+double rough_cost(const PlanningProblem& problem, double length_m, double duration_s) {
+  constexpr double kRolling = 0.1;
+  const Objective& objective = problem.search.objective;
+  const double rolling_n = kRolling * problem.vehicle.mass_kg * problem.gravity_mps2;
+  return objective.per_s * duration_s + (objective.per_m + objective.per_j * rolling_n) * length_m;
+}
+
 double least_cost(const PlanningProblem& problem, double length_m) {
   const Objective& objective = problem.search.objective;
   return std::max(0.0, length_m) * (objective.per_s / problem.speed_max_mps + objective.per_m);

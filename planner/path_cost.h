@@ -9,6 +9,9 @@ namespace regoplan {
 double step_cost(const World& world, const VehicleSpace::Values& from, const SearchStep& step,
                  double duration_s);
 
+/// Roughly what driving so far in so long costs: rolling on loose soil takes a tenth of the weight.
+double rough_cost(const PlanningProblem& problem, double length_m, double duration_s);
+
 /// No path of this length costs less: at top speed, no energy, margins to spare.
 double least_cost(const PlanningProblem& problem, double length_m);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "planner/candidate.h"
+#include "planner/relaxation.h"
 #include "planner/relaxed_problem.h"
 #include "planner/search_processes.h"
 #include "planner/what_if.h"
@@ -117,6 +118,15 @@ std::string reason_of(const PlanResult& result, int found) {
                      name(static_cast<Rejection>(most - result.rejected.begin())));
 }
 
+/// Why there is no path, and what to give up for one.
+std::string with_relaxation(const std::string& reason, const PlanningProblem& problem,
+                            const std::function<void(const PlanProgress&)>& on_progress,
+                            const std::stop_token& stop) {
+  on_progress({.stage = "looking for what would help"});
+  const std::optional<std::string> relaxation = relaxation_that_helps(problem, stop);
+  return relaxation ? fmt::format("{}; a verified path exists {}", reason, *relaxation) : reason;
+}
+
 }  // namespace
 
 PlanResult plan(const PlanningProblem& problem,
@@ -130,7 +140,8 @@ PlanResult plan(const PlanningProblem& problem,
   if (!result.certificate) result.certificate = certificate_of_infeasibility(problem);
   if (result.certificate) {
     result.status = PlanStatus::kInfeasible;
-    result.reason = reason_of(result, 0);
+    result.reason = with_relaxation(reason_of(result, 0), problem, on_progress, stop);
+    result.interrupted = stop.stop_requested();
     return result;
   }
 
@@ -185,9 +196,12 @@ PlanResult plan(const PlanningProblem& problem,
   }
   for (VerifiedPath& path : chosen) result.candidates.push_back(std::move(path.candidate));
   result.verification_time_s = seconds_since(verification_start);
-  result.interrupted = result.interrupted || stop.stop_requested();
   result.status = result.candidates.empty() ? PlanStatus::kUndecided : PlanStatus::kFeasible;
   result.reason = reason_of(result, static_cast<int>(found.size()));
+  if (result.candidates.empty()) {
+    result.reason = with_relaxation(result.reason, problem, on_progress, stop);
+  }
+  result.interrupted = result.interrupted || stop.stop_requested();
   return result;
 }
 

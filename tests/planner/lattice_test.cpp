@@ -137,8 +137,7 @@ TEST(Lattice, WithoutAWayItEndsWithoutAPath) {
 }
 
 TEST(Lattice, TheObjectiveDecidesWhatIsCheap) {
-  PlanningProblem problem =
-      lrv_problem(one_soil_map(50, firm_regolith(), flat, two_rows_of_rocks()));
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, {{25, 25, 3, 2}}));
   const auto driven_with = [&](const Objective& objective) {
     problem.search.objective = objective;
     const World world(problem, WorldUse::kSearch, 2);

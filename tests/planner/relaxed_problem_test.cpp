@@ -16,10 +16,12 @@ std::string certificate(const PlanningProblem& problem) {
   return certificate_of_infeasibility(problem).value_or("");
 }
 
+/// Rocks from edge to edge but for a gap at y = 25.
 std::vector<Rock> wall_with_gap(double gap_m) {
   std::vector<Rock> rocks;
-  for (double y = 0; y <= 50; y += 0.8) {
-    if (std::abs(y - 25) > gap_m / 2 + 0.6) rocks.push_back({25, y, 0.6, 3});
+  for (double away = gap_m / 2 + 0.6; away < 25; away += 0.8) {
+    rocks.push_back({25, 25 - away, 0.6, 3});
+    rocks.push_back({25, 25 + away, 0.6, 3});
   }
   return rocks;
 }
@@ -82,7 +84,7 @@ TEST(ClosedBoxes, NoPoseOfAClosedBoxIsOneThatTheVerdictAllows) {
     const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), hills, rocks));
     const ClosedBoxes boxes(problem);
     const World verdict(problem, WorldUse::kVerdict, 1);
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < 4000; ++i) {
       const PoseBox box{.x_m = 25 + 22 * unit(random),
                         .y_m = 25 + 22 * unit(random),
                         .heading_rad = std::numbers::pi * unit(random),
