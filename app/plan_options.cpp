@@ -1,11 +1,16 @@
 #include "app/plan_options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "app/command.h"
 
 namespace regoplan {
 
 void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
-  parser.add_option("--planner", overrides.planner, "auto, SST, RRT, KPIECE1, EST or PDST")
+  parser
+      .add_option("--planner", overrides.planner,
+                  fmt::format("{}", fmt::join(planner_names(), ", ")))
       ->type_name("NAME")
       ->check(one_of(planner_names()));
   parser.add_option("--seed", overrides.seed, "of all that is drawn")

@@ -123,9 +123,18 @@ Properties counted_properties(const OmplProblem& problem) {
 BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run) {
   ompl::msg::noOutputHandler();
   seed_ompl(run.guidance.seed);
-  const OmplProblem problem(searched, run.guidance);
+  SearchGuidance guidance = run.guidance;
+  Properties parameters = run.parameters;
+  if (const auto improve = parameters.extract("improve")) {
+    if (improve.mapped() != "0" && improve.mapped() != "1") {
+      throw InputError(fmt::format("{}: parameter improve: {} is not valid (allowed: 0, 1)",
+                                   run.planner, improve.mapped()));
+    }
+    guidance.improve = improve.mapped() == "1";
+  }
+  OmplProblem problem(searched, guidance);
   ob::PlannerPtr planner = make_planner(run.planner, problem);
-  set_parameters(*planner, run.planner, run.parameters);
+  set_parameters(*planner, run.planner, parameters);
   if (run.iterations) planner = std::make_shared<BoundedPlanner>(planner, *run.iterations);
 
   oc::SimpleSetup setup(problem.space());
@@ -175,8 +184,7 @@ int ompl_crash_status() {
 std::vector<std::string> ompl_status_names() {
   std::vector<std::string> names;
   for (int i = 0; i < ob::PlannerStatus::TYPE_COUNT; ++i) {
-    names.push_back(
-        ob::PlannerStatus(static_cast<ob::PlannerStatus::StatusType>(i)).asString());
+    names.push_back(ob::PlannerStatus(static_cast<ob::PlannerStatus::StatusType>(i)).asString());
   }
   return names;
 }

@@ -13,8 +13,10 @@ namespace regoplan {
 
 /// One run of one planner under OMPL's own benchmark tool.
 struct BenchmarkRun {
-  std::string planner;                            ///< one of `planner_names()`, not `auto`
-  std::map<std::string, std::string> parameters;  ///< of the planner, as OMPL names them
+  std::string planner;  ///< one of `planner_names()`, not `auto`
+  /// Of the planner, as OMPL names them; and `improve`, 0 or 1, of those that go on for a better
+  /// path until the bound (Lattice, StableSparse, SST).
+  std::map<std::string, std::string> parameters;
   SearchGuidance guidance;
   double time_s = 0;                         ///< bound of the search
   std::optional<std::int64_t> iterations{};  ///< further bound

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <queue>
 #include <random>
 
@@ -104,6 +106,8 @@ void CostToGo::spread(const std::vector<double>& dearness) {
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   cost_m_.assign(dearness.size(), kFar);
+  next_.resize(dearness.size());
+  std::iota(next_.begin(), next_.end(), 0U);
   const std::size_t goal = index(cell_at(goal_.x_m, goal_.y_m));
   cost_m_[goal] = 0;
   open.emplace(0, goal);
@@ -124,6 +128,7 @@ void CostToGo::spread(const std::vector<double>& dearness) {
         const double there = cost + cell_m_ * std::hypot(dr, dc) * (dearness[at] + dearness[i]) / 2;
         if (there < cost_m_[i]) {
           cost_m_[i] = there;
+          next_[i] = static_cast<std::uint32_t>(at);
           open.emplace(there, i);
         }
       }
@@ -132,23 +137,36 @@ void CostToGo::spread(const std::vector<double>& dearness) {
 }
 
 CostToGo::Place CostToGo::ahead(double x_m, double y_m, double distance_m) const {
-  Cell at = cell_at(x_m, y_m);
-  const Cell goal = cell_at(goal_.x_m, goal_.y_m);
+  std::size_t at = index(cell_at(x_m, y_m));
+  const std::size_t goal = index(cell_at(goal_.x_m, goal_.y_m));
+  const auto columns = static_cast<std::size_t>(columns_);
   double travelled = 0;
-  while (travelled < distance_m && index(at) != index(goal)) {
-    Cell best = at;
-    for (int dr = -1; dr <= 1; ++dr) {
-      for (int dc = -1; dc <= 1; ++dc) {
-        const Cell next{std::clamp(at.column + dc, 0, columns_ - 1),
-                        std::clamp(at.row + dr, 0, rows_ - 1)};
-        if (cost_m_[index(next)] < cost_m_[index(best)]) best = next;
-      }
-    }
-    if (index(best) == index(at)) break;  // the goal cannot be reached from here
-    travelled += cell_m_ * std::hypot(best.column - at.column, best.row - at.row);
-    at = best;
+  while (travelled < distance_m && at != goal) {
+    const std::size_t next = next_[at];
+    if (next == at) break;  // the goal cannot be reached from here
+    const bool diagonal = next % columns != at % columns && next / columns != at / columns;
+    travelled += diagonal ? cell_m_ * std::numbers::sqrt2 : cell_m_;
+    at = next;
   }
-  return index(at) == index(goal) ? goal_ : centre(at);
+  if (at == goal) return goal_;
+  return centre({static_cast<int>(at % columns), static_cast<int>(at / columns)});
+}
+
+double CostToGo::cost_m(double x_m, double y_m) const {
+  const Cell own = cell_at(x_m, y_m);
+  const double own_cost = cost_m_[index(own)];
+  const double u = (x_m - west_m_) / cell_m_ - 0.5, v = (y_m - south_m_) / cell_m_ - 0.5;
+  const Cell corner{static_cast<int>(std::floor(u)), static_cast<int>(std::floor(v))};
+  if (corner.column < 0 || corner.row < 0 || corner.column + 1 >= columns_ ||
+      corner.row + 1 >= rows_) {
+    return own_cost;
+  }
+  const double* south = cost_m_.data() + index(corner);
+  const double* north = south + columns_;
+  const double across = u - corner.column, up = v - corner.row;
+  const double cost =
+      std::lerp(std::lerp(south[0], south[1], across), std::lerp(north[0], north[1], across), up);
+  return std::isfinite(cost) ? cost : own_cost;
 }
 
 }  // namespace regoplan

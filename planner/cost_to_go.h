@@ -25,6 +25,10 @@ class CostToGo {
   /// nearer.
   Place ahead(double x_m, double y_m, double distance_m) const;
 
+  /// The cost of the way from a place, between the centres of cells bilinear; infinite where there
+  /// is none. Metres: no less than the way's length on a grid.
+  double cost_m(double x_m, double y_m) const;
+
  private:
   struct Cell {
     int column = 0;
@@ -44,6 +48,7 @@ class CostToGo {
   double west_m_, south_m_, cell_m_;
   int columns_, rows_;
   std::vector<double> cost_m_;
+  std::vector<std::uint32_t> next_;  ///< the cell after each on the way
 };
 
 }  // namespace regoplan

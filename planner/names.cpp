@@ -55,7 +55,9 @@ std::string_view name(PlanStatus status) {
 }
 
 const std::vector<std::string>& planner_names() {
-  static const std::vector<std::string> names{"auto", "SST", "RRT", "KPIECE1", "EST", "PDST"};
+  static const std::vector<std::string> names{"auto",      "Lattice",  "StableSparse", "SST",
+                                              "RRT",       "KPIECE1",  "EST",          "PDST",
+                                              "SyclopRRT", "SyclopEST"};
   return names;
 }
 

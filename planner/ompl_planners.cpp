@@ -6,14 +6,22 @@
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/control/planners/sst/SST.h>
 
+#include "planner/lattice.h"
+#include "planner/map_decomposition.h"
+#include "planner/stable_sparse.h"
+
 namespace regoplan {
 
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-ob::PlannerPtr make_planner(const std::string& name, const OmplProblem& problem) {
+ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
   const oc::SpaceInformationPtr& si = problem.space();
   const double map_size_m = problem.diagonal_m();
+  if (name == "Lattice") return std::make_shared<Lattice>(problem);
+  if (name == "StableSparse") return std::make_shared<StableSparse>(problem);
+  if (name == "SyclopRRT") return make_syclop_rrt(problem);
+  if (name == "SyclopEST") return make_syclop_est(problem);
   if (name == "SST") {
     auto sst = std::make_shared<oc::SST>(si);
     sst->setSelectionRadius(0.04 * map_size_m);

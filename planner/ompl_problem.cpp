@@ -3,9 +3,11 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/control/PathControl.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "planner/steering_samplers.h"
 #include "planner/vehicle_space.h"
@@ -19,60 +21,33 @@ namespace oc = ompl::control;
 class DynamicsPropagator : public oc::StatePropagator {
  public:
   // A plain pointer: the space information owns the propagator.
-  DynamicsPropagator(oc::SpaceInformation* si, const World& world, std::int64_t& propagations)
-      : oc::StatePropagator(si), world_(world), propagations_(propagations) {}
+  DynamicsPropagator(oc::SpaceInformation* si, SearchSteps& steps)
+      : oc::StatePropagator(si), steps_(steps) {}
 
   void propagate(const ob::State* state, const oc::Control* control, double duration,
                  ob::State* result) const override {
     const auto* from = state->as<VehicleSpace::StateType>();
     auto* to = result->as<VehicleSpace::StateType>();
-    const StepResult step =
-        world_.dynamics().step(from->vehicle, VehicleControlSpace::control(control), duration);
-    ++propagations_;
-    to->vehicle = step.state;
-    to->strain = step.strain;
-    // Off the known ground there is no dynamics: the state stays, and bounds or terrain tell why.
-    to->possible = step.converged || !step.on_known_ground;
-    if (!step.on_known_ground) leave_ground(*to, step.state, duration);
+    static_cast<VehicleSpace::Values&>(*to) =
+        steps_.next(*from, VehicleControlSpace::control(control), duration).values;
   }
   bool canPropagateBackward() const override { return false; }
 
  private:
-  /// Rolls on straight to where the ground ends, so that validity sees it.
-  static void leave_ground(VehicleSpace::StateType& to, const VehicleState& from, double duration) {
-    const double travel = from.motion.vx_mps * duration;
-    to.vehicle = from;
-    to.vehicle.x_m += travel * std::cos(from.yaw_rad);
-    to.vehicle.y_m += travel * std::sin(from.yaw_rad);
-  }
-
-  const World& world_;
-  std::int64_t& propagations_;
+  SearchSteps& steps_;
 };
 
 class WorldValidity : public ob::StateValidityChecker {
  public:
-  WorldValidity(ob::SpaceInformation* si, const World& world, double margin_min, RejectionLog& log)
-      : ob::StateValidityChecker(si), world_(world), margin_min_(margin_min), log_(log) {}
+  WorldValidity(ob::SpaceInformation* si, SearchSteps& steps)
+      : ob::StateValidityChecker(si), steps_(steps) {}
 
   bool isValid(const ob::State* state) const override {
-    const auto* typed = state->as<VehicleSpace::StateType>();
-    auto rejection = world_.rejected(typed->vehicle, typed->strain, margin_min_);
-    if (!rejection && !typed->possible) {
-      rejection = RejectedState{.reason = Rejection::kSlip,
-                                .x_m = typed->vehicle.x_m,
-                                .y_m = typed->vehicle.y_m,
-                                .yaw_rad = typed->vehicle.yaw_rad};
-    }
-    if (!rejection) return true;
-    log_.add(*rejection);
-    return false;
+    return steps_.allowed(*state->as<VehicleSpace::StateType>());
   }
 
  private:
-  const World& world_;
-  double margin_min_;
-  RejectionLog& log_;
+  SearchSteps& steps_;
 };
 
 /// The goal of a problem, in metres and radians.
@@ -94,14 +69,20 @@ class VehicleGoal : public ob::GoalSampleableRegion {
     const VehicleState& v = state->as<VehicleSpace::StateType>()->vehicle;
     return std::hypot(v.x_m - goal_.x_m, v.y_m - goal_.y_m);
   }
+  /// A state that may well be: not at the very limit of speed, any place and heading that counts.
   void sampleGoal(ob::State* state) const override {
+    constexpr double kSpeedShare = 0.5;
+    const double share = World::kSearchGoalShare;
+    const double away_m = share * goal_.radius_m * std::sqrt(random_.uniform01());
+    const double aside_rad = random_.uniformReal(-std::numbers::pi, std::numbers::pi);
+    const double turn = random_.uniformReal(-1, 1);
+    const double heading_rad = goal_.heading_rad
+                                   ? *goal_.heading_rad + share * turn * goal_.heading_tolerance_rad
+                                   : turn * std::numbers::pi;
     auto* typed = state->as<VehicleSpace::StateType>();
-    const double speed = world_.problem().speed_max_mps;
-    typed->vehicle = {.x_m = goal_.x_m,
-                      .y_m = goal_.y_m,
-                      .yaw_rad = goal_.heading_rad.value_or(0),
-                      .motion = {.vx_mps = speed},
-                      .rim_speed_mps = speed};
+    typed->vehicle = world_.dynamics().rolling_state(
+        goal_.x_m + away_m * std::cos(aside_rad), goal_.y_m + away_m * std::sin(aside_rad),
+        heading_rad, kSpeedShare * world_.problem().speed_max_mps);
     typed->strain = {};
     typed->possible = true;
   }
@@ -110,6 +91,7 @@ class VehicleGoal : public ob::GoalSampleableRegion {
  private:
   const World& world_;
   const regoplan::Goal& goal_;
+  mutable ompl::RNG random_;
 };
 
 oc::SpaceInformationPtr space_of(const World& world) {
@@ -128,7 +110,9 @@ oc::SpaceInformationPtr space_of(const World& world) {
 OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
     : world_(world),
       way_(world.problem(), guidance.variety, guidance.seed),
-      rejections_(guidance.seed),
+      steps_(world, guidance.margin_min, guidance.seed),
+      seed_(guidance.seed),
+      improves_(guidance.improve),
       space_(space_of(world)) {
   space_->getControlSpace()->setControlSamplerAllocator([this](const oc::ControlSpace* controls) {
     return std::make_shared<SteeringSampler>(controls, world_, way_);
@@ -136,10 +120,8 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
   space_->setDirectedControlSamplerAllocator([this](const oc::SpaceInformation* space) {
     return std::make_shared<PursuitSampler>(space, world_, way_);
   });
-  space_->setStatePropagator(
-      std::make_shared<DynamicsPropagator>(space_.get(), world, propagations_));
-  space_->setStateValidityChecker(
-      std::make_shared<WorldValidity>(space_.get(), world, guidance.margin_min, rejections_));
+  space_->setStatePropagator(std::make_shared<DynamicsPropagator>(space_.get(), steps_));
+  space_->setStateValidityChecker(std::make_shared<WorldValidity>(space_.get(), steps_));
   space_->setPropagationStepSize(world.search_step_s());
   space_->setMinMaxControlDuration(1, 24);
   space_->setup();
@@ -152,8 +134,8 @@ void OmplProblem::pose(ob::ProblemDefinition& definition) const {
   space_->freeState(start);
   definition.setGoal(std::make_shared<VehicleGoal>(space_, world_));
   auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(space_);
-  // SST stops at the first path: by default it would use all its time.
-  objective->setCostThreshold(ob::Cost(std::numeric_limits<double>::max()));
+  // By default a threshold is 0, which no path reaches: the search would use all its time.
+  objective->setCostThreshold(ob::Cost(improves_ ? 0 : std::numeric_limits<double>::max()));
   definition.setOptimizationObjective(objective);
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "planner/cost_to_go.h"
-#include "planner/rejection_log.h"
 #include "planner/search_run.h"
+#include "planner/search_steps.h"
 #include "planner/world.h"
 
 namespace regoplan {
@@ -33,14 +33,25 @@ class OmplProblem {
   /// Of the map, metres.
   double diagonal_m() const;
 
-  std::int64_t propagations() const { return propagations_; }
-  const RejectionLog& rejections() const { return rejections_; }
+  /// For planners that own their random numbers.
+  std::uint64_t seed() const { return seed_; }
+
+  /// Whether a search goes on for a better path once it has one.
+  bool improves() const { return improves_; }
+
+  /// Of every propagation; controls last whole multiples of it.
+  double step_s() const { return space_->getPropagationStepSize(); }
+
+  SearchSteps& steps() { return steps_; }
+  std::int64_t propagations() const { return steps_.count(); }
+  const RejectionLog& rejections() const { return steps_.rejections(); }
 
  private:
   const World& world_;
   CostToGo way_;
-  std::int64_t propagations_ = 0;
-  RejectionLog rejections_;
+  SearchSteps steps_;
+  std::uint64_t seed_;
+  bool improves_;
   ompl::control::SpaceInformationPtr space_;
 };
 

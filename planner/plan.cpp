@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "planner/candidate.h"
+#include "planner/relaxation.h"
+#include "planner/relaxed_problem.h"
 #include "planner/search_processes.h"
 #include "planner/what_if.h"
 
@@ -58,7 +60,11 @@ class RunSchedule {
 
   std::string planner_of(int number) const {
     if (search_.planner != "auto") return search_.planner;
-    static const std::vector<std::string> kPortfolio{"RRT", "KPIECE1", "EST", "RRT", "SST", "PDST"};
+    // The lattice is by far the fastest, and each way of its own makes another path of it. The
+    // trees fill in where it does not reach.
+    static const std::vector<std::string> kPortfolio{
+        "Lattice", "Lattice", "StableSparse", "Lattice", "Lattice",   "RRT",
+        "Lattice", "Lattice", "StableSparse", "Lattice", "SyclopRRT", "KPIECE1"};
     return kPortfolio[static_cast<std::size_t>(number) % kPortfolio.size()];
   }
   std::uint64_t seed_of(int number) const {
@@ -68,7 +74,7 @@ class RunSchedule {
   /// Margin to spare. Some runs ask for a lot, so that there are calm paths to choose from; some
   /// for hardly any, so that a way through a narrow place is found.
   static double reserve_of(int number) {
-    static const std::vector<double> kReserves{0.10, 0.01, 0.15, 0.05};
+    static const std::vector<double> kReserves{0.10, 0.01, 0.15, 0.05, 0.03};
     return kReserves[static_cast<std::size_t>(number) % kReserves.size()];
   }
 
@@ -112,6 +118,15 @@ std::string reason_of(const PlanResult& result, int found) {
                      name(static_cast<Rejection>(most - result.rejected.begin())));
 }
 
+/// Why there is no path, and what to give up for one.
+std::string with_relaxation(const std::string& reason, const PlanningProblem& problem,
+                            const std::function<void(const PlanProgress&)>& on_progress,
+                            const std::stop_token& stop) {
+  on_progress({.stage = "looking for what would help"});
+  const std::optional<std::string> relaxation = relaxation_that_helps(problem, stop);
+  return relaxation ? fmt::format("{}; a verified path exists {}", reason, *relaxation) : reason;
+}
+
 }  // namespace
 
 PlanResult plan(const PlanningProblem& problem,
@@ -122,9 +137,11 @@ PlanResult plan(const PlanningProblem& problem,
   result.seed = problem.search.seed;
   const World verdict(problem, WorldUse::kVerdict, problem.search.threads);
   result.certificate = start_certificate(verdict);
+  if (!result.certificate) result.certificate = certificate_of_infeasibility(problem);
   if (result.certificate) {
     result.status = PlanStatus::kInfeasible;
-    result.reason = reason_of(result, 0);
+    result.reason = with_relaxation(reason_of(result, 0), problem, on_progress, stop);
+    result.interrupted = stop.stop_requested();
     return result;
   }
 
@@ -179,9 +196,12 @@ PlanResult plan(const PlanningProblem& problem,
   }
   for (VerifiedPath& path : chosen) result.candidates.push_back(std::move(path.candidate));
   result.verification_time_s = seconds_since(verification_start);
-  result.interrupted = result.interrupted || stop.stop_requested();
   result.status = result.candidates.empty() ? PlanStatus::kUndecided : PlanStatus::kFeasible;
   result.reason = reason_of(result, static_cast<int>(found.size()));
+  if (result.candidates.empty()) {
+    result.reason = with_relaxation(result.reason, problem, on_progress, stop);
+  }
+  result.interrupted = result.interrupted || stop.stop_requested();
   return result;
 }
 

@@ -40,10 +40,23 @@ struct Limits {
 /// The limits that a vehicle brings where a scenario gives none.
 Limits default_limits(const Vehicle& vehicle);
 
+/// What a path costs in the planners that look for cheap ones (Lattice, StableSparse): a weighted
+/// sum. Margins are kept by limits, not bought.
+struct Objective {
+  double per_s = 1;  ///< time
+  double per_m = 0;  ///< length
+  double per_j = 0;  ///< energy of the drives
+  /// Time in which the stability margin m is below `exposed_below`, each second weighted by
+  /// 1 - m/exposed_below.
+  double per_exposed_s = 0;
+  double exposed_below = 0.2;
+};
+
 /// How to search. Exactly one of `time_s` and `iterations` bounds it: wall-clock seconds for the
 /// whole search, or iterations of each planner run.
 struct Search {
-  std::string planner = "auto";  ///< auto, SST, RRT, KPIECE1, EST or PDST
+  std::string planner = "auto";  ///< one of `planner_names()`
+  Objective objective = {};
   std::optional<double> time_s;
   std::optional<std::int64_t> iterations;
   std::uint64_t seed = 1;

@@ -16,7 +16,7 @@ namespace ob = ompl::base;
 SearchOutcome search(const World& world, const SearchRun& run) {
   ompl::msg::noOutputHandler();
   seed_ompl(run.guidance.seed);
-  const OmplProblem problem(world, run.guidance);
+  OmplProblem problem(world, run.guidance);
   const ob::PlannerPtr planner = make_planner(run.planner, problem);
   const auto definition = std::make_shared<ob::ProblemDefinition>(problem.space());
   problem.pose(*definition);

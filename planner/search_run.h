@@ -16,6 +16,7 @@ struct SearchGuidance {
   std::uint64_t seed = 1;
   double margin_min = 0;  ///< every state keeps at least this stability margin
   double variety = 0;     ///< of the way that it is guided along, as `CostToGo` takes it
+  bool improve = false;   ///< go on for a better path until the bound, where the planner can
 };
 
 /// One run of one planner. Exactly one of `time_s` and `iterations` bounds it.

@@ -18,9 +18,15 @@ const VehicleState& vehicle(const ob::State* state) {
   return state->as<VehicleSpace::StateType>()->vehicle;
 }
 
-/// Curvature whose centripetal force is a given share of the weight, within the steering.
+constexpr double kShareOfWeight = 0.38;  // what loose soil gives, with margin to spare
+
+}  // namespace
+
+double fastest_turning_mps(const PlanningProblem& problem) {
+  return std::sqrt(kShareOfWeight * problem.gravity_mps2 / problem.vehicle.curvature_max_1pm);
+}
+
 double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps) {
-  constexpr double kShareOfWeight = 0.38;  // what loose soil gives, with margin to spare
   const double reach =
       kShareOfWeight * problem.gravity_mps2 / std::max(speed_mps * speed_mps, 1e-9);
   return std::min(reach, problem.vehicle.curvature_max_1pm);
@@ -33,7 +39,7 @@ double drawn_speed_mps(const PlanningProblem& problem, ompl::RNG& random) {
   return problem.speed_max_mps * (cruises ? kCruise : random.uniformReal(kSlowest, 1));
 }
 
-VehicleControl drawn(const PlanningProblem& problem, ompl::RNG& random) {
+VehicleControl drawn_control(const PlanningProblem& problem, ompl::RNG& random) {
   const double speed = drawn_speed_mps(problem, random);
   // Mostly gentle: the cube keeps straight driving likely.
   const double t = random.uniformReal(-1, 1);
@@ -41,21 +47,18 @@ VehicleControl drawn(const PlanningProblem& problem, ompl::RNG& random) {
           .curvature_target_1pm = curvature_reach_1pm(problem, speed) * t * std::abs(t)};
 }
 
-/// Where to steer for on the cheapest way: as far ahead as the vehicle needs to turn in.
 CostToGo::Place aim(const PlanningProblem& problem, const CostToGo& way, const VehicleState& state,
                     double speed_mps, ompl::RNG& random) {
   const double turning_radius_m = 1 / curvature_reach_1pm(problem, speed_mps);
   return way.ahead(state.x_m, state.y_m, random.uniformReal(0.5, 1.5) * turning_radius_m);
 }
 
-VehicleControl toward(const PlanningProblem& problem, const VehicleState& state, double x_m,
-                      double y_m, double speed_mps) {
+VehicleControl control_toward(const PlanningProblem& problem, const VehicleState& state, double x_m,
+                              double y_m, double speed_mps) {
   const double reach = curvature_reach_1pm(problem, speed_mps);
   return {.speed_target_mps = speed_mps,
           .curvature_target_1pm = pursuit_curvature_1pm(state, x_m, y_m, reach)};
 }
-
-}  // namespace
 
 double pursuit_curvature_1pm(const VehicleState& state, double x_m, double y_m,
                              double curvature_max_1pm) {
@@ -73,7 +76,7 @@ SteeringSampler::SteeringSampler(const oc::ControlSpace* space, const World& wor
     : oc::ControlSampler(space), world_(world), way_(way) {}
 
 void SteeringSampler::sample(oc::Control* control) {
-  VehicleControlSpace::set(control, drawn(world_.problem(), rng_));
+  VehicleControlSpace::set(control, drawn_control(world_.problem(), rng_));
 }
 
 void SteeringSampler::sample(oc::Control* control, const ob::State* state) {
@@ -81,7 +84,8 @@ void SteeringSampler::sample(oc::Control* control, const ob::State* state) {
   if (rng_.uniform01() < 0.5) return sample(control);
   const double speed = drawn_speed_mps(problem, rng_);
   const CostToGo::Place place = aim(problem, way_, vehicle(state), speed, rng_);
-  VehicleControlSpace::set(control, toward(problem, vehicle(state), place.x_m, place.y_m, speed));
+  VehicleControlSpace::set(control,
+                           control_toward(problem, vehicle(state), place.x_m, place.y_m, speed));
 }
 
 void SteeringSampler::sampleNext(oc::Control* control, const oc::Control* /*previous*/,
@@ -129,9 +133,9 @@ unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* sou
   double best_distance = 0;
   for (int i = 0; i < kTries; ++i) {
     const bool free_try = i + 1 == kTries;
-    const VehicleControl choice =
-        free_try ? drawn(problem, rng_)
-                 : toward(problem, from, place.x_m, place.y_m, drawn_speed_mps(problem, rng_));
+    const VehicleControl choice = free_try ? drawn_control(problem, rng_)
+                                           : control_toward(problem, from, place.x_m, place.y_m,
+                                                            drawn_speed_mps(problem, rng_));
     VehicleControlSpace::set(tried, choice);
     const double travel = std::max(choice.speed_target_mps, 1e-6) * si_->getPropagationStepSize();
     const auto steps =

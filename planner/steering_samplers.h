@@ -8,6 +8,27 @@
 
 namespace regoplan {
 
+/// Curvature whose centripetal force the softest soil of the map can give on the flat, with margin
+/// to spare: 0.38 of the weight, within the steering.
+double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps);
+
+/// The speed at which the tightest turn is what the soil can hold: none turns the vehicle faster.
+double fastest_turning_mps(const PlanningProblem& problem);
+
+/// A speed target: half of the time the fastest that stays below the limit downhill.
+double drawn_speed_mps(const PlanningProblem& problem, ompl::RNG& random);
+
+/// A speed as above and a curvature within its reach, mostly gentle.
+VehicleControl drawn_control(const PlanningProblem& problem, ompl::RNG& random);
+
+/// Where to steer for on the cheapest way: as far ahead as the vehicle needs to turn in.
+CostToGo::Place aim(const PlanningProblem& problem, const CostToGo& way, const VehicleState& state,
+                    double speed_mps, ompl::RNG& random);
+
+/// Pure pursuit of a place, within the reach of the speed.
+VehicleControl control_toward(const PlanningProblem& problem, const VehicleState& state, double x_m,
+                              double y_m, double speed_mps);
+
 /// Controls that steer: a curvature drawn among those whose centripetal force the softest soil of
 /// the map can give on the flat at the speed drawn, half of the time toward the goal where the
 /// state is known.

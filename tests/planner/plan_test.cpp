@@ -58,8 +58,7 @@ TEST_P(EveryPlanner, FindsAVerifiedPathAcrossOpenGround) {
   EXPECT_GT(result.propagations, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stock, EveryPlanner,
-                         testing::Values("SST", "RRT", "KPIECE1", "EST", "PDST", "auto"),
+INSTANTIATE_TEST_SUITE_P(All, EveryPlanner, testing::ValuesIn(planner_names()),
                          [](const auto& planner) { return planner.param; });
 
 TEST(Plan, SameSeedAndIterationsGiveTheSameBitsWithAnyNumberOfThreads) {
@@ -78,9 +77,23 @@ TEST(Plan, SameSeedAndIterationsGiveTheSameBitsWithAnyNumberOfThreads) {
   EXPECT_NE(fingerprint(once), fingerprint(planned(problem)));
 }
 
-TEST(Plan, NothingBeyondAWallOfRocksIsCalledFeasible) {
+TEST(Plan, AWallOfRocksIsInfeasibleWithItsCertificate) {
   std::vector<Rock> wall;
   for (int i = 0; i < 40; ++i) wall.push_back({25, 0.5 + 1.25 * i, 0.8, 2});
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall));
+  const PlanResult result = planned(problem);
+  EXPECT_EQ(result.status, PlanStatus::kInfeasible);
+  EXPECT_TRUE(result.candidates.empty());
+  ASSERT_TRUE(result.certificate);
+  EXPECT_NE(result.certificate->find("rocks"), std::string::npos) << *result.certificate;
+}
+
+TEST(Plan, WhatCannotBeCertifiedStaysUndecidedAndSaysWhatStoppedIt) {
+  // A wall with a gap that the body fits through, but not with the clearance that a search keeps.
+  std::vector<Rock> wall;
+  for (double y = 0; y <= 50; y += 0.8) {
+    if (std::abs(y - 25) > 1.08 + 0.6) wall.push_back({25, y, 0.6, 3});
+  }
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall));
   problem.search.iterations = 300;
   const PlanResult result = planned(problem);

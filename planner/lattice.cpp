@@ -1,0 +1,180 @@
+#include "planner/lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "planner/path_cost.h"
+
+namespace regoplan {
+
+namespace ob = ompl::base;
+
+Lattice::Lattice(OmplProblem& problem)
+    : ob::Planner(problem.space(), "Lattice"), problem_(problem) {
+  specs_.optimizingPaths = true;
+  specs_.directed = true;
+  addPlannerProgressProperty("best cost REAL", [this] { return std::to_string(best_.cost()); });
+}
+
+void Lattice::clear() {
+  Planner::clear();
+  starts_.clear();
+  nodes_.clear();
+  cells_.clear();
+  open_ = {};
+  best_.clear();
+}
+
+bool Lattice::hopeless(double cost, const VehicleState& state) const {
+  const Goal& goal = problem_.world().problem().goal;
+  const double away_m = std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) - goal.radius_m;
+  return cost + least_cost(problem_.world().problem(), away_m) >= best_.cost();
+}
+
+void Lattice::push(const Round& round, double cost, const VehicleState& state, int node,
+                   const std::optional<Drive>& drive) {
+  const double rest = rough_cost_to_go(round.resolution, problem_, state);
+  if (!std::isfinite(rest)) return;
+  open_.push({.priority = cost + round.weight * rest,
+              .order = pushed_++,
+              .node = node,
+              .drive = drive,
+              .cost = cost,
+              .cell = lattice_cell(round.resolution, problem_.world().problem(), state)});
+}
+
+bool Lattice::covered(std::uint64_t cell, double cost) const {
+  const auto known = cells_.find(cell);
+  return known != cells_.end() && (known->second.closed || known->second.cost <= cost);
+}
+
+void Lattice::expand(const Round& round, int index) {
+  const DriveNode node = nodes_[static_cast<std::size_t>(index)];
+  const VehicleState& from = node.values.vehicle;
+  const PlanningProblem& problem = problem_.world().problem();
+  const double step_s = problem_.step_s();
+  for (const Drive& drive : lattice_drives(round.resolution, problem_, from)) {
+    const VehicleState end = rough_end(problem.vehicle, from, drive, step_s);
+    const double duration_s = drive.steps * step_s;
+    const double length_m = duration_s * std::abs(from.rim_speed_mps + end.rim_speed_mps) / 2;
+    const double cost = node.cost + rough_cost(problem, length_m, duration_s);
+    push(round, cost, end, index, drive);
+  }
+}
+
+bool Lattice::try_drive(const Round& round, int parent, const Drive& drive) {
+  const World& world = problem_.world();
+  const double step_s = problem_.step_s();
+  DriveNode node{.values = nodes_[static_cast<std::size_t>(parent)].values,
+                 .cost = nodes_[static_cast<std::size_t>(parent)].cost,
+                 .parent = parent,
+                 .drive = {.control = drive.control}};
+  while (node.drive.steps < drive.steps) {
+    const SearchStep step = problem_.steps().next(node.values, drive.control, step_s);
+    node.cost += step_cost(world, node.values, step, step_s);
+    node.values = step.values;
+    ++node.drive.steps;
+    if (!problem_.steps().allowed(node.values)) return false;
+    if (!world.at_goal(node.values.vehicle)) continue;
+    nodes_.push_back(node);
+    return best_.offer(node.cost, drives_to(nodes_, static_cast<int>(nodes_.size()) - 1));
+  }
+  Cell& cell =
+      cells_
+          .try_emplace(lattice_cell(round.resolution, world.problem(), node.values.vehicle),
+                       Cell{.cost = std::numeric_limits<double>::infinity()})
+          .first->second;
+  if (cell.closed || node.cost >= cell.cost || hopeless(node.cost, node.values.vehicle)) {
+    return false;
+  }
+  cell.cost = node.cost;
+  nodes_.push_back(node);
+  push(round, node.cost, node.values.vehicle, static_cast<int>(nodes_.size()) - 1, std::nullopt);
+  return false;
+}
+
+Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminationCondition& stop) {
+  nodes_.clear();
+  cells_.clear();
+  open_ = {};
+  pushed_ = 0;
+  for (const VehicleSpace::Values& start : starts_) {
+    nodes_.push_back({.values = start});
+    push(round, 0, start.vehicle, static_cast<int>(nodes_.size()) - 1, std::nullopt);
+  }
+  int drives = 0;
+  while (!open_.empty()) {
+    const Entry entry = open_.top();
+    open_.pop();
+    const DriveNode& node = nodes_[static_cast<std::size_t>(entry.node)];
+    if (hopeless(node.cost, node.values.vehicle)) continue;
+    if (!entry.drive) {
+      Cell& cell =
+          cells_[lattice_cell(round.resolution, problem_.world().problem(), node.values.vehicle)];
+      if (cell.closed) continue;
+      cell.closed = true;
+      expand(round, entry.node);
+      continue;
+    }
+    if (covered(entry.cell, entry.cost)) continue;
+    if (stop) return RoundEnd::kStopped;
+    if (++drives > round.drives_most) return RoundEnd::kBoundReached;
+    if (try_drive(round, entry.node, *entry.drive)) return RoundEnd::kFound;
+  }
+  return RoundEnd::kExhausted;
+}
+
+void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
+  const std::vector<LatticeResolution> resolutions =
+      lattice_resolutions(problem_.world().problem());
+  // A careful look first; where that does not lead there soon, greedier ones.
+  constexpr double kCareful = 2.5, kGreedy = 4;
+  std::vector<Round> rounds{{.resolution = resolutions.front(), .weight = kCareful}};
+  for (const LatticeResolution& resolution : resolutions) {
+    rounds.push_back({.resolution = resolution, .weight = kGreedy});
+  }
+  constexpr int kFirstBound = 2000, kLargestBound = 1 << 28;
+  for (int bound = kFirstBound; bound < kLargestBound && !rounds.empty(); bound *= 2) {
+    for (auto round = rounds.begin(); round != rounds.end();) {
+      round->drives_most = bound;
+      const RoundEnd end = search(*round, stop);
+      if (end == RoundEnd::kFound || end == RoundEnd::kStopped) return;
+      round = end == RoundEnd::kExhausted ? rounds.erase(round) : round + 1;
+    }
+  }
+}
+
+void Lattice::improve(const ob::PlannerTerminationCondition& stop) {
+  const std::vector<LatticeResolution> resolutions =
+      lattice_resolutions(problem_.world().problem());
+  for (const LatticeResolution& resolution : resolutions) {
+    for (const double weight : {2.5, 1.8, 1.4, 1.15, 1.0}) {
+      constexpr int kBound = 1 << 28;
+      for (RoundEnd end = RoundEnd::kFound; end == RoundEnd::kFound;) {
+        end = search({.resolution = resolution, .weight = weight, .drives_most = kBound}, stop);
+        if (end == RoundEnd::kStopped) return;
+        if (end == RoundEnd::kFound) announce(*this, problem_, starts_.front(), best_);
+        if (weight > 1) break;
+      }
+    }
+  }
+}
+
+ob::PlannerStatus Lattice::solve(const ob::PlannerTerminationCondition& stop) {
+  checkValidity();
+  while (const ob::State* start = pis_.nextStart()) {
+    starts_.push_back(*start->as<VehicleSpace::StateType>());
+  }
+  if (starts_.empty()) return ob::PlannerStatus::INVALID_START;
+  if (!best_.found()) {
+    search_for_first(stop);
+    if (!best_.found()) return ob::PlannerStatus::TIMEOUT;
+    announce(*this, problem_, starts_.front(), best_);
+  }
+  if (problem_.improves()) improve(stop);
+  enter_solution(*this, problem_, starts_.front(), best_);
+  return ob::PlannerStatus::EXACT_SOLUTION;
+}
+
+}  // namespace regoplan

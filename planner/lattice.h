@@ -1,0 +1,84 @@
+#pragma once
+
+#include <ompl/base/Planner.h>
+
+#include <cstdint>
+#include <optional>
+#include <queue>
+#include <unordered_map>
+#include <vector>
+
+#include "planner/drive.h"
+#include "planner/lattice_edges.h"
+
+namespace regoplan {
+
+/// Weighted A* over drives of the vehicle's own dynamics (hybrid A*; Dolgov et al. 2010), states
+/// that fall into one cell of place, heading and speed counting as one. Drives are tried lazily
+/// (Cohen, Phillips, Likhachev 2014): the queue holds rough ends, and only the most promising drive
+/// is propagated, exactly, step by step, the goal tested at each; one whose rough end another drive
+/// has reached for less is dropped. Rounds with growing bounds go
+/// through finer resolutions and driving in reverse until a path is found; then, where the problem
+/// asks to improve, through smaller weights, each round pruned against the best cost so far.
+/// Deterministic; draws nothing.
+///
+/// An iteration is one drive taken from the queue. Progress: `best cost REAL`, in the units of the
+/// objective.
+class Lattice : public ompl::base::Planner {
+ public:
+  /// \param problem must outlive it
+  explicit Lattice(OmplProblem& problem);
+
+  ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& stop) override;
+  void clear() override;
+
+ private:
+  /// Of one round: how it looks, how greedily, and how long.
+  struct Round {
+    LatticeResolution resolution;
+    double weight = 1;
+    int drives_most = 0;
+  };
+  enum class RoundEnd { kFound, kExhausted, kBoundReached, kStopped };
+
+  struct Entry {
+    double priority = 0;
+    std::uint32_t order = 0;
+    int node = 0;
+    std::optional<Drive> drive;  ///< to be driven from the node; nothing: the node itself is due
+    double cost = 0;             ///< roughly, at the drive's end
+    std::uint64_t cell = 0;      ///< of the rough end
+  };
+  struct Later {
+    bool operator()(const Entry& a, const Entry& b) const {
+      // Of equals the youngest, which is the deepest.
+      return a.priority != b.priority ? a.priority > b.priority : a.order < b.order;
+    }
+  };
+  struct Cell {
+    double cost = 0;
+    bool closed = false;
+  };
+
+  RoundEnd search(const Round& round, const ompl::base::PlannerTerminationCondition& stop);
+  void search_for_first(const ompl::base::PlannerTerminationCondition& stop);
+  void improve(const ompl::base::PlannerTerminationCondition& stop);
+  void expand(const Round& round, int node);
+  /// Drives it and keeps what it leads to. \returns whether that is the goal
+  bool try_drive(const Round& round, int node, const Drive& drive);
+  bool hopeless(double cost, const VehicleState& state) const;
+  void push(const Round& round, double cost, const VehicleState& state, int node,
+            const std::optional<Drive>& drive);
+  /// Whether a cell has been reached for no more.
+  bool covered(std::uint64_t cell, double cost) const;
+
+  OmplProblem& problem_;
+  std::vector<VehicleSpace::Values> starts_;
+  std::vector<DriveNode> nodes_;  ///< of the last round
+  std::unordered_map<std::uint64_t, Cell> cells_;
+  std::priority_queue<Entry, std::vector<Entry>, Later> open_;
+  std::uint32_t pushed_ = 0;
+  BestPath best_;
+};
+
+}  // namespace regoplan

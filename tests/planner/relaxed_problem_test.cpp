@@ -1,0 +1,107 @@
+#include "planner/relaxed_problem.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "planner/closed_boxes.h"
+#include "planner/world.h"
+#include "tests/planner/planner_run.h"
+
+namespace regoplan {
+namespace {
+
+std::string certificate(const PlanningProblem& problem) {
+  return certificate_of_infeasibility(problem).value_or("");
+}
+
+/// Rocks from edge to edge but for a gap at y = 25.
+std::vector<Rock> wall_with_gap(double gap_m) {
+  std::vector<Rock> rocks;
+  for (double away = gap_m / 2 + 0.6; away < 25; away += 0.8) {
+    rocks.push_back({25, 25 - away, 0.6, 3});
+    rocks.push_back({25, 25 + away, 0.6, 3});
+  }
+  return rocks;
+}
+
+}  // namespace
+
+TEST(RelaxedProblem, OpenGroundHasNoCertificate) {
+  EXPECT_EQ(certificate(lrv_problem(one_soil_map(50, firm_regolith(), flat))), "");
+}
+
+TEST(RelaxedProblem, AClosedRingOfRocksIsCertifiedAndAGapThatTheVehicleFitsIsNot) {
+  const auto behind = [](std::vector<Rock> rocks) {
+    return certificate(lrv_problem(one_soil_map(50, firm_regolith(), flat, std::move(rocks))));
+  };
+  EXPECT_NE(behind(ring_of_rocks(40, 25, 7)).find("rocks"), std::string::npos);
+  EXPECT_NE(behind(wall_with_gap(0.8)).find("rocks"), std::string::npos);
+  EXPECT_EQ(behind(wall_with_gap(2.3)), "");  // the vehicle is 2.06 m wide
+}
+
+TEST(RelaxedProblem, RocksThatTheBodyPassesOverCloseNothing) {
+  std::vector<Rock> low = wall_with_gap(0);
+  for (Rock& rock : low) rock.height_m = 0.25;
+  EXPECT_EQ(certificate(lrv_problem(one_soil_map(50, firm_regolith(), flat, low))), "");
+}
+
+TEST(RelaxedProblem, ARampTooSteepAllRoundIsCertifiedAndOneBelowTheLimitIsNot) {
+  const auto plateau = [](double degrees) {
+    return [degrees](double x, double y) {
+      const double beyond = std::clamp(std::hypot(x - 40, y - 25) - 4, 0.0, 6.0);
+      return -std::tan(degrees * kTestDegree) * beyond;
+    };
+  };
+  PlanningProblem steep = lrv_problem(one_soil_map(50, firm_regolith(), plateau(38)));
+  EXPECT_NE(certificate(steep).find("slope"), std::string::npos);
+  PlanningProblem gentle = lrv_problem(one_soil_map(50, firm_regolith(), plateau(20)));
+  EXPECT_EQ(certificate(gentle), "");
+}
+
+TEST(RelaxedProblem, AGoalOnGroundTooSteepIsCertified) {
+  const auto cliff = [](double x, double /*y*/) { return 1.2 * std::max(0.0, x - 30); };
+  EXPECT_NE(certificate(lrv_problem(one_soil_map(50, firm_regolith(), cliff))).find("goal"),
+            std::string::npos);
+}
+
+TEST(ClosedBoxes, NoPoseOfAClosedBoxIsOneThatTheVerdictAllows) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int closed = 0;
+  for (int map = 0; map < 6; ++map) {
+    std::vector<Rock> rocks;
+    for (int i = 0; i < 30; ++i) {
+      rocks.push_back({25 + 22 * unit(random), 25 + 22 * unit(random), 0.7 + 0.5 * unit(random),
+                       1.6 + unit(random)});
+    }
+    const double relief = map;
+    const auto hills = [relief](double x, double y) {
+      return 0.5 * relief * std::sin(x / 4) * std::cos(y / 3);
+    };
+    // Start and goal play no part here.
+    const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), hills, rocks));
+    const ClosedBoxes boxes(problem);
+    const World verdict(problem, WorldUse::kVerdict, 1);
+    for (int i = 0; i < 4000; ++i) {
+      const PoseBox box{.x_m = 25 + 22 * unit(random),
+                        .y_m = 25 + 22 * unit(random),
+                        .heading_rad = std::numbers::pi * unit(random),
+                        .half_m = 0.125,
+                        .half_rad = 0.1};
+      if (!boxes.too_steep(box) && boxes.reason(box) == ClosedBoxes::Reason::kOpen) continue;
+      ++closed;
+      for (int pose = 0; pose < 10; ++pose) {
+        VehicleState state;
+        state.x_m = box.x_m + box.half_m * unit(random);
+        state.y_m = box.y_m + box.half_m * unit(random);
+        state.yaw_rad = box.heading_rad + box.half_rad * unit(random);
+        EXPECT_TRUE(verdict.rejected(state, {}, std::nullopt));
+      }
+    }
+  }
+  EXPECT_GT(closed, 300);
+}
+
+}  // namespace regoplan
