@@ -1,6 +1,7 @@
 #include "maps/ground_finder.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace regoplan {
@@ -18,6 +19,8 @@ GroundFinder::GroundFinder(const TerrainMap& map, const Vehicle& vehicle)
   for (Eigen::Index i = 0; i < count; ++i) {
     fit_[static_cast<std::size_t>(i)] = {fit(0, i), fit(1, i), fit(2, i)};
   }
+  const auto [rear, front] = std::ranges::minmax(vehicle.wheels, {}, &WheelMount::x_m);
+  wheelbase_m_ = front.x_m - rear.x_m;
 }
 
 GroundPatch GroundFinder::at(double x_m, double y_m, double yaw_rad) const {
@@ -36,6 +39,10 @@ GroundPatch GroundFinder::at(double x_m, double y_m, double yaw_rad) const {
     patch.soil[i] = static_cast<std::int16_t>(*soil);
   }
   patch.known = true;
+  const double reach_x = wheelbase_m_ * c, reach_y = wheelbase_m_ * s;
+  const double bend_m = map_.height_m(x_m + reach_x, y_m + reach_y) - 2 * map_.height_m(x_m, y_m) +
+                        map_.height_m(x_m - reach_x, y_m - reach_y);
+  if (!std::isnan(bend_m)) patch.curvature_1pm = bend_m / (wheelbase_m_ * wheelbase_m_);
   return patch;
 }
 

@@ -9,7 +9,8 @@
 namespace regoplan {
 
 /// Finds the ground under one vehicle on one map: the plane that fits the heights at its wheels'
-/// contacts best, and the soil under each. Both must outlive it; safe from many threads.
+/// contacts best, the soil under each, and the curvature along the heading over a wheelbase ahead
+/// and behind (0 where the ground there is unknown). Both must outlive it; safe from many threads.
 class GroundFinder {
  public:
   GroundFinder(const TerrainMap& map, const Vehicle& vehicle);
@@ -21,6 +22,7 @@ class GroundFinder {
   const TerrainMap& map_;
   const Vehicle& vehicle_;
   std::array<std::array<double, 3>, kMaxWheels> fit_{};  ///< height -> (z, slope forward, left)
+  double wheelbase_m_ = 0;
 };
 
 }  // namespace regoplan

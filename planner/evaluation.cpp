@@ -111,6 +111,7 @@ std::optional<CorneringLimit> cornering_limit(const World& world, const VehicleS
     return std::nullopt;
   }
   const SupplyQuestion question = question_of(dynamics, state, patch);
+  if (!(question.normal_n > 0)) return std::nullopt;
   std::vector<WheelLaw> laws;
   for (std::size_t i = 0; i < problem.vehicle.wheels.size(); ++i) {
     laws.push_back(world.soil_laws()[static_cast<std::size_t>(patch.soil.at(i))]);

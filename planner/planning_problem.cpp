@@ -92,17 +92,6 @@ WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil
 
 void validate(const PlanningProblem& problem) {
   validate(problem.vehicle);
-  if (problem.vehicle.drive_law != DriveLaw::kKinematic) {
-    throw InputError("vehicle.drive_law: only kinematic is supported so far");
-  }
-  for (const WheelMount& wheel : problem.vehicle.wheels) {
-    if (!wheel.driven) {
-      throw InputError(fmt::format(
-          "vehicle.wheels: {} is not driven; only vehicles with every wheel driven are supported "
-          "so far",
-          wheel.name));
-    }
-  }
   require("gravity_mps2", problem.gravity_mps2,
           problem.gravity_mps2 > 0 && problem.gravity_mps2 <= 100, "above 0 to 100");
   require("speed_mps.max", problem.speed_max_mps,

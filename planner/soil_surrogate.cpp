@@ -88,6 +88,7 @@ PlaceProbe::PlaceProbe(const PlanningProblem& problem, const VehicleState& state
   const VehicleDynamics dynamics(
       vehicle_, laws, [&patch](double, double, double) { return patch; }, problem.gravity_mps2);
   const SupplyQuestion question = question_of(dynamics, state, patch);
+  if (!(question.normal_n > 0)) return;  // off the ground, whatever the soil
   const SteadyManoeuvre manoeuvre = manoeuvre_of(vehicle_, dynamics.sharing(), laws, question);
   const auto add = [&](Eigen::Index number, const Trim& trim) {
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {

@@ -16,6 +16,9 @@ struct GroundPatch {
   double z_m = 0;            ///< of the plane, below the centre of gravity
   double slope_forward = 0;  ///< dz over horizontal distance, forward
   double slope_left = 0;     ///< and to the left
+  /// Of the ground along the heading, positive where it is hollow: what presses a vehicle into dips
+  /// at speed, and lifts it off crests.
+  double curvature_1pm = 0;
   std::array<std::int16_t, kMaxWheels> soil{};  ///< of each wheel, in the vehicle's order
 
   /// Angle between the plane and the horizontal.
@@ -35,15 +38,16 @@ struct PatchAxes {
 
   PatchAxes(const GroundPatch& patch, double gravity_mps2) {
     const double p = patch.slope_forward, q = patch.slope_left;
-    const double along = std::sqrt(1 + p * p);           // |(1, 0, p)|
-    const double normal = std::sqrt(1 + p * p + q * q);  // |(-p, -q, 1)|
-    gravity_forward_mps2 = -gravity_mps2 * p / along;
-    gravity_left_mps2 = -gravity_mps2 * q / (normal * along);
-    gravity_normal_mps2 = gravity_mps2 / normal;
-    forward_per_vx = 1 / along;
-    forward_per_vy = -p * q / (normal * along);
-    left_per_vy = along / normal;
-    yaw_per_turn = along * along / normal;
+    const double along = std::sqrt(1 + p * p);                   // |(1, 0, p)|
+    const double per_along = 1 / along;                          // divisions are dear
+    const double per_normal = 1 / std::sqrt(1 + p * p + q * q);  // |(-p, -q, 1)|
+    gravity_forward_mps2 = -gravity_mps2 * p * per_along;
+    gravity_left_mps2 = -gravity_mps2 * q * (per_normal * per_along);
+    gravity_normal_mps2 = gravity_mps2 * per_normal;
+    forward_per_vx = per_along;
+    forward_per_vy = -p * q * (per_normal * per_along);
+    left_per_vy = along * per_normal;
+    yaw_per_turn = along * along * per_normal;
   }
 };
 

@@ -45,7 +45,8 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
     // The slopes are dear: taken anew only where the old ones slow the convergence down.
     const bool with_slopes = !stage.newton || slows;
     const Eigen::Vector3d& v = stage.velocity;
-    const GroundReaction loads = reaction(axes, stage.transfer_forward_n, stage.transfer_left_n);
+    const GroundReaction loads =
+        reaction(stage.patch, axes, v[0], stage.transfer_forward_n, stage.transfer_left_n);
     const SlopedWheelSums sloped =
         with_slopes ? wheels_.sums_with_slopes(motion_of(v), stage.setting, stage.setting,
                                                stage.patch, loads)
@@ -173,10 +174,12 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   Stage second = run_stage(h, base, forward_base, left_base, base + kGamma * h * first.acceleration,
                            pose_end_predicted);
   if (!result.converged) return result;
-  if (!second.sums.sinkage_known) {
-    second.sums = wheels_.sums(motion_of(second.velocity), second.setting, second.patch,
-                               reaction(PatchAxes(second.patch, gravity_mps2_),
-                                        second.transfer_forward_n, second.transfer_left_n));
+  const BodyMotion motion_end = motion_of(second.velocity);
+  const GroundReaction reaction_end =
+      reaction(second.patch, PatchAxes(second.patch, gravity_mps2_), second.velocity[0],
+               second.transfer_forward_n, second.transfer_left_n);
+  if (!second.sums.strain_known) {
+    second.sums = wheels_.sums(motion_end, second.setting, second.patch, reaction_end);
   }
   const Eigen::Vector3d drift_end =
       Drift(PatchAxes(second.patch, gravity_mps2_), pose_end_predicted[2])(second.velocity);
@@ -186,7 +189,7 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   result.state = {.x_m = pose_end[0],
                   .y_m = pose_end[1],
                   .yaw_rad = wrapped_rad(pose_end[2]),
-                  .motion = motion_of(second.velocity),
+                  .motion = motion_end,
                   .curvature_1pm = end.steering.curvature_1pm,
                   .rim_speed_mps = end.rim_speed_mps,
                   .rim_acceleration_mps2 = (end.rim_speed_mps - state.rim_speed_mps) / h,
@@ -194,7 +197,7 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
                   .transfer_left_n = second.transfer_left_n,
                   .crab_rad = end.steering.crab_rad,
                   .turn_rate_rad_s = end.turn_rate_rad_s};
-  result.strain = second.sums.strain();
+  result.strain = wheels_.strain(second.sums, motion_end, second.setting, reaction_end);
   result.drive_energy_j =
       h * ((1 - kGamma) * first.sums.drive_power_w + kGamma * second.sums.drive_power_w);
   return result;

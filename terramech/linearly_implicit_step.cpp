@@ -36,8 +36,9 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
   const Eigen::Vector3d v = vector_of(state.motion);
   const Eigen::Vector3d per_force{1 / m, 1 / m, 1 / inertia};
   const Eigen::Vector2d transfer{state.transfer_forward_n, state.transfer_left_n};
-  const SlopedWheelSums first = wheels_.sums_with_slopes(
-      state.motion, setting_start, setting_end, here, reaction(axes, transfer[0], transfer[1]));
+  const SlopedWheelSums first =
+      wheels_.sums_with_slopes(state.motion, setting_start, setting_end, here,
+                               reaction(here, axes, v[0], transfer[0], transfer[1]));
   if (!first.smooth) return std::nullopt;
 
   const double gh = kGamma * h;
@@ -70,8 +71,8 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
     return result;
   }
   const PatchAxes axes2(there, gravity_mps2_);
-  const GroundReaction reaction2 = reaction(axes2, transfer2[0], transfer2[1]);
-  WheelSums second = wheels_.sums(motion_of(v2), setting_end, there, reaction2);
+  const GroundReaction reaction2 = reaction(there, axes2, v2[0], transfer2[0], transfer2[1]);
+  const WheelSums second = wheels_.sums(motion_of(v2), setting_end, there, reaction2);
   if (!second.as_commanded) return std::nullopt;
   const Eigen::Vector3d k2 =
       solve * (acceleration_of(second.force, axes2, per_force, v2) - 2 * k1 - faster);
@@ -99,8 +100,7 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
                   .transfer_forward_n = transfer_end[0],
                   .transfer_left_n = transfer_end[1],
                   .crab_rad = end.steering.crab_rad};
-  second.slips = wheels_.slips(motion_end, setting_end, reaction2);
-  result.strain = second.strain();
+  result.strain = wheels_.strain(second, motion_end, setting_end, reaction2);
   result.drive_energy_j = h / 2 * (first.sums.drive_power_w + second.drive_power_w);
   return result;
 }

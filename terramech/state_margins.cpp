@@ -11,6 +11,7 @@ std::optional<double> StateMargins::stability() const {
 }
 
 SupplyAnswer SolvedSupply::answer(const SupplyQuestion& question) const {
+  if (!(question.normal_n > 0)) return {};  // off the ground
   std::vector<WheelLaw> laws;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     laws.push_back(soil_laws_[static_cast<std::size_t>(question.patch->soil[i])]);
@@ -97,7 +98,8 @@ SupplyQuestion question_of(const VehicleDynamics& dynamics, const VehicleState& 
           .force = {.forward_n = vehicle.mass_kg * (state.rim_acceleration_mps2 - gravity_forward),
                     .left_n = cornering_demand_n(vehicle.mass_kg, speed, state.curvature_1pm,
                                                  gravity_left)},
-          .normal_n = vehicle.mass_kg * axes.gravity_normal_mps2,
+          .normal_n = vehicle.mass_kg *
+                      (axes.gravity_normal_mps2 + speed * speed * c * c * patch.curvature_1pm),
           .reverse = drives_in_reverse(state),
           .patch = &patch};
 }

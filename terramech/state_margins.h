@@ -34,8 +34,8 @@ struct StateMargins {
 struct SupplyQuestion {
   double curvature_1pm = 0;
   double crab_rad = 0;
-  PathForce force;  ///< demanded, forward and left
-  double normal_n = 0;
+  PathForce force;      ///< demanded, forward and left
+  double normal_n = 0;  ///< not above 0: off the ground
   bool reverse = false;
   int turn =
       0;  ///< on the spot: 1 to the left, -1 to the right; then the force is along the heading

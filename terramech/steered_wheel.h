@@ -82,16 +82,12 @@ inline WheelMotion wheel_motion(const WheelMount& mount, const SteeredWheel& whe
 template <class Sum, class Add>
 [[gnu::always_inline]] inline Sum sum_by_side(const Vehicle& vehicle, const Sum& zero,
                                               const Add& add) {
-  Sum total = zero;
-  for (const int side : {1, -1, 0}) {
-    Sum sum = zero;
-    for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-      const double y = vehicle.wheels[i].y_m;
-      if ((y > 0) - (y < 0) == side) add(sum, i);
-    }
-    total = total + sum;
+  Sum left = zero, right = zero, between = zero;
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const double y = vehicle.wheels[i].y_m;
+    add(y > 0 ? left : y < 0 ? right : between, i);
   }
-  return total;
+  return (left + right) + between;
 }
 
 /// Horizontal force and yaw moment on the vehicle's origin, body frame.

@@ -14,7 +14,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kBentIntervals = 6, kOuterIntervals = 8;  // of curvature, either side
 constexpr std::size_t kCurvatures = 2 * (kBentIntervals + kOuterIntervals) + 1;
 constexpr std::size_t kForces = 33;
-constexpr std::size_t kNormals = 2;
+constexpr std::size_t kNormals = 3;
+constexpr double kHollow = 0.35;        // of the weight, that dips add to the loads and crests take
 constexpr double kCheckedForce = 0.45;  // over the normal load: what steady manoeuvres come to
 constexpr double kForceMax = 0.7;       // over the normal load; steeper than tan of any slope limit
 
@@ -69,10 +70,7 @@ SupplyTable::SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const Trim
   for (std::size_t i = 0; i < kForces; ++i) {
     forces_.push_back(kForceMax * (2 * static_cast<double>(i) / (kForces - 1) - 1));
   }
-  const double least = std::cos(tilt_max_rad);
-  for (std::size_t i = 0; i < kNormals; ++i) {
-    normals_.push_back(least + (1 - least) * static_cast<double>(i) / (kNormals - 1));
-  }
+  normals_ = {std::cos(tilt_max_rad) - kHollow, 1, 1 + kHollow};
 
   const bool mirrors = is_mirror_symmetric(vehicle);
   const std::size_t count = kCurvatures * kForces * kNormals;
@@ -105,54 +103,59 @@ SupplyTable::SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const Trim
     left_[i] = -right_[same_force];
     traction_[i] = traction_[opposite_force];
   }
-  error_bounds_.resize(kCurvatures - 1);
+  std::vector<std::vector<double>> excess(kCurvatures - 1);
   const std::size_t middle = (kCurvatures - 1) / 2;
   share_out(kCurvatures - 1 - (mirrors ? middle : 0), threads, [&](std::size_t number) {
     const std::size_t interval = (mirrors ? middle : 0) + number;
-    error_bounds_[interval] = measured_error(vehicle, sharing, laws, limits, interval);
+    excess[interval] = excesses(vehicle, sharing, laws, limits, interval);
   });
-  for (std::size_t i = 0; mirrors && i < middle; ++i) {
-    error_bounds_[i] = error_bounds_[kCurvatures - 2 - i];
+  for (std::size_t i = 0; mirrors && i < middle; ++i) excess[i] = excess[kCurvatures - 2 - i];
+
+  double most = 0;
+  for (const auto& of_interval : excess) {
+    for (const double one : of_interval) most = std::max(most, one);
   }
+  constexpr double kReserve = 1.5;
+  overestimate_bound_ = kReserve * most;
+  std::vector<double> losses;
+  for (const auto& of_interval : excess) {
+    for (const double one : of_interval) losses.push_back(overestimate_bound_ - one);
+  }
+  if (losses.empty()) return;  // no supply anywhere
+  std::sort(losses.begin(), losses.end());
+  loss_ = {.median = losses[losses.size() / 2], .at_99_percent = losses[losses.size() * 99 / 100]};
 }
 
-double SupplyTable::measured_error(const Vehicle& vehicle, const LoadSharing& sharing,
-                                   std::span<const WheelLaw> laws, const TrimLimits& limits,
-                                   std::size_t interval) const {
+std::vector<double> SupplyTable::excesses(const Vehicle& vehicle, const LoadSharing& sharing,
+                                          std::span<const WheelLaw> laws, const TrimLimits& limits,
+                                          std::size_t interval) const {
   std::mt19937_64 random(20040928 + interval);
   std::uniform_real_distribution<double> unit(0, 1);
-  double worst = 0;
+  std::vector<double> excesses;
   for (int i = 0; i < kChecksPerInterval; ++i) {
     const double curvature =
         std::lerp(curvatures_1pm_[interval], curvatures_1pm_[interval + 1], unit(random));
-    const double normal = weight_n_ * std::lerp(normals_[0], 1.0, unit(random));
+    const double normal = weight_n_ * std::lerp(normals_.front(), normals_.back(), unit(random));
     const double force = kCheckedForce * (2 * unit(random) - 1) * normal;
     const SteadyManoeuvre manoeuvre(vehicle, sharing, laws, curvature, normal);
     const auto tabled = interpolated_supply(curvature, force, normal);
     const SupplyResult solved = cornering_supply(manoeuvre, force, limits);
     if (tabled && solved.supply) {
-      worst = std::max({worst, std::abs(tabled->right_n - solved.supply->right.force_n) / normal,
-                        std::abs(tabled->left_n - solved.supply->left.force_n) / normal});
+      excesses.push_back((tabled->left_n - solved.supply->left.force_n) / normal);
+      excesses.push_back((solved.supply->right.force_n - tabled->right_n) / normal);
     }
     const auto tabled_traction = interpolated_traction_n(curvature, force, normal);
     const auto traction = largest_traction_n(manoeuvre, {.forward_n = 0, .left_n = force}, limits);
-    if (tabled_traction && traction) {
-      worst = std::max(worst, std::abs(*tabled_traction - *traction) / normal);
-    }
+    if (tabled_traction && traction) excesses.push_back((*tabled_traction - *traction) / normal);
   }
-  return worst;
-}
-
-double SupplyTable::error_bound(double curvature_1pm) const {
-  const auto cell = locate(curvatures_1pm_, curvature_1pm);
-  return cell ? error_bounds_[cell->low] : std::numeric_limits<double>::infinity();
+  return excesses;
 }
 
 std::optional<SupplyInterval> SupplyTable::supply(double curvature_1pm, double forward_n,
                                                   double normal_n) const {
   const auto interval = interpolated_supply(curvature_1pm, forward_n, normal_n);
   if (!interval) return std::nullopt;
-  const double bound = error_bound(curvature_1pm) * normal_n;
+  const double bound = overestimate_bound_ * normal_n;
   return SupplyInterval{.right_n = interval->right_n + bound, .left_n = interval->left_n - bound};
 }
 
@@ -160,7 +163,7 @@ std::optional<double> SupplyTable::traction_n(double curvature_1pm, double left_
                                               double normal_n) const {
   const auto traction = interpolated_traction_n(curvature_1pm, left_n, normal_n);
   if (!traction) return std::nullopt;
-  return *traction - error_bound(curvature_1pm) * normal_n;
+  return *traction - overestimate_bound_ * normal_n;
 }
 
 std::optional<SupplyTable::Cell> SupplyTable::locate(const std::vector<double>& nodes,

@@ -60,9 +60,11 @@ WheelSetting VehicleDynamics::setting(const Commands& commands) const {
           .rim_speed = commands.rim_speed_mps};
 }
 
-GroundReaction VehicleDynamics::reaction(const PatchAxes& axes, double transfer_forward_n,
+GroundReaction VehicleDynamics::reaction(const GroundPatch& patch, const PatchAxes& axes,
+                                         double vx_mps, double transfer_forward_n,
                                          double transfer_left_n) const {
-  return {.normal_n = vehicle_.mass_kg * axes.gravity_normal_mps2,
+  return {.normal_n =
+              vehicle_.mass_kg * (axes.gravity_normal_mps2 + vx_mps * vx_mps * patch.curvature_1pm),
           .forward_n = transfer_forward_n,
           .left_n = transfer_left_n};
 }

@@ -51,7 +51,8 @@ struct StepResult {
 
 /// Planar rigid-body dynamics of a vehicle on its terrain, with the wheel model's forces at every
 /// wheel: loads by `LoadSharing`, slip ratio and slip angle by rigid-body kinematics at the
-/// contact, soil of the map under each wheel.
+/// contact, soil of the map under each wheel. The loads' sum is m (g_n + vx^2 k) on ground of
+/// curvature k along the heading; where that is not above 0, the wheels have no forces.
 ///
 ///   m (dvx/dt - vy r) = sum Fx + m g_x,  m (dvy/dt + vx r) = sum Fy + m g_y,  I dr/dt = sum M
 ///
@@ -102,8 +103,8 @@ class VehicleDynamics {
   Commands commands_after(const VehicleState& state, const VehicleControl& control,
                           double duration_s) const;
   WheelSetting setting(const Commands& commands) const;
-  GroundReaction reaction(const PatchAxes& axes, double transfer_forward_n,
-                          double transfer_left_n) const;
+  GroundReaction reaction(const GroundPatch& patch, const PatchAxes& axes, double vx_mps,
+                          double transfer_forward_n, double transfer_left_n) const;
   std::optional<StepResult> linearly_implicit_step(const VehicleState& state,
                                                    const VehicleControl& control,
                                                    double duration_s) const;

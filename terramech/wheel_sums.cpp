@@ -12,25 +12,27 @@ namespace {
 
 constexpr double kStandstill = VehicleWheels::kStandstillSpeed_mps;
 
-double length(double a, double b) {
-  return std::sqrt(a * a + b * b);
-}
+/// What makes forces vanish with the speed that they oppose, v/(v + kStandstill), and its slope
+/// over the speed. One division: they are most of the cost.
+struct Fade {
+  double value, slope_per_speed;
 
-/// What makes forces vanish with the speed that they oppose.
-double fade(double speed_mps) {
-  return speed_mps / (speed_mps + kStandstill);
-}
-
-double fade_slope(double speed_mps) {
-  const double whole = speed_mps + kStandstill;
-  return kStandstill / (whole * whole);
-}
+  /// \param a_mps, b_mps components of the speed
+  Fade(double a_mps, double b_mps) {
+    const double speed = std::sqrt(a_mps * a_mps + b_mps * b_mps), whole = speed + kStandstill;
+    constexpr double kLeast = 1e-300;  // at rest all of it is 0
+    const double per_both = 1 / std::max(speed * whole, kLeast);
+    const double per_whole = speed * per_both;
+    value = speed * per_whole;
+    slope_per_speed = kStandstill * per_whole * per_both;
+  }
+};
 
 inline WheelForces faded(const WheelLaw& law, double load_n, const WheelMotion& at) {
   WheelForces forces = law.forces(load_n, at);
-  const double fade_x = fade(length(at.vx_mps, at.rim_speed_mps));
+  const double fade_x = Fade(at.vx_mps, at.rim_speed_mps).value;
   forces.fx_n *= fade_x;
-  forces.fy_n *= fade(length(at.vy_mps, at.rim_speed_mps));
+  forces.fy_n *= Fade(at.vy_mps, at.rim_speed_mps).value;
   forces.torque_nm *= fade_x;
   return forces;
 }
@@ -62,11 +64,10 @@ SlopedForces forces_with_slopes(const WheelLaw& law, double load_n, const WheelM
 WheelSlopes faded_slopes(const WheelLaw& law, double load_n, const WheelMotion& at) {
   const SlopedForces forces = forces_with_slopes(law, load_n, at);
   const SlopedForce &fx = forces.fx, &fy = forces.fy;
-  const double along = length(at.vx_mps, at.rim_speed_mps);
-  const double across = length(at.vy_mps, at.rim_speed_mps);
-  const double fade_x = fade(along), fade_y = fade(across);
-  const double bend_x = fx.value_n * fade_slope(along) / along;
-  const double bend_y = fy.value_n * fade_slope(across) / across;
+  const Fade along(at.vx_mps, at.rim_speed_mps), across(at.vy_mps, at.rim_speed_mps);
+  const double fade_x = along.value, fade_y = across.value;
+  const double bend_x = fx.value_n * along.slope_per_speed;
+  const double bend_y = fy.value_n * across.slope_per_speed;
   return {.x = fx.value_n * fade_x,
           .y = -fy.value_n * fade_y,
           .x_by_vx = fx.by_vx_nspm * fade_x + bend_x * at.vx_mps,
@@ -76,8 +77,7 @@ WheelSlopes faded_slopes(const WheelLaw& law, double load_n, const WheelMotion& 
           .y_by_vy = -fy.by_vy_nspm * fade_y - bend_y * at.vy_mps,
           .y_by_rim = -fy.by_rim_speed_nspm * fade_y - bend_y * at.rim_speed_mps,
           .torque_nm = forces.torque_nm * fade_x,
-          .rim_speed_mps = at.rim_speed_mps,
-          .status = forces.status};
+          .rim_speed_mps = at.rim_speed_mps};
 }
 
 double within(const std::optional<double>& limit, double value) {
@@ -236,7 +236,7 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
     of_side.force.add(mount, wheel, forces);
     add_contact(sums.contact, vehicle_.wheel.radius_m, forces.status, forces.sinkage_m,
                 forces.torque_nm);
-    sums.slips.add(at);
+    sums.rim_speed_mps.at(i) = at.rim_speed_mps;
     of_side.drive_power_w +=
         std::max(forces.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
   });
@@ -266,10 +266,8 @@ WheelSlopes VehicleWheels::slopes_by_differences(std::size_t wheel, const WheelL
                 .y_by_vx = (here.forces.fy_n - ahead.fy_n) / hx,
                 .y_by_vy = (here.forces.fy_n - aside.fy_n) / hy,
                 .torque_nm = here.forces.torque_nm,
-                .sinkage_m = here.forces.sinkage_m,
                 .rim_speed_mps = here.rim_speed_mps,
-                .as_commanded = here.as_commanded,
-                .status = here.forces.status};
+                .as_commanded = here.as_commanded};
   if (here.as_commanded && at.rim_speed_mps != 0) {
     // Forces depend on ratios of speeds only, but for the little they fade.
     f.x_by_rim = -(at.vx_mps * f.x_by_vx + at.vy_mps * f.x_by_vy) / at.rim_speed_mps;
@@ -303,7 +301,7 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     return result;
   }
   WheelSums& sums = result.sums;
-  sums.contact.load_min_n = reaction.normal_n;
+  sums.strain_known = false;
   const bool changes = &next != &setting;
   struct OfSide {
     BodyForce force, by_setting;
@@ -316,7 +314,6 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
   };
   const OfSide sum = sum_by_side(vehicle_, OfSide{}, [&](OfSide& of_side, std::size_t i) {
     const double load = sharing_.load_n(i, reaction);
-    sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
     if (!(load > 0)) return;
     const WheelMount& mount = vehicle_.wheels[i];
     const SteeredWheel& wheel = setting.wheels[i];
@@ -328,7 +325,6 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     if (as_commanded && law.has_slopes()) {
       f = faded_slopes(law, load, at);
       as_commanded = within(vehicle_.torque_max_nm, f.torque_nm) == f.torque_nm;
-      sums.sinkage_known = false;
     }
     if (!as_commanded || !law.has_slopes()) [[unlikely]] {
       f = slopes_by_differences(i, law, load, at);
@@ -349,8 +345,6 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
           on_body(mount, wheel, f.x_by_vx * vx + f.x_by_vy * vy + f.x_by_rim * faster - f.y * turn,
                   f.y_by_vx * vx + f.y_by_vy * vy + f.y_by_rim * faster + f.x * turn);
     }
-    add_contact(sums.contact, vehicle_.wheel.radius_m, f.status, f.sinkage_m, f.torque_nm);
-    sums.slips.add(at);
     of_side.drive_power_w +=
         std::max(f.torque_nm * at.rim_speed_mps / vehicle_.wheel.radius_m, 0.0);
   });
@@ -363,16 +357,19 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
   return result;
 }
 
-LargestSlips VehicleWheels::slips(const BodyMotion& motion, const WheelSetting& setting,
+WheelStrain VehicleWheels::strain(const WheelSums& sums, const BodyMotion& motion,
+                                  const WheelSetting& setting,
                                   const GroundReaction& reaction) const {
   LargestSlips slips;
   for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
     if (!(sharing_.load_n(i, reaction) > 0)) continue;
-    const SteeredWheel& wheel = setting.wheels[i];
-    slips.add(wheel_motion(vehicle_.wheels[i], wheel, motion,
-                           setting.rim_speed * wheel.rim_speed_per_speed));
+    slips.add(
+        wheel_motion(vehicle_.wheels[i], setting.wheels[i], motion, sums.rim_speed_mps.at(i)));
   }
-  return slips;
+  WheelStrain strain = sums.contact;
+  strain.slip = slips.slip();
+  strain.slip_angle_rad = slips.slip_angle_rad();
+  return strain;
 }
 
 }  // namespace regoplan

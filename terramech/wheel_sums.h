@@ -59,24 +59,16 @@ struct WheelSetting {
 /// The forces of all wheels on a moving vehicle, body frame.
 struct WheelSums {
   BodyForce force;
-  WheelStrain contact;  ///< but for the slips
-  LargestSlips slips;
+  WheelStrain contact;                             ///< but for the slips
+  std::array<double, kMaxWheels> rim_speed_mps{};  ///< at which the wheels turn
   double drive_power_w = 0;  ///< torque times turning rate of the wheels that drive
   bool as_commanded = true;  ///< every wheel turns at its commanded speed
-  /// Laws that have slopes leave the sinkage out when they give them.
-  bool sinkage_known = true;
-
-  WheelStrain strain() const {
-    WheelStrain strain = contact;
-    strain.slip = slips.slip();
-    strain.slip_angle_rad = slips.slip_angle_rad();
-    return strain;
-  }
+  bool strain_known = true;  ///< `contact` and `rim_speed_mps` are filled in
 };
 
 /// With slopes.
 struct SlopedWheelSums {
-  WheelSums sums;
+  WheelSums sums;                                    ///< without strain, but under equal torque
   Eigen::Matrix3d slopes = Eigen::Matrix3d::Zero();  ///< by (vx, vy, yaw rate), loads held
   /// Change of the force on the way to the next setting, to first order.
   Eigen::Vector3d by_setting = Eigen::Vector3d::Zero();
@@ -90,10 +82,9 @@ struct WheelSlopes {
   double x = 0, y = 0;
   double x_by_vx = 0, x_by_vy = 0, x_by_rim = 0;
   double y_by_vx = 0, y_by_vy = 0, y_by_rim = 0;
-  double torque_nm = 0, sinkage_m = 0;
+  double torque_nm = 0;
   double rim_speed_mps = 0;  ///< at which it turns
   bool as_commanded = true;  ///< which is its commanded speed
-  WheelStatus status = WheelStatus::kOk;
 };
 
 /// The wheels of a vehicle, each on its soil: the wheel model's forces at the motion of each
@@ -115,8 +106,8 @@ class VehicleWheels {
                                    const WheelSetting& next, const GroundPatch& patch,
                                    const GroundReaction& reaction) const;
 
-  /// Largest slips, from the motion alone, where rims turn at their commanded speeds.
-  LargestSlips slips(const BodyMotion& motion, const WheelSetting& setting,
+  /// The strains of sums, with the slips that their rims have at a motion.
+  WheelStrain strain(const WheelSums& sums, const BodyMotion& motion, const WheelSetting& setting,
                      const GroundReaction& reaction) const;
 
   const LoadSharing& sharing() const { return sharing_; }

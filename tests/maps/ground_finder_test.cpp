@@ -47,6 +47,17 @@ double sloping(double x, double y) {
   return 3 + 0.25 * x - 0.125 * y;
 }
 
+TEST(GroundFinder, TellsTheCurvatureAlongTheHeading) {
+  // A trough along y: hollow for who crosses it, straight for who follows it.
+  const TerrainMap map = map_with([](double x, double) { return 0.02 * x * x; });
+  const Vehicle vehicle = preset_vehicle("lrv");
+  const GroundFinder finder(map, vehicle);
+  EXPECT_NEAR(finder.at(0, 0, 0).curvature_1pm, 0.04, 0.002);
+  EXPECT_NEAR(finder.at(0, 0, 180 * kDegree).curvature_1pm, 0.04, 0.002);
+  EXPECT_NEAR(finder.at(0, 0, 90 * kDegree).curvature_1pm, 0, 1e-5);
+  EXPECT_NEAR(GroundFinder(map_with(sloping), vehicle).at(1, 2, 0.4).curvature_1pm, 0, 1e-5);
+}
+
 TEST(GroundFinder, ReproducesAPlaneAtEveryHeading) {
   const TerrainMap map = map_with(sloping);
   std::mt19937_64 random(4);

@@ -61,6 +61,20 @@ TEST_P(EveryPlanner, FindsAVerifiedPathAcrossOpenGround) {
 INSTANTIATE_TEST_SUITE_P(All, EveryPlanner, testing::ValuesIn(planner_names()),
                          [](const auto& planner) { return planner.param; });
 
+TEST(Plan, SearchesUnderEveryDriveLawAndWithWheelsThatRollFreely) {
+  for (const auto change : {+[](Vehicle& v) { v.drive_law = DriveLaw::kEqualSpeed; },
+                            +[](Vehicle& v) { v.drive_law = DriveLaw::kEqualTorque; },
+                            +[](Vehicle& v) { v.wheels[0].driven = v.wheels[1].driven = false; }}) {
+    PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+    change(problem.vehicle);
+    problem.goal.x_m = 25;
+    problem.search.iterations = 300;
+    const PlanResult result = planned(problem);
+    ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+    EXPECT_TRUE(result.candidates.front().verified.passed);
+  }
+}
+
 TEST(Plan, SameSeedAndIterationsGiveTheSameBitsWithAnyNumberOfThreads) {
   PlanningProblem problem = lrv_problem(
       one_soil_map(50, firm_regolith(),

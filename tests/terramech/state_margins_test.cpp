@@ -256,6 +256,26 @@ TEST(StateMargins, OfATurnOnTheSpotEndWhereScrubIsBeyondTheWheels) {
   EXPECT_LT(traction(vehicle), 0);  // no trim: dragged at 51 deg, it spins
 }
 
+TEST(StateMargins, DipsPressAndCrestsLift) {
+  const Driving lrv("lrv");
+  const VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 3, 0.05);
+  const auto margins = [&](double curvature_1pm) {
+    GroundPatch patch = patch_with(0, 0);
+    patch.curvature_1pm = curvature_1pm;
+    const SupplyQuestion asked = lrv.question(state, patch);
+    EXPECT_NEAR(asked.normal_n, 700 * (kMoon_mps2 + 9 * curvature_1pm), 1e-9);
+    return margins_of(lrv.dynamics, lrv.polygon, asked, lrv.supply.answer(asked));
+  };
+  const StateMargins flat = margins(0), dip = margins(0.04), crest = margins(-0.08);
+  EXPECT_GT(*dip.cornering, *flat.cornering);
+  EXPECT_GT(dip.tip_over, flat.tip_over);
+  EXPECT_LT(*crest.cornering, *flat.cornering - 0.1);
+  EXPECT_LT(crest.tip_over, flat.tip_over - 0.1);
+  const StateMargins off = margins(-0.2);  // more than gravity holds
+  EXPECT_EQ(off.tip_over, -1);
+  EXPECT_FALSE(off.stability());
+}
+
 TEST(Demand, OfAVehicleAtRestIsReverseWhereItIsToReverse) {
   const Driving lrv("lrv");
   VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 0, 0.1);

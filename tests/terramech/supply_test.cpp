@@ -209,6 +209,65 @@ TEST(CorneringSupply, CollapsesBeyondASlipOfSixTenths) {
   }
 }
 
+/// A whole vehicle, straight ahead, its body at a slip angle and its rims at a slip: the trim that
+/// has them, whatever forces along the path balance it. Steering balances the yaw moment.
+Trim held_trim(const VehicleOnSoil& on, double slip, double slip_angle_rad) {
+  const SteadyManoeuvre manoeuvre = on.manoeuvre(0);
+  ForceLine line{};
+  // Scales of the unknowns.
+  const double per_angle = 1 / manoeuvre.trim({1, 0, 0, 0}, line).body_slip_angle_rad;
+  const double per_drive = 1 / (manoeuvre.trim({0, 0, 1, 0}, line).drive_factor - 1);
+  SteadyManoeuvre::Point at{-slip_angle_rad * per_angle, 0, slip / (1 - slip) * per_drive, 0};
+  const double c = std::cos(slip_angle_rad), s = -std::sin(slip_angle_rad);
+  for (int i = 0; i < 300; ++i) {
+    const auto missing = manoeuvre.residual(at, line);
+    EXPECT_TRUE(missing);
+    if (!missing) return {};
+    line.from.forward_n += (c * (*missing)[0] + s * (*missing)[1]) * on.weight_n();
+    line.from.left_n += (c * (*missing)[1] - s * (*missing)[0]) * on.weight_n();
+    if (missing->head<2>().norm() > 1e-3) continue;  // the loads settle first
+    SteadyManoeuvre::Point turned = at;
+    turned[1] += 1e-3;
+    const double slope = ((*manoeuvre.residual(turned, line))[2] - (*missing)[2]) / 1e-3;
+    at[1] -= std::clamp((*missing)[2] / slope, -0.05, 0.05);
+  }
+  EXPECT_LT(manoeuvre.residual(at, line)->cwiseAbs().maxCoeff(), 1e-6);
+  return manoeuvre.trim(at, line);
+}
+
+TEST(CorneringSupply, OfTrimsAtOneSlipAngleCollapsesBeyondASlipOfSixTenths) {
+  // Not Curiosity: the pull of so much slip would lift wheels off its bogies.
+  for (const char* name : {"lrv", "tohoku"}) {
+    const VehicleOnSoil on(name);
+    const auto side_n = [&](double slip) { return held_trim(on, slip, 16 * kDegree).force.left_n; };
+    const double at_six_tenths = side_n(0.6);
+    EXPECT_GT(at_six_tenths, 0.1 * on.weight_n()) << name;
+    double before = at_six_tenths;
+    for (const double slip : {0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95}) {
+      const double now = side_n(slip);
+      EXPECT_LT(now, before) << name << slip;
+      before = now;
+    }
+    EXPECT_LT(before, 0.6 * at_six_tenths) << name;
+  }
+}
+
+TEST(CorneringSupply, OfTrimsAtOneSlipOverturnsMoreEasilyAtLargerSlipAngles) {
+  for (const std::string& name : preset_vehicle_names()) {
+    const VehicleOnSoil on(name);
+    const SupportPolygon polygon(on.vehicle);
+    double before = 1;
+    for (const double angle_deg : {2.0, 4.0, 8.0, 12.0, 16.0, 20.0, 24.0}) {
+      const Trim trim = held_trim(on, 0.2, angle_deg * kDegree);
+      const double margin =
+          polygon.tip_over_margin({.normal_n = on.weight_n(), .left_n = trim.force.left_n});
+      EXPECT_LT(margin, before) << name << angle_deg;
+      before = margin;
+    }
+    EXPECT_LT(before, 0.85) << name;
+  }
+}
+
 TEST(CorneringSupply, LargerSlipAnglesOverturnMoreEasily) {
   // What the soil gives sideways at a larger slip angle brings a vehicle nearer to tipping over.
   const VehicleOnSoil on("lrv");

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -311,6 +312,76 @@ TEST(Trim, IsTheLinearBicycleModelAtSmallAngles) {
       mean_slip_angle += wheel.slip_angle_rad / static_cast<double>(trim.wheels.size());
     }
     EXPECT_NEAR(-stiffness * mean_slip_angle, left_n, 0.02 * left_n) << name;
+  }
+}
+
+/// Slip angle of each wheel in the linear bicycle model of a turn: small angles, every wheel's side
+/// force its stiffness times its slip angle b + k x - s (x - x_c), s where it steers. Body slip b
+/// and steering s balance the lateral force and the yaw moment,
+/// with what the wheels' pull turns: loaded unevenly by the turn, one side pulls more.
+std::vector<double> bicycle_slip_angles(const Vehicle& vehicle,
+                                        const std::vector<double>& stiffness, double k,
+                                        double left_n, double pull_yaw_nm) {
+  double force_b = 0, force_s = 0, force_0 = 0;
+  double moment_b = 0, moment_s = 0, moment_0 = -pull_yaw_nm;
+  const auto steers = [&](const WheelMount& wheel) {
+    return wheel.steered ? wheel.x_m - vehicle.turn_centre_x_m : 0;
+  };
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const double c = stiffness[i], x = vehicle.wheels[i].x_m, to_s = -steers(vehicle.wheels[i]);
+    force_b += c;
+    force_s += c * to_s;
+    force_0 += c * k * x;
+    moment_b += c * x;
+    moment_s += c * x * to_s;
+    moment_0 += c * k * x * x;
+  }
+  const double right = -left_n - force_0, det = force_b * moment_s - force_s * moment_b;
+  const double b = (right * moment_s + force_s * moment_0) / det;
+  const double s = (-force_b * moment_0 - moment_b * right) / det;
+  std::vector<double> angles;
+  for (const WheelMount& wheel : vehicle.wheels) {
+    angles.push_back(b + k * wheel.x_m - s * steers(wheel));
+  }
+  return angles;
+}
+
+TEST(Trim, IsTheLinearBicycleModelInGentleTurns) {
+  std::vector<Vehicle> vehicles;
+  for (const std::string& name : preset_vehicle_names()) vehicles.push_back(preset_vehicle(name));
+  // Weight on the nose and on the tail: under- and oversteer.
+  for (const double shift_m : {-0.3, 0.3}) {
+    vehicles.push_back(preset_vehicle("lrv"));
+    for (WheelMount& wheel : vehicles.back().wheels) wheel.x_m += shift_m;
+    vehicles.back().turn_centre_x_m = shift_m;
+    vehicles.back().cg_height_m = 0.3;
+  }
+  for (const Vehicle& vehicle : vehicles) {
+    const VehicleOnSoil on(vehicle, firm_regolith(), home_gravity_mps2(vehicle.name));
+    for (const double k : {2e-3, -2e-3}) {
+      const double left_n = std::copysign(4e-3, k) * on.weight_n();
+      const Trim trim = trim_of(on.manoeuvre(k), 0, left_n);
+      std::vector<double> stiffness;
+      double pull_yaw_nm = 0;
+      for (std::size_t i = 0; i < trim.wheels.size(); ++i) {
+        pull_yaw_nm -= vehicle.wheels[i].y_m * trim.wheels[i].forces.fx_n;
+      }
+      for (const TrimmedWheel& wheel : trim.wheels) {
+        constexpr double kStep_rad = 1e-4;
+        const auto fy = [&](double beta) {
+          return on.model.forces(wheel.load_n, motion_at(wheel.slip, beta)).fy_n;
+        };
+        stiffness.push_back((fy(kStep_rad) - fy(-kStep_rad)) / (2 * kStep_rad));
+      }
+      const std::vector<double> angles =
+          bicycle_slip_angles(vehicle, stiffness, k, left_n, pull_yaw_nm);
+      double largest = 0;
+      for (const double angle : angles) largest = std::max(largest, std::abs(angle));
+      for (std::size_t i = 0; i < angles.size(); ++i) {
+        EXPECT_NEAR(trim.wheels[i].slip_angle_rad, angles[i], 0.02 * largest)
+            << vehicle.name << ' ' << vehicle.wheels[i].name << ' ' << k;
+      }
+    }
   }
 }
 

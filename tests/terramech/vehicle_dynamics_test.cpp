@@ -360,6 +360,25 @@ TEST(VehicleDynamics, TellsTheStrainOfItsWheels) {
               rover.on.weight_n() * std::cos(15 * kDegree) / 4 - transfer, 0.5);
 }
 
+TEST(VehicleDynamics, WheelsCarryMoreInDipsAndLessOnCrests) {
+  const VehicleOnSoil on("lrv");
+  for (const double curvature : {0.05, 0.0, -0.05}) {
+    const VehicleDynamics dynamics(
+        on.vehicle, on.soil_laws,
+        [&](double, double, double) {
+          GroundPatch patch = patch_with(0, 0);
+          patch.curvature_1pm = curvature;
+          return patch;
+        },
+        on.gravity_mps2);
+    StepResult result{.state = dynamics.rolling_state(0, 0, 0, 3), .strain = {}};
+    for (int i = 0; i < 30; ++i) result = dynamics.step(result.state, {3, 0}, 0.1);
+    const double v = result.state.motion.vx_mps;
+    const double load = on.vehicle.mass_kg * (on.gravity_mps2 + v * v * curvature) / 4;
+    EXPECT_NEAR(result.strain.load_min_n, load, 0.01 * load) << curvature;
+  }
+}
+
 TEST(VehicleDynamics, ACrabbingVehicleMovesAsideWithoutTurning) {
   Vehicle vehicle = preset_vehicle("tohoku");
   vehicle.steering = Steering::kCrab;
