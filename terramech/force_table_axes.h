@@ -32,11 +32,14 @@ inline constexpr double kBrakingEnd = slip_share(1 / (1 - kSlipMaxBraking), kBra
 /// By `driving`.
 inline constexpr std::array<double, 2> kBend{kBrakingBend, kDrivingBend};
 inline constexpr std::array<double, 2> kEnd{kBrakingEnd, kDrivingEnd};
-/// Where the wheel model is trusted (WheelStatus), but for rounding.
-inline constexpr std::array<double, 2> kTrusted{
-    slip_share(10.0, kBrakingBend, kBrakingEnd) * (1 + 1e-9),
-    slip_share(0.05, kDrivingBend, kDrivingEnd) * (1 + 1e-9)};
-inline constexpr double kTrustedTangent = 1.7320508075688772 * (1 + 1e-9);
+/// Where the wheel model is trusted (WheelStatus), but for the rounding of floats.
+constexpr float rounded_up(double value) {
+  return static_cast<float>(value * (1 + 2e-7));
+}
+inline constexpr std::array<float, 2> kTrusted{
+    rounded_up(slip_share(10.0, kBrakingBend, kBrakingEnd)),
+    rounded_up(slip_share(0.05, kDrivingBend, kDrivingEnd))};
+inline constexpr float kTrustedTangent = rounded_up(1.7320508075688772);
 
 struct Axes {
   double load_min_n = 0, load_max_n = 0;

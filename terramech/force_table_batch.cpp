@@ -22,7 +22,7 @@ constexpr std::size_t kSide = 8;  // states side by side
 /// Eight states made ready for their sums.
 struct Ready {
   std::array<Eight, 4> by_load, by_slip, by_lateral;
-  std::array<Eight, 3> first;  ///< of the coefficients along each axis
+  std::array<vector_math::Ints<Eight>, 3> first;  ///< of the coefficients along each axis
   vector_math::Ints<Eight> driving, inside;
 };
 
@@ -65,7 +65,8 @@ struct Ready {
   Eight slip;
   for (std::size_t lane = 0; lane < kSide; ++lane) slip[lane] = std::sqrt(share[lane]);
   const auto along = [&](Axis axis, Eight at) {
-    return weights(at * values.intervals[axis], Eight{} + values.intervals[axis]);
+    const std::int32_t intervals = values.intervals[axis];
+    return weights(at * static_cast<float>(intervals), vector_math::Ints<Eight>{} + intervals);
   };
   const Weights<Eight> by_load = along(kLoad, log_load * values.loads_per_log);
   const Weights<Eight> by_slip = along(kSlip, slip), by_lateral = along(kLateral, lateral);
@@ -112,7 +113,7 @@ REGOPLAN_VECTOR_CLONES std::vector<PlaneForces> ForceTable::plane_forces(
         continue;
       }
       const auto first = [&](Axis axis) {
-        return static_cast<std::size_t>(static_cast<std::int32_t>(ready.first[axis][lane]));
+        return static_cast<std::size_t>(ready.first[axis][lane]);
       };
       const Block at{.first = values_.coefficients.data() +
                               values_.side[static_cast<std::size_t>(ready.driving[lane] & 1)] +

@@ -16,6 +16,8 @@ namespace {
 
 using namespace force_table;
 
+constexpr double kLowestShare = 0.02, kHighestShare = 3;  // of the nominal load
+
 /// Whether the model carries a load at every motion that a table covers, and at full side slip.
 bool carries(const WheelModel& model, double load_n) {
   constexpr int kSteps = 8;
@@ -31,7 +33,6 @@ bool carries(const WheelModel& model, double load_n) {
 }
 
 Axes axes_of(const WheelModel& model, double nominal_load_n) {
-  constexpr double kLowestShare = 0.02, kHighestShare = 3;
   constexpr double kMargin = 1.1, kStep = 0.9;
   Axes axes{.load_min_n = kLowestShare * nominal_load_n,
             .load_max_n = kHighestShare * nominal_load_n};
@@ -103,13 +104,21 @@ ForceTable::ForceTable(const ForceTableSpec& spec) : spec_(spec), direct_(spec.m
   named.generic.reset();
   const WheelModel model(named);
   Axes axes = axes_of(model, spec.nominal_load_n);
+  if (!(axes.load_max_n > 2 * axes.load_min_n)) {
+    throw InputError(
+        fmt::format("no force table of this wheel on this soil: no loads from {:.3g} to {:.3g} N "
+                    "are carried at "
+                    "every slip from -{} to {}",
+                    kLowestShare * spec.nominal_load_n, kHighestShare * spec.nominal_load_n,
+                    kSlipMaxBraking, kSlipMaxDriving));
+  }
   const ConstantShares constant =
       constant_shares(model, std::sqrt(axes.load_min_n * axes.load_max_n));
   // What is asked holds for other states than those of the check as well.
   constexpr double kReserve = 0.85;
   const TableAccuracy accuracy{.at_999_permille = kReserve * spec.accuracy.at_999_permille,
                                .at_worst = kReserve * spec.accuracy.at_worst};
-  constexpr int kShrinkings = 5;
+  constexpr int kShrinkings = 3;
   for (int i = 0; i < kShrinkings && axes.load_max_n > 2 * axes.load_min_n; ++i) {
     if (refine(model, axes, constant, accuracy)) return;
     axes = with_fewer_loads(axes);

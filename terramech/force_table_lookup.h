@@ -20,17 +20,19 @@ using vector_math::Vec;
 template <class Floats>
 struct Weights {
   std::array<Floats, 4> value;
-  Floats first, f;
+  vector_math::Ints<Floats> first;
+  Floats f;
 };
 
 /// \param at coordinates counted in intervals
 template <class Floats>
-[[gnu::always_inline]] inline Weights<Floats> weights(Floats at, Floats intervals) {
-  const auto whole = __builtin_convertvector(at, vector_math::Ints<Floats>);  // at >= 0: the floor
-  const auto floor = __builtin_convertvector(whole, Floats);
-  const Floats last = intervals - 1.0F;
-  const Floats first = floor < last ? floor : last;
-  const Floats f = at - first;
+[[gnu::always_inline]] inline Weights<Floats> weights(Floats at,
+                                                      vector_math::Ints<Floats> intervals) {
+  using Ints = vector_math::Ints<Floats>;
+  const Ints whole = __builtin_convertvector(at, Ints);  // at >= 0: the floor
+  const Ints last = intervals - 1;
+  const Ints first = whole < last ? whole : last;
+  const Floats f = at - __builtin_convertvector(first, Floats);
   const Floats g = 1.0F - f;
   const Floats f2 = f * f, g2 = g * g;
   constexpr float kSixth = 1.0F / 6, kTwoThirds = 2.0F / 3;
@@ -91,8 +93,10 @@ struct Block {
 enum Axis : std::uint8_t { kLoad, kSlip, kLateral };
 
 /// Lanes: load, slip, lateral.
-[[gnu::always_inline]] inline Four intervals(const Values& values) {
-  return Four{values.intervals[0], values.intervals[1], values.intervals[2], values.intervals[3]};
+[[gnu::always_inline]] inline vector_math::Ints<Four> intervals(const Values& values) {
+  vector_math::Ints<Four> intervals;
+  __builtin_memcpy(&intervals, values.intervals.data(), sizeof intervals);
+  return intervals;
 }
 
 /// A state in the table's coordinates; without meaning where it is not inside.
@@ -143,14 +147,13 @@ struct Place {
       .lateral = lateral,
       .rise = rise,
       .width = logs[2],
-      .at = Four{logs[0] * values.loads_per_log, slip, lateral, 0} * intervals(values)};
+      .at = Four{logs[0] * values.loads_per_log, slip, lateral, 0} *
+            __builtin_convertvector(intervals(values), Four)};
 }
 
 [[gnu::always_inline]] inline Block block(const Values& values, const Place& place,
                                           const Weights<Four>& weights) {
-  const auto first = [&](Axis axis) {
-    return static_cast<std::size_t>(static_cast<std::int32_t>(weights.first[axis]));
-  };
+  const auto first = [&](Axis axis) { return static_cast<std::size_t>(weights.first[axis]); };
   return {.first = values.coefficients.data() + values.side[place.driving] +
                    first(kLoad) * values.load_stride + first(kSlip) * values.slip_stride +
                    first(kLateral) * kChannels,

@@ -91,7 +91,7 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
   const Place at = place(values_, load_n, motion);
   if (!at.inside) [[unlikely]]
     return differences(direct_, load_n, motion);
-  const Four intervals = force_table::intervals(values_);
+  const auto intervals = force_table::intervals(values_);
   const Weights<Four> weights = force_table::weights(at.at, intervals);
   const Sloped sloped = look_up_sloped(block(values_, at, weights), weights);
 
@@ -110,12 +110,13 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
   const double lateral_by_q = axes.lateral_bend_per_axle * lateral_by_g;
   const double q_by_vx = 1 / at.rim, q_by_rim = -q * q_by_vx;
   const double tangent_by_vy = 1 / at.vx, tangent_by_vx = -tangent * tangent_by_vy;
-  const double load_slope = double{values_.loads_per_log} * double{intervals[kLoad]};
+  const double load_slope = double{values_.loads_per_log} * static_cast<double>(intervals[kLoad]);
   const auto force = [&](Channel channel, double sign, double x_sign, double y_sign,
                          double constant) {
     const double value = double{sloped.value[channel]};
-    const double by_slip = double{sloped.by_slip[channel]} * double{intervals[kSlip]};
-    const double by_lateral = double{sloped.by_lateral[channel]} * double{intervals[kLateral]};
+    const double by_slip = double{sloped.by_slip[channel]} * static_cast<double>(intervals[kSlip]);
+    const double by_lateral =
+        double{sloped.by_lateral[channel]} * static_cast<double>(intervals[kLateral]);
     const double by_q = by_slip * slip_by_q + by_lateral * lateral_by_q;
     const double by_tangent = by_lateral * lateral_by_tangent;
     return SlopedForce{

@@ -42,14 +42,15 @@ std::vector<float> tabulate_side(const WheelModel& model, const Values& table, b
 }  // namespace
 
 Values empty_values(const Axes& axes, const Sizes& sizes, const ConstantShares& constant) {
-  Values table{.axes = axes,
-               .sizes = sizes,
-               .per_load_min = 1 / axes.load_min_n,
-               .loads_per_log = static_cast<float>(1 / std::log(axes.load_max_n / axes.load_min_n)),
-               .intervals = {static_cast<float>(sizes.loads), static_cast<float>(sizes.slips),
-                             static_cast<float>(sizes.laterals), 1},
-               .constant = constant,
-               .coefficients = {}};
+  Values table{
+      .axes = axes,
+      .sizes = sizes,
+      .per_load_min = 1 / axes.load_min_n,
+      .loads_per_log = static_cast<float>(1 / std::log(axes.load_max_n / axes.load_min_n)),
+      .intervals = {static_cast<std::int32_t>(sizes.loads), static_cast<std::int32_t>(sizes.slips),
+                    static_cast<std::int32_t>(sizes.laterals), 1},
+      .constant = constant,
+      .coefficients = {}};
   using cubic_spline::coefficients;
   table.slip_stride = coefficients(sizes.laterals) * kChannels;
   table.load_stride = coefficients(sizes.slips) * table.slip_stride;

@@ -29,9 +29,9 @@ enum Channel : std::uint8_t { kFx, kFy, kTorque, kSinkage };
 struct Values {
   Axes axes;
   Sizes sizes;
-  double per_load_min = 0;           ///< 1/(smallest load)
-  float loads_per_log = 0;           ///< 1/ln(largest load/smallest load)
-  std::array<float, 4> intervals{};  ///< `sizes`, as they multiply coordinates
+  double per_load_min = 0;                  ///< 1/(smallest load)
+  float loads_per_log = 0;                  ///< 1/ln(largest load/smallest load)
+  std::array<std::int32_t, 4> intervals{};  ///< `sizes`, in the order of the axes
   ConstantShares constant;
   /// Coefficients of cubic B-splines: [braking, driving][load][slip][lateral][channel].
   std::vector<float> coefficients;

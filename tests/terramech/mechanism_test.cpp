@@ -337,11 +337,34 @@ TEST(Mechanism, SeveralActTogether) {
   EXPECT_GT(both.torque_nm, digging.torque_nm + 0.09);
 }
 
-TEST(Mechanism, CanBeTabulated) {
+TEST(Mechanism, CanBeTabulatedUnlessItDependsOnTheSpeed) {
+  for (const char* id : {"lateral_digging", "coupled_shear", "grousers", "skid_branch"}) {
+    WheelModelSpec spec = wheel_specs::ishigami2007();
+    spec.mechanisms = {{id, "", {}}};
+    const ForceTable table({.model = spec, .nominal_load_n = 60});
+    const TableError error = table.check(5000, 2000, 3);
+    EXPECT_LE(error.at_999_permille, 1e-3) << id;
+    EXPECT_LE(error.at_worst, 5e-3) << id;
+  }
   WheelModelSpec spec = wheel_specs::ishigami2007();
-  spec.mechanisms = {{"slip_sinkage", "lyasko", {}}};
+  spec.mechanisms = {{"rate_dependence", "", {}}};
+  EXPECT_THROW(ForceTable({.model = spec, .nominal_load_n = 60}), InputError);
+}
+
+TEST(Mechanism, OfATiltedBedPullsTheSameWayAtEveryHeadingOfTheWheelInItsTable) {
+  WheelModelSpec spec = wheel_specs::ishigami2007();
+  spec.mechanisms = {{"slope_tilt", "", {{"tilt_rad", 0.05}, {"direction_rad", 0.4}}}};
   const ForceTable table({.model = spec, .nominal_load_n = 60});
-  EXPECT_LE(table.check(5000, 2000, 3).at_worst, 5e-3);
+  for (const WheelMotion& motion : {WheelMotion{0.8, 0.2, 1}, WheelMotion{-0.8, 0.2, -1},
+                                    WheelMotion{0.8, -0.2, 1}, WheelMotion{-1, -0.2, -0.9}}) {
+    const WheelForces looked_up = table.forces(60, motion);
+    const WheelForces direct = table.direct().forces(60, motion);
+    const SlopedForces sloped = table.forces_with_slopes(60, motion);
+    EXPECT_NEAR(looked_up.fx_n, direct.fx_n, 0.06);
+    EXPECT_NEAR(looked_up.fy_n, direct.fy_n, 0.06);
+    EXPECT_NEAR(sloped.fx.value_n, direct.fx_n, 0.06);
+    EXPECT_NEAR(sloped.fy.value_n, direct.fy_n, 0.06);
+  }
 }
 
 TEST(Mechanism, NamesWhatItDoesNotKnow) {
