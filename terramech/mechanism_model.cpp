@@ -43,14 +43,12 @@ double sinkage_of(double theta_f, double r) {
 /// and whose rut may be deeper on one side.
 class ModifiedContact {
  public:
-  ModifiedContact(const Effects& effects, const Ground& ground, const Ratios& ratios)
-      : effects_(effects), ground_(ground), ratios_(ratios) {}
+  ModifiedContact(const Effects& effects, const Ground& ground, const Ratios& ratios,
+                  WheelAccuracy accuracy)
+      : effects_(effects), ground_(ground), ratios_(ratios), accuracy_(accuracy) {}
 
   /// Whether it is the base model's contact on another soil.
-  bool is_plain() const {
-    return effects_.shear == ShearLaw::kSeparate && effects_.layer_depth_m == 0 &&
-           !strips_in_balance();
-  }
+  bool is_plain() const { return is_base_law() && !strips_in_balance(); }
 
   /// The wheel's middle at an entry angle; the mean of all strips where they carry the load
   /// together.
@@ -87,6 +85,10 @@ class ModifiedContact {
       const double strip_fz = share * at.integrals.plane.at(q).fz_n;
       fz += strip_fz;
       roll += strip_fz * inner;
+      if (is_base_law()) {
+        fu += share * wheel_contact::side_force_n(ground_, at.contact, ratios_, q, accuracy_);
+        continue;
+      }
       fu += share * (at.integrals.fu_cohesion_n + q * at.integrals.fu_stress_n);
       fs += share * wheel_contact::bulldozing_force_n(ground_, at.contact, ratios_);
     }
@@ -132,6 +134,11 @@ class ModifiedContact {
  private:
   static constexpr std::size_t kStrips = 7;
 
+  /// The base model's integrals serve, strip by strip; theirs of the side force come as a whole.
+  bool is_base_law() const {
+    return effects_.shear == ShearLaw::kSeparate && effects_.layer_depth_m == 0;
+  }
+
   bool strips_in_balance() const { return effects_.rut_in_balance && effects_.rut_tilt_rad != 0; }
 
   /// Distance of a strip from the wheel's middle, towards the centre of the turn.
@@ -159,6 +166,9 @@ class ModifiedContact {
     }
     const Contact contact =
         wheel_contact::contact_at(ground, theta_of(depth_m, ground.wheel.radius_m), ratios_.slip);
+    if (is_base_law()) {
+      return {contact, {.plane = wheel_contact::integrate(ground, contact, ratios_, accuracy_)}};
+    }
     return {contact, wheel_contact::integrate_with_law(ground, contact, ratios_, effects_.shear,
                                                        effects_.residual)};
   }
@@ -166,6 +176,7 @@ class ModifiedContact {
   const Effects& effects_;
   const Ground& ground_;
   const Ratios& ratios_;
+  WheelAccuracy accuracy_;
 };
 
 /// What acts on the wheel beside the stress under it.
@@ -229,7 +240,7 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   const ForwardMotion forward = forward_motion(moved);
   const Ratios& ratios = forward.ratios;
   const Ground ground = ground_of(effects, spec.gravity_mps2);
-  const ModifiedContact modified(effects, ground, ratios);
+  const ModifiedContact modified(effects, ground, ratios, model.accuracy_);
   const double r = ground.wheel.radius_m;
   const WheelStatus sunk = WheelStatus::kSinksToAxle;
 
@@ -242,7 +253,7 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
     if (plain) theta_f = plain->contact.theta_f_rad;
   } else {
     constexpr double kSomewhere_rad = 0.5;
-    theta_f = ModifiedContact(effects, ground, reference)
+    theta_f = ModifiedContact(effects, ground, reference, model.accuracy_)
                   .solve(effects.load_n, plain ? plain->contact.theta_f_rad : kSomewhere_rad);
   }
   if (!theta_f) return {.forces = {.status = sunk}};
