@@ -22,7 +22,7 @@ constexpr double kWorstPull = 4.5;    // prior standard deviations that calibrat
 constexpr double kWideSoil = 3;       // priors are widened so far for the verdict `parameters`
 constexpr double kClearEvidence = 9;  // nats by which a name must beat `parameters` unprompted
 constexpr double kClearGain = 2;      // standard errors of the held-out gain
-constexpr double kWorthNaming = 0.3;  // share of the excess misfit that a claim explains
+constexpr double kWorthNaming = 0.5;  // share of the excess misfit that a claim explains
 
 /// One diagnosis under way: what has been found, and the parts that later steps build on.
 class Diagnosing {

@@ -257,8 +257,7 @@ HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<Soi
   std::optional<HeldOut> best;
   for (const Families& families : all_families(recording.bed)) {
     HeldOut out = hold_out(recording, soil, base, corrected, families, threads);
-    if (!best || gain_in_errors(recording.bed, out.corrected, out.calibrated) >
-                     gain_in_errors(recording.bed, best->corrected, best->calibrated)) {
+    if (!best || out.share_explained > best->share_explained) {
       best = std::move(out);
     }
   }

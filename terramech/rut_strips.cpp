@@ -25,6 +25,11 @@ RutStrips::Strip RutStrips::strip(std::size_t i, double sinkage_m) const {
   const double depth = std::clamp(sinkage_m + inner_m * std::tan(tilt_rad_), 1e-9 * r, r);
   const wheel_contact::Contact contact =
       wheel_contact::contact_at(ground_, theta_of(depth, r), ratios_.slip);
+  if (is_base_law()) {
+    return {inner_m,
+            contact,
+            {.plane = wheel_contact::integrate(ground_, contact, ratios_, accuracy_)}};
+  }
   return {inner_m, contact,
           wheel_contact::integrate_with_law(ground_, contact, ratios_, law_, accuracy_)};
 }
@@ -86,6 +91,10 @@ RutStrips::Sideways RutStrips::sideways(double sinkage_m, double q, double load_
     const double strip_fz = share * at.integrals.plane.at(q).fz_n;
     fz += strip_fz;
     roll += strip_fz * at.inner_m;
+    if (is_base_law()) {
+      fu += share * wheel_contact::side_force_n(ground_, at.contact, ratios_, q, accuracy_);
+      continue;
+    }
     fu += share * (at.integrals.fu_cohesion_n + q * at.integrals.fu_stress_n);
     fs += share * wheel_contact::bulldozing_force_n(ground_, at.contact, ratios_);
   }

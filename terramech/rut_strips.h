@@ -44,6 +44,11 @@ class RutStrips {
   };
   Strip strip(std::size_t i, double sinkage_m) const;
 
+  /// The base model's integrals serve, strip by strip; theirs of the side force come as a whole.
+  bool is_base_law() const {
+    return law_.shear == ShearLaw::kSeparate && law_.layering.kind == Layering::Kind::kNone;
+  }
+
   const wheel_contact::Ground& ground_;
   const wheel_contact::Ratios& ratios_;
   wheel_contact::StressLaw law_;
