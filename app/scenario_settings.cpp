@@ -63,7 +63,21 @@ Limits read_limits(const SettingsNode& node, Limits defaults) {
         .slip_max = mapping.number_or("slip_max", kShare, defaults.slip_max),
         .slip_angle_max_rad = angle_rad("slip_angle_max_deg", defaults.slip_angle_max_rad),
         .slope_max_rad = angle_rad("slope_max_deg", defaults.slope_max_rad),
-        .sinkage_max_m = mapping.number_or("sinkage_max_m", kAbove0, defaults.sinkage_max_m)};
+        .sinkage_max_m = mapping.number_or("sinkage_max_m", kAbove0, defaults.sinkage_max_m),
+        .probability_min =
+            mapping.number_or("probability_min", {.min = 0, .max = 1}, defaults.probability_min)};
+  });
+}
+
+Objective read_objective(const SettingsNode& node) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
+    const Objective defaults;
+    return Objective{
+        .per_s = mapping.number_or("per_s", kAtLeast0, 0),
+        .per_m = mapping.number_or("per_m", kAtLeast0, 0),
+        .per_j = mapping.number_or("per_j", kAtLeast0, 0),
+        .per_exposed_s = mapping.number_or("per_exposed_s", kAtLeast0, 0),
+        .exposed_below = mapping.number_or("exposed_below", kAbove0, defaults.exposed_below)};
   });
 }
 
@@ -72,6 +86,9 @@ Search read_search(const SettingsNode& node) {
     Search search;
     if (const SettingsNode* name = mapping.optional("name")) {
       search.planner = planner_names()[name->choice(planner_names())];
+    }
+    if (const SettingsNode* objective = mapping.optional("objective")) {
+      search.objective = read_objective(*objective);
     }
     const SettingsNode* time = mapping.optional("time_s");
     const SettingsNode* iterations = mapping.optional("iterations");

@@ -10,6 +10,7 @@
 #include "planner/relaxation.h"
 #include "planner/relaxed_problem.h"
 #include "planner/search_processes.h"
+#include "planner/soil_uncertainty.h"
 #include "planner/what_if.h"
 
 namespace regoplan {
@@ -108,6 +109,7 @@ std::string reason_of(const PlanResult& result, int found) {
                        result.candidates.size() == 1 ? "path" : "different paths");
   }
   if (result.status == PlanStatus::kInfeasible) return *result.certificate;
+  if (found > 0 && result.overturned.empty()) return fmt::format("{} paths were found", found);
   if (found > 0) {
     return fmt::format("{} paths were found, none passed its verification: {}", found,
                        result.overturned.front().verified.reason);
@@ -116,6 +118,18 @@ std::string reason_of(const PlanResult& result, int found) {
   if (*most == 0) return "no path was found in the time given";
   return fmt::format("no path was found in the time given; most states were rejected for {}",
                      name(static_cast<Rejection>(most - result.rejected.begin())));
+}
+
+/// Takes away what does not keep the chance constraint. \returns how many
+std::size_t drop_improbable(const PlanningProblem& problem, std::vector<VerifiedPath>& paths) {
+  const int draws = problem.search.soil_draws;
+  return std::erase_if(paths, [&](const VerifiedPath& path) {
+    // Not drawn, because of an interrupt: nothing is known against it, and nothing for it.
+    if (std::isnan(path.candidate.probability_feasible)) return problem.limits.probability_min > 0;
+    const auto successes =
+        static_cast<int>(std::lround(path.candidate.probability_feasible * draws));
+    return probability_of(successes, draws).low < problem.limits.probability_min;
+  });
 }
 
 /// Why there is no path, and what to give up for one.
@@ -190,6 +204,7 @@ PlanResult plan(const PlanningProblem& problem,
                  .found = static_cast<int>(chosen.size())});
     add_spread(problem, chosen[i]);
   }
+  const std::size_t left_out = drop_improbable(problem, chosen);
   rank(chosen);
   if (!chosen.empty()) {
     result.what_ifs = what_ifs(verdict, chosen.front().replay, chosen.front().candidate.controls);
@@ -198,6 +213,10 @@ PlanResult plan(const PlanningProblem& problem,
   result.verification_time_s = seconds_since(verification_start);
   result.status = result.candidates.empty() ? PlanStatus::kUndecided : PlanStatus::kFeasible;
   result.reason = reason_of(result, static_cast<int>(found.size()));
+  if (left_out > 0) {
+    result.reason += fmt::format("; {} verified, but not with probability {:.4g} over the soils",
+                                 left_out, problem.limits.probability_min);
+  }
   if (result.candidates.empty()) {
     result.reason = with_relaxation(result.reason, problem, on_progress, stop);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/soil_uncertainty.h"
 #include "planner/world.h"
 #include "terramech/input_error.h"
 
@@ -46,9 +47,27 @@ void validate(const Limits& limits) {
   require("limits.slope_max_deg", limits.slope_max_rad / kDegree,
           limits.slope_max_rad > 0 && limits.slope_max_rad <= 60 * kDegree, "above 0 to 60");
   require("limits.sinkage_max_m", limits.sinkage_max_m, limits.sinkage_max_m > 0, "above 0");
+  require("limits.probability_min", limits.probability_min,
+          limits.probability_min >= 0 && limits.probability_min < 1, "0 to below 1");
+}
+
+void validate(const Objective& objective) {
+  const auto weight = [](const char* field, double value) {
+    require(field, value, value >= 0, "0 or above");
+  };
+  weight("planner.objective.per_s", objective.per_s);
+  weight("planner.objective.per_m", objective.per_m);
+  weight("planner.objective.per_j", objective.per_j);
+  weight("planner.objective.per_exposed_s", objective.per_exposed_s);
+  require("planner.objective.exposed_below", objective.exposed_below, objective.exposed_below > 0,
+          "above 0");
+  if (objective.per_s + objective.per_m + objective.per_j <= 0) {
+    throw InputError("planner.objective: one of per_s, per_m and per_j must be above 0");
+  }
 }
 
 void validate(const Search& search) {
+  validate(search.objective);
   const std::vector<std::string>& names = planner_names();
   if (std::find(names.begin(), names.end(), search.planner) == names.end()) {
     throw InputError(fmt::format("planner.name: {} is not known (allowed: {})", search.planner,
@@ -108,6 +127,13 @@ void validate(const PlanningProblem& problem) {
   }
   validate(problem.limits);
   validate(problem.search);
+  const double shown = probability_of(problem.search.soil_draws, problem.search.soil_draws).low;
+  if (shown < problem.limits.probability_min) {
+    throw InputError(
+        fmt::format("planner.soil_draws: {} draws show at most {:.4f}, less than "
+                    "limits.probability_min {} (allowed: more draws)",
+                    problem.search.soil_draws, shown, problem.limits.probability_min));
+  }
   validate_place(problem.map, "start", problem.start.x_m, problem.start.y_m);
   validate_place(problem.map, "goal", problem.goal.x_m, problem.goal.y_m);
 

@@ -35,6 +35,9 @@ struct Limits {
   double slip_angle_max_rad = 0;
   double slope_max_rad = 0;
   double sinkage_max_m = 0;
+  /// The chance constraint: candidates whose margin holds with less probability over the soils'
+  /// uncertainty are no answer. Held against the lower end of the draws' 95 % interval; 0: none.
+  double probability_min = 0;
 };
 
 /// The limits that a vehicle brings where a scenario gives none.

@@ -158,6 +158,26 @@ TEST(Plan, UncertainSoilLowersTheMarginThatMostDrawsKeep) {
   EXPECT_EQ(certain.candidates.front().probability_feasible, 1);
 }
 
+TEST(Plan, AChanceConstraintLeavesOutWhatTheSoilMayNotHold) {
+  UncertainSoil uncertain = firm_regolith();
+  uncertain.standard_deviation.friction_angle_rad = 4 * kTestDegree;
+  PlanningProblem problem = lrv_problem(one_soil_map(50, uncertain, flat));
+  problem.search.planner = "Lattice";
+  problem.search.soil_draws = 40;
+  problem.limits.probability_min = 0.9;  // 40 of 40 draws show 0.91
+  const PlanResult kept = planned(problem);
+  for (const Candidate& candidate : kept.candidates) {
+    EXPECT_EQ(candidate.probability_feasible, 1) << kept.reason;
+  }
+  // As much margin as the mean soil gives: half of the draws give less.
+  problem.limits.probability_min = 0;
+  const double at_mean = planned(problem).candidates.front().margin_min;
+  problem.limits.margin_min = at_mean - 0.02;
+  problem.limits.probability_min = 0.9;
+  const PlanResult strict = planned(problem);
+  EXPECT_NE(strict.status, PlanStatus::kFeasible) << strict.reason;
+}
+
 TEST(Plan, AStopRequestEndsItWithWhatThereIs) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   problem.search.iterations.reset();
@@ -203,6 +223,10 @@ TEST(PlanningProblem, WhatCannotBeAskedNamesFieldAndRange) {
   names("planner.candidates", [](PlanningProblem& p) { p.search.candidates = 0; });
   names("limits.margin_min", [](PlanningProblem& p) { p.limits.margin_min = -0.1; });
   names("limits.slip_max", [](PlanningProblem& p) { p.limits.slip_max = NAN; });
+  names("limits.probability_min", [](PlanningProblem& p) { p.limits.probability_min = 1; });
+  names("planner.soil_draws", [](PlanningProblem& p) { p.limits.probability_min = 0.9; });
+  names("planner.objective", [](PlanningProblem& p) { p.search.objective = {.per_s = 0}; });
+  names("planner.objective.per_j", [](PlanningProblem& p) { p.search.objective.per_j = -1; });
   names("gravity_mps2", [](PlanningProblem& p) { p.gravity_mps2 = 0; });
   names("touches a rock", [](PlanningProblem& p) {
     p.map = one_soil_map(50, firm_regolith(), flat, {{10.5, 25, 1, 2}});
