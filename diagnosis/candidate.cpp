@@ -39,9 +39,6 @@ Coordinate coordinate_of(const MechanismParameter& parameter) {
   return positive(name, low, parameter.high);
 }
 
-const std::set<std::string_view> kOnlyWith{"multi_pass", "rate_dependence", "soil_zone",
-                                           "cohesion_drift"};
-
 struct Columns {
   bool pass = false, speed = false, position = false, time = false, skid = false, driving = false,
        angle = false;

@@ -1,5 +1,7 @@
 #include "synthetic_bed.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -161,7 +163,7 @@ Recording record(const TrueWheel& truth, const DiagnosisSetup& setup, const Soil
   for (int replicate = 0; replicate < plan.replicates; ++replicate) {
     for (std::size_t k = 0; k < grid.size(); ++k) {
       WheelRun run = grid[k];
-      run.run_id = "r" + std::to_string(++name);
+      run.run_id = fmt::format("r{}", ++name);
       run.day = replicate;
       run.load_n *= 1 + 0.01 * normal(random);
       run.slip_ratio += 0.001 * normal(random);
