@@ -29,8 +29,11 @@ TEST(Lattice, AFewThousandStepsLeadThroughStaggeredGaps) {
   PlannerRun run(world, "Lattice");
   ASSERT_EQ(run.solve(20000), ob::PlannerStatus::EXACT_SOLUTION);
   EXPECT_LT(run.problem.propagations(), 60000);
-  const Replay driven = replay(world, exact_solution(*run.definition), verification_steps(world));
+  const World verdict(problem, WorldUse::kVerdict, 2);
+  const Replay driven =
+      replay(verdict, exact_solution(*run.definition), verification_steps(verdict));
   EXPECT_TRUE(driven.reached_goal);
+  EXPECT_FALSE(driven.rejection);
 }
 
 TEST(Lattice, WhatItFindsIsWhatTheDynamicsDo) {

@@ -80,14 +80,18 @@ TEST(StableSparse, TheSameSeedGivesTheSamePathWhateverElseDrewBefore) {
   const PlanningProblem problem =
       lrv_problem(one_soil_map(50, firm_regolith(), flat, {{25, 25, 3, 2}}));
   const World world(problem, WorldUse::kSearch, 2);
-  const auto duration = [&](std::uint64_t seed) {
+  const auto targets = [&](std::uint64_t seed) {
     PlannerRun run(world, "StableSparse", true, seed);
     run.solve(3000);
-    return run.duration_s();
+    std::vector<double> all;
+    for (const ControlSegment& control : exact_solution(*run.definition)) {
+      all.insert(all.end(), {control.duration_s, control.curvature_target_1pm});
+    }
+    return all;
   };
-  const double once = duration(3);
-  EXPECT_EQ(once, duration(3));
-  EXPECT_NE(once, duration(4));
+  const std::vector<double> once = targets(3);
+  EXPECT_EQ(once, targets(3));
+  EXPECT_NE(once, targets(4));
 }
 
 TEST(StableSparse, MoreTimeNeverCostsMore) {
