@@ -52,7 +52,7 @@ std::string log_name(std::string experiment) {
 std::string benchmark_json(const JournalContents& contents, bool interrupted) {
   nlohmann::json experiments = nlohmann::json::array();
   nlohmann::json comparisons = nlohmann::json::array();
-  for (const Experiment& experiment : experiments_of(contents)) {
+  for (const BenchmarkExperiment& experiment : experiments_of(contents)) {
     nlohmann::json planners = nlohmann::json::array();
     for (const PlannerRuns& runs : experiment.planners) {
       planners.push_back(json_of(summary_of(runs)));
@@ -74,9 +74,9 @@ std::string benchmark_json(const JournalContents& contents, bool interrupted) {
 
 void write_benchmark_files(const JournalContents& contents, bool interrupted,
                            const std::filesystem::path& folder) {
-  const std::vector<Experiment> experiments = experiments_of(contents);
+  const std::vector<BenchmarkExperiment> experiments = experiments_of(contents);
   StagedFiles staged(folder);
-  for (const Experiment& experiment : experiments) {
+  for (const BenchmarkExperiment& experiment : experiments) {
     staged.write({.name = log_name(experiment.name), .content = ompl_log(experiment)});
   }
   write_results_database(staged.path("benchmark.db"), experiments);

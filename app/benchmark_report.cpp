@@ -52,7 +52,7 @@ nlohmann::json json_of(const RunRecord& run, bool with_path) {
   return json;
 }
 
-nlohmann::json json_of(const Experiment& experiment) {
+nlohmann::json json_of(const BenchmarkExperiment& experiment) {
   // A page under 5 MB: the paths of the first seeds stand for all.
   constexpr std::size_t kPathsPerPlanner = 10;
   nlohmann::json planners = nlohmann::json::array();
@@ -88,9 +88,9 @@ struct Totals {
   int runs = 0, verified = 0, overturned = 0, crashed = 0;
 };
 
-Totals totals_of(const std::vector<Experiment>& experiments) {
+Totals totals_of(const std::vector<BenchmarkExperiment>& experiments) {
   Totals totals;
-  for (const Experiment& experiment : experiments) {
+  for (const BenchmarkExperiment& experiment : experiments) {
     for (const PlannerRuns& runs : experiment.planners) {
       const PlannerSummary summary = summary_of(runs);
       totals.runs += summary.runs;
@@ -136,7 +136,7 @@ std::vector<std::string> lead_sentences(const JournalContents& contents, const T
   return sentences;
 }
 
-std::string headline(const std::vector<Experiment>& experiments, const Totals& totals,
+std::string headline(const std::vector<BenchmarkExperiment>& experiments, const Totals& totals,
                      const std::string& suite, bool interrupted) {
   return fmt::format("{}: {} of {} runs over {} {} found a path that the exact model confirms{}.",
                      suite, totals.verified, totals.runs, experiments.size(),
@@ -147,16 +147,16 @@ std::string headline(const std::vector<Experiment>& experiments, const Totals& t
 }  // namespace
 
 std::string benchmark_headline(const JournalContents& contents, bool interrupted) {
-  const std::vector<Experiment> experiments = experiments_of(contents);
+  const std::vector<BenchmarkExperiment> experiments = experiments_of(contents);
   return headline(experiments, totals_of(experiments), contents.origins.front().suite, interrupted);
 }
 
 std::string benchmark_report(const JournalContents& contents, bool interrupted) {
-  const std::vector<Experiment> experiments = experiments_of(contents);
+  const std::vector<BenchmarkExperiment> experiments = experiments_of(contents);
   const Totals totals = totals_of(experiments);
   const JournalOrigin& origin = contents.origins.front();
   nlohmann::json list = nlohmann::json::array();
-  for (const Experiment& experiment : experiments) list.push_back(json_of(experiment));
+  for (const BenchmarkExperiment& experiment : experiments) list.push_back(json_of(experiment));
   return render({.title = "Benchmark " + origin.suite,
                  .headline = headline(experiments, totals, origin.suite, interrupted),
                  .lead = lead_sentences(contents, totals, interrupted),

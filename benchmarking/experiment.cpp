@@ -7,7 +7,7 @@ namespace regoplan {
 namespace {
 
 /// `crater_rim,speed_mps.max=2` to its scenario and parameters.
-void read_name(Experiment& experiment) {
+void read_name(BenchmarkExperiment& experiment) {
   std::size_t at = experiment.name.find(',');
   while (at != std::string::npos) {
     const std::size_t end = experiment.name.find(',', at + 1);
@@ -53,7 +53,7 @@ void describe(PlannerRuns& planner) {
 
 }  // namespace
 
-double search_seconds(const Experiment& experiment) {
+double search_seconds(const BenchmarkExperiment& experiment) {
   double total = 0;
   for (const PlannerRuns& planner : experiment.planners) {
     for (const RunRecord& run : planner.runs) {
@@ -63,7 +63,7 @@ double search_seconds(const Experiment& experiment) {
   return total;
 }
 
-std::size_t runs_per_planner(const Experiment& experiment) {
+std::size_t runs_per_planner(const BenchmarkExperiment& experiment) {
   std::size_t most = 0;
   for (const PlannerRuns& planner : experiment.planners) {
     most = std::max(most, planner.runs.size());
@@ -71,16 +71,16 @@ std::size_t runs_per_planner(const Experiment& experiment) {
   return most;
 }
 
-std::vector<Experiment> experiments_of(const JournalContents& contents) {
+std::vector<BenchmarkExperiment> experiments_of(const JournalContents& contents) {
   std::map<std::string, std::map<std::string, PlannerRuns>> grouped;
   for (const RunRecord& run : contents.runs) {
     PlannerRuns& planner = grouped[run.key.experiment][run.key.planner];
     planner.planner = run.key.planner;
     planner.runs.push_back(run);
   }
-  std::vector<Experiment> experiments;
+  std::vector<BenchmarkExperiment> experiments;
   for (auto& [name, planners] : grouped) {
-    Experiment experiment{
+    BenchmarkExperiment experiment{
         .name = name, .parameters = {}, .origin = origin_of(contents, name), .planners = {}};
     read_name(experiment);
     for (const std::string& label : planner_order(contents)) {

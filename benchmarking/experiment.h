@@ -18,7 +18,7 @@ struct PlannerRuns {
 };
 
 /// An experiment as OMPL's tools know it: one problem, several planners.
-struct Experiment {
+struct BenchmarkExperiment {
   std::string name;
   std::map<std::string, std::string> parameters;  ///< of the sweep: `speed_mps.max REAL`, value
   JournalOrigin origin;                           ///< the first that has its scenario
@@ -26,12 +26,12 @@ struct Experiment {
 };
 
 /// Wall-clock time of all its searches.
-double search_seconds(const Experiment& experiment);
+double search_seconds(const BenchmarkExperiment& experiment);
 
 /// Of the planner that has most.
-std::size_t runs_per_planner(const Experiment& experiment);
+std::size_t runs_per_planner(const BenchmarkExperiment& experiment);
 
 /// The experiments of a journal, in the order of their names; planners in the order of the suite.
-std::vector<Experiment> experiments_of(const JournalContents& contents);
+std::vector<BenchmarkExperiment> experiments_of(const JournalContents& contents);
 
 }  // namespace regoplan

@@ -45,7 +45,7 @@ void append_progress(std::string& log, const PlannerRuns& planner) {
 
 }  // namespace
 
-std::string ompl_log(const Experiment& experiment) {
+std::string ompl_log(const BenchmarkExperiment& experiment) {
   const JournalOrigin& origin = experiment.origin;
   std::string log =
       fmt::format("OMPL version {}\nExperiment {}\n", ompl_version(), experiment.name);

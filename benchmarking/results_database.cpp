@@ -130,7 +130,7 @@ class Filling {
     }
   }
 
-  void add(const Experiment& experiment) {
+  void add(const BenchmarkExperiment& experiment) {
     const std::string id = std::to_string(add_head(experiment));
     for (const PlannerRuns& planner : experiment.planners) {
       const std::string planner_id = std::to_string(planner_config(planner));
@@ -139,7 +139,7 @@ class Filling {
   }
 
  private:
-  sqlite3_int64 add_head(const Experiment& experiment) {
+  sqlite3_int64 add_head(const BenchmarkExperiment& experiment) {
     const JournalOrigin& origin = experiment.origin;
     std::vector<std::string> columns{"name",     "totaltime", "timelimit", "memorylimit",
                                      "runcount", "version",   "hostname",  "cpuinfo",
@@ -206,11 +206,11 @@ class Filling {
 }  // namespace
 
 void write_results_database(const std::filesystem::path& file,
-                            const std::vector<Experiment>& experiments) {
+                            const std::vector<BenchmarkExperiment>& experiments) {
   Database database(file);
   database.run("BEGIN");
   Filling filling(database);
-  for (const Experiment& experiment : experiments) filling.add(experiment);
+  for (const BenchmarkExperiment& experiment : experiments) filling.add(experiment);
   database.run("COMMIT");
 }
 

@@ -11,6 +11,6 @@ namespace regoplan {
 /// enums, runs and progress, as `ompl_benchmark_statistics` makes them from the logs.
 /// \throws InputError where the file cannot be written
 void write_results_database(const std::filesystem::path& file,
-                            const std::vector<Experiment>& experiments);
+                            const std::vector<BenchmarkExperiment>& experiments);
 
 }  // namespace regoplan

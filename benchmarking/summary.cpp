@@ -81,7 +81,7 @@ PlannerSummary summary_of(const PlannerRuns& runs) {
   return summary;
 }
 
-std::vector<PairedComparison> paired_comparisons(const Experiment& experiment,
+std::vector<PairedComparison> paired_comparisons(const BenchmarkExperiment& experiment,
                                                  const std::string& property) {
   std::vector<PairedComparison> comparisons;
   for (std::size_t a = 0; a < experiment.planners.size(); ++a) {

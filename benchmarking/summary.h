@@ -38,7 +38,7 @@ struct PairedComparison {
 };
 
 /// Every pair of planners, for positive properties.
-std::vector<PairedComparison> paired_comparisons(const Experiment& experiment,
+std::vector<PairedComparison> paired_comparisons(const BenchmarkExperiment& experiment,
                                                  const std::string& property);
 
 /// Wilson's 95 % interval of a share. \param of at least 1

@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(seen "")
 set(wrong "")
-foreach(house terramech maps planner diagnosis app)
+foreach(house terramech maps planner diagnosis benchmarking app)
   file(GLOB sources ${ROOT}/${house}/*.h)
   set(own "")
   foreach(source ${sources})

@@ -83,7 +83,7 @@ TEST_F(Database, IsWhatOmplsOwnReaderMakesOfTheLogs) {
   }
   std::string files;
   int number = 0;
-  for (const Experiment& experiment : experiments_of(two_experiments())) {
+  for (const BenchmarkExperiment& experiment : experiments_of(two_experiments())) {
     const std::filesystem::path file = folder_ / (std::to_string(++number) + ".log");
     std::ofstream(file) << ompl_log(experiment);
     files += " '" + file.string() + "'";

@@ -46,8 +46,9 @@ TEST(Summary, CountsOnlyWhatTheExactModelConfirms) {
   EXPECT_EQ(summary.length_median_m, 40);
 }
 
-Experiment paired_experiment(double factor, double scatter) {
-  Experiment experiment{.name = "a", .parameters = {}, .origin = made_up_origin(), .planners = {}};
+BenchmarkExperiment paired_experiment(double factor, double scatter) {
+  BenchmarkExperiment experiment{
+      .name = "a", .parameters = {}, .origin = made_up_origin(), .planners = {}};
   PlannerRuns first{.planner = "RRT"}, second{.planner = "SST"};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     // Seeds differ ten times more than planners: only the pairs show it.
@@ -77,7 +78,7 @@ TEST(PairedComparison, ClaimsNoDifferenceWhereThereIsNone) {
 }
 
 TEST(PairedComparison, SaysNothingOfFewerThanFivePairs) {
-  Experiment experiment = paired_experiment(2, 0);
+  BenchmarkExperiment experiment = paired_experiment(2, 0);
   experiment.planners.front().runs.resize(4);
   EXPECT_TRUE(paired_comparisons(experiment, "time REAL").empty());
 }
