@@ -27,10 +27,10 @@ std::string diagnosis_json(const DiagnosisRun& run);
 /// it started from.
 std::string corrected_model_text(const DiagnosisRun& run);
 
-/// The recording with every column it had, and for each measured channel the value moved to the mean
-/// load of its condition, its noise and what the models say there: `adjusted_*, noise_*, baseline_*,
-/// calibrated_*, corrected_*, held_out_*, held_out_std_*`. A column of the recording that has one of
-/// these names becomes `input_*`.
+/// The recording with every column it had, and for each measured channel the value moved to the
+/// mean load of its condition, its noise and what the models say there: `adjusted_*, noise_*,
+/// baseline_*, calibrated_*, corrected_*, held_out_*, held_out_std_*`. A column of the recording
+/// that has one of these names becomes `input_*`.
 std::string residuals_csv(const DiagnosisRun& run);
 
 /// Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html, all or none.

@@ -76,7 +76,7 @@ struct PlanningProblem {
   TerrainMap map;
   Vehicle vehicle;
   WheelVariant wheel_variant = WheelVariant::kIshigami2007;
-  std::vector<Mechanism> mechanisms = {};  ///< of the wheel model, on every soil
+  std::vector<Mechanism> mechanisms = {};                   ///< of the wheel model, on every soil
   std::optional<GenericCorrection> generic = std::nullopt;  ///< likewise
   double gravity_mps2 = 9.80665;
   StartState start;
