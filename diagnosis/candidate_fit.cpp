@@ -29,11 +29,13 @@ class ShapedMisfit {
                Eigen::MatrixXd shape)
       : problem_(problem), settings_(settings), shape_(whitened(std::move(shape))) {
     const Eigen::Index p = shape_.cols();
+    if (p == 0) return;
     precision_.compute(shape_.transpose() * shape_ + Eigen::MatrixXd::Identity(p, p));
   }
 
   double of(const Eigen::VectorXd& residual) const {
     const Eigen::VectorXd r = whitened(residual);
+    if (shape_.cols() == 0) return r.squaredNorm();
     const Eigen::VectorXd b = shape_.transpose() * r;
     return r.squaredNorm() - b.dot(precision_.solve(b));
   }
@@ -41,6 +43,7 @@ class ShapedMisfit {
  private:
   Eigen::MatrixXd whitened(Eigen::MatrixXd values) const {
     const TestBed& bed = problem_.bed;
+    if (values.cols() == 0) return values;
     for (std::size_t c = 0; c < bed.channels.size(); ++c) {
       auto block = values.middleRows(bed.offset(c), bed.channels[c].mean.size());
       problem_.discrepancy.at(c, settings_[c]).factor.matrixL().solveInPlace(block);
