@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 
 #include "diagnosis/candidate_fit.h"
+#include "diagnosis/whitening.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -14,8 +15,7 @@ namespace {
 class SoilResiduals : public ceres::CostFunction {
  public:
   SoilResiduals(const TestBed& bed, const std::vector<SoilCoordinate>& soil)
-      : bed_(bed), soil_(soil), measured_(bed.measured()) {
-    for (const ChannelData& data : bed.channels) factors_.emplace_back(data.noise);
+      : bed_(bed), soil_(soil), measured_(bed.measured()), factor_(bed) {
     set_num_residuals(static_cast<int>(bed.size()) + static_cast<int>(soil.size()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(soil.size()));
   }
@@ -27,31 +27,23 @@ class SoilResiduals : public ceres::CostFunction {
     const auto prediction = predict(bed_, soil_, {}, x);
     if (!prediction) return false;
     Eigen::Map<Eigen::VectorXd> r(residuals, bed_.size() + p);
-    r.head(bed_.size()) = whitened(*prediction - measured_);
+    r.head(bed_.size()) = whitened(bed_, factor_, Eigen::VectorXd(*prediction - measured_));
     r.tail(p) = x;
     if (jacobians == nullptr || jacobians[0] == nullptr) return true;
     const auto columns = jacobian_of(bed_, soil_, {}, x, *prediction, 0, true);
     if (!columns) return false;
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     Eigen::Map<RowMajor> j(jacobians[0], bed_.size() + p, p);
-    j.topRows(bed_.size()) = whitened(*columns);
+    j.topRows(bed_.size()) = whitened(bed_, factor_, *columns);
     j.bottomRows(p).setIdentity();
     return true;
   }
 
  private:
-  Eigen::MatrixXd whitened(Eigen::MatrixXd values) const {
-    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
-      auto block = values.middleRows(bed_.offset(c), bed_.channels[c].mean.size());
-      block = factors_[c].matrixL().solve(block);
-    }
-    return values;
-  }
-
   const TestBed& bed_;
   const std::vector<SoilCoordinate>& soil_;
   Eigen::VectorXd measured_;
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
+  NoiseFactors factor_;
 };
 
 }  // namespace
@@ -90,11 +82,8 @@ Calibration calibrate(const TestBed& bed, const std::vector<SoilCoordinate>& soi
     result.jacobian.setZero();
   }
   Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(p, p);
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const Eigen::MatrixXd block =
-        result.jacobian.middleRows(bed.offset(c), bed.channels[c].mean.size());
-    precision += block.transpose() * bed.channels[c].noise.llt().solve(block);
-  }
+  const Eigen::MatrixXd columns = whitened(bed, NoiseFactors(bed), result.jacobian);
+  precision += columns.transpose() * columns;
   result.covariance = precision.llt().solve(Eigen::MatrixXd::Identity(p, p));
   return result;
 }

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "diagnosis/whitening.h"
 
 namespace regoplan {
 namespace {
@@ -27,28 +30,24 @@ class ShapedMisfit {
  public:
   ShapedMisfit(const FitProblem& problem, const std::vector<std::size_t>& settings,
                Eigen::MatrixXd shape)
-      : problem_(problem), settings_(settings), shape_(whitened(std::move(shape))) {
+      : problem_(problem), settings_(settings), shape_(white(std::move(shape))) {
     const Eigen::Index p = shape_.cols();
     if (p == 0) return;
     precision_.compute(shape_.transpose() * shape_ + Eigen::MatrixXd::Identity(p, p));
   }
 
   double of(const Eigen::VectorXd& residual) const {
-    const Eigen::VectorXd r = whitened(residual);
+    const Eigen::VectorXd r = white(residual);
     if (shape_.cols() == 0) return r.squaredNorm();
     const Eigen::VectorXd b = shape_.transpose() * r;
     return r.squaredNorm() - b.dot(precision_.solve(b));
   }
 
  private:
-  Eigen::MatrixXd whitened(Eigen::MatrixXd values) const {
-    const TestBed& bed = problem_.bed;
-    if (values.cols() == 0) return values;
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      auto block = values.middleRows(bed.offset(c), bed.channels[c].mean.size());
-      problem_.discrepancy.at(c, settings_[c]).factor.matrixL().solveInPlace(block);
-    }
-    return values;
+  template <class Values>
+  Values white(Values values) const {
+    return whitened(problem_.bed, factors_under(problem_.discrepancy, settings_),
+                    std::move(values));
   }
 
   const FitProblem& problem_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "diagnosis/whitening.h"
+
 namespace regoplan {
 namespace {
 
@@ -12,14 +14,10 @@ namespace {
 class WhitenedFit {
  public:
   WhitenedFit(const CondensedRecording& recording, const FitRemainder& fit)
-      : recording_(recording), fit_(fit) {
-    const TestBed& bed = recording.bed;
-    for (const ChannelData& data : bed.channels) factors_.emplace_back(data.noise);
-    jacobian_ = fit.jacobian;
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      auto block = jacobian_.middleRows(bed.offset(c), bed.channels[c].mean.size());
-      block = factors_[c].matrixL().solve(block);
-    }
+      : recording_(recording),
+        fit_(fit),
+        factor_(recording.bed),
+        jacobian_(whitened(recording.bed, factor_, fit.jacobian)) {
     const Eigen::Index p = jacobian_.cols();
     precision_ = (jacobian_.transpose() * jacobian_ + Eigen::MatrixXd::Identity(p, p)).eval().llt();
     Eigen::MatrixXd correlation = recording.correlation;
@@ -27,20 +25,15 @@ class WhitenedFit {
     mix_ = correlation.llt().matrixL();
   }
 
-  Eigen::VectorXd whiten(Eigen::VectorXd values) const {
-    const TestBed& bed = recording_.bed;
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      auto block = values.segment(bed.offset(c), bed.channels[c].mean.size());
-      block = factors_[c].matrixL().solve(block);
-    }
-    return values;
+  Eigen::VectorXd whiten(const Eigen::VectorXd& values) const {
+    return whitened(recording_.bed, factor_, values);
   }
 
   Eigen::VectorXd colour(Eigen::VectorXd values) const {
     const TestBed& bed = recording_.bed;
     for (std::size_t c = 0; c < bed.channels.size(); ++c) {
       auto block = values.segment(bed.offset(c), bed.channels[c].mean.size());
-      block = factors_[c].matrixL() * block.eval();
+      block = factor_(c).matrixL() * block.eval();
     }
     return values;
   }
@@ -92,7 +85,7 @@ class WhitenedFit {
  private:
   const CondensedRecording& recording_;
   const FitRemainder& fit_;
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors_;
+  NoiseFactors factor_;
   Eigen::MatrixXd jacobian_;
   Eigen::LLT<Eigen::MatrixXd> precision_;
   Eigen::MatrixXd mix_;

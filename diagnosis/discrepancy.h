@@ -50,4 +50,13 @@ class Discrepancy {
   std::vector<std::vector<ChannelCovariance>> channels_;
 };
 
+/// The Cholesky factor of each channel under its setting, as `whitened` takes it. What it is made
+/// of must outlive it.
+inline auto factors_under(const Discrepancy& discrepancy,
+                          const std::vector<std::size_t>& settings) {
+  return [&discrepancy, &settings](std::size_t channel) -> const Eigen::LLT<Eigen::MatrixXd>& {
+    return discrepancy.at(channel, settings[channel]).factor;
+  };
+}
+
 }  // namespace regoplan

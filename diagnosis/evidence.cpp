@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnosis/whitening.h"
+
 namespace regoplan {
 namespace {
 
@@ -104,21 +106,16 @@ SettingWeights SettingWeights::of_unexplained() {
 }
 
 Eigen::MatrixXd soil_directions(const TestBed& bed, const Eigen::MatrixXd& soil_jacobian) {
-  Eigen::MatrixXd whitened = soil_jacobian;
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors;
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    factors.emplace_back(bed.channels[c].noise);
-    auto block = whitened.middleRows(bed.offset(c), bed.channels[c].mean.size());
-    block = factors.back().matrixL().solve(block);
-  }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(whitened, Eigen::ComputeThinU);
+  const NoiseFactors factor(bed);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(whitened(bed, factor, soil_jacobian),
+                                              Eigen::ComputeThinU);
   constexpr double kStrong = 3;  // standard deviations of the noise per prior standard deviation
   Eigen::Index strong = 0;
   while (strong < svd.singularValues().size() && svd.singularValues()[strong] > kStrong) ++strong;
   Eigen::MatrixXd directions = svd.matrixU().leftCols(strong);
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     auto block = directions.middleRows(bed.offset(c), bed.channels[c].mean.size());
-    block = factors[c].matrixU().solve(block);
+    block = factor(c).matrixU().solve(block);
   }
   return directions;
 }
@@ -126,28 +123,17 @@ Eigen::MatrixXd soil_directions(const TestBed& bed, const Eigen::MatrixXd& soil_
 Posterior posterior_of(const TestBed& bed, const Discrepancy& discrepancy, const Linearised& linear,
                        const std::vector<std::size_t>& settings) {
   const Eigen::Index p = linear.jacobian.cols();
-  Posterior posterior{.precision = Eigen::MatrixXd::Identity(p, p)};
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(p);
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
-    const auto factor = discrepancy.at(c, settings[c]).factor.matrixL();
-    const Eigen::MatrixXd j = factor.solve(linear.jacobian.middleRows(from, n));
-    const Eigen::VectorXd r = factor.solve(linear.residual.segment(from, n));
-    posterior.precision += j.transpose() * j;
-    b += j.transpose() * r;
-  }
-  posterior.x = Eigen::LLT<Eigen::MatrixXd>(posterior.precision).solve(b);
+  const auto factor = factors_under(discrepancy, settings);
+  const Eigen::MatrixXd j = whitened(bed, factor, linear.jacobian);
+  const Eigen::VectorXd r = whitened(bed, factor, linear.residual);
+  Posterior posterior{.precision = j.transpose() * j + Eigen::MatrixXd::Identity(p, p)};
+  posterior.x = Eigen::LLT<Eigen::MatrixXd>(posterior.precision).solve(j.transpose() * r);
   return posterior;
 }
 
 double misfit_of(const TestBed& bed, const Discrepancy& discrepancy,
                  const Eigen::VectorXd& residual, const std::vector<std::size_t>& settings) {
-  double sum = 0;
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const Eigen::VectorXd part = residual.segment(bed.offset(c), bed.channels[c].mean.size());
-    sum += discrepancy.at(c, settings[c]).factor.matrixL().solve(part).squaredNorm();
-  }
-  return sum;
+  return whitened(bed, factors_under(discrepancy, settings), residual).squaredNorm();
 }
 
 Eigen::MatrixXd smooth_functions(const TestBed& bed) {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "diagnosis/condition_axes.h"
-#include "diagnosis/parallel_for.h"
+#include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {
@@ -168,7 +168,7 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
   const TestBed& bed = recording.bed;
   HeldOut result{.families = families};
   std::vector<Prediction> folds(result.families.count);
-  diagnosis_threads::parallel_for(folds.size(), threads, [&](std::size_t family) {
+  parallel_for(folds.size(), threads, [&](std::size_t family) {
     folds[family] = predict_without(bed, soil, result.families, family, base, corrected);
   });
   const Eigen::VectorXd prior_means = *predict(bed, soil, {}, Eigen::VectorXd::Zero(base.x.size()));

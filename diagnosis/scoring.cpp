@@ -5,7 +5,7 @@
 #include <mutex>
 #include <numeric>
 
-#include "diagnosis/parallel_for.h"
+#include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {
@@ -136,7 +136,7 @@ std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
   std::vector<std::optional<CandidateFit>> fits(candidates.size());
   std::mutex progress_mutex;
   std::size_t done = 0;
-  diagnosis_threads::parallel_for(candidates.size(), options.threads, [&](std::size_t i) {
+  parallel_for(candidates.size(), options.threads, [&](std::size_t i) {
     if (options.stop.stop_requested()) return;
     fits[i] = fit_candidate(problem, candidates[i], SettingWeights::of_named(),
                             start_of(problem, candidates[i]));

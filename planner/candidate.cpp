@@ -11,6 +11,7 @@
 
 #include "planner/path_margins.h"
 #include "planner/soil_uncertainty.h"
+#include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {
@@ -72,26 +73,16 @@ VerifiedPaths verify_all(const World& verdict, const World& searched,
                          const std::vector<FoundPath>& found,
                          const std::function<void(const PlanProgress&)>& on_progress) {
   std::vector<VerifiedPath> all(found.size());
-  std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> done = 0;
-  const auto work = [&](bool reports) {
-    for (std::size_t i = next++; i < found.size(); i = next++) {
-      all[i] = verify(verdict, searched, found[i]);
-      ++done;
-      if (reports) {
-        on_progress({.stage = "verifying",
-                     .share = static_cast<double>(done) / static_cast<double>(found.size()),
-                     .found = static_cast<int>(found.size())});
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < verdict.problem().search.threads; ++i) {
-      others.emplace_back([&work] { work(false); });
-    }
-    work(true);
-  }
+  const std::thread::id caller = std::this_thread::get_id();
+  parallel_for(found.size(), verdict.problem().search.threads, [&](std::size_t i) {
+    all[i] = verify(verdict, searched, found[i]);
+    ++done;
+    if (std::this_thread::get_id() != caller) return;  // progress is for one thread
+    on_progress({.stage = "verifying",
+                 .share = static_cast<double>(done) / static_cast<double>(found.size()),
+                 .found = static_cast<int>(found.size())});
+  });
   VerifiedPaths paths;
   for (VerifiedPath& path : all) {
     if (path.candidate.verified.passed) {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "planner/parallel_for.h"
+#include "terramech/parallel_for.h"
 #include "planner/path_margins.h"
 
 namespace regoplan {

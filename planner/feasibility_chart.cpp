@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "planner/parallel_for.h"
+#include "terramech/parallel_for.h"
 #include "planner/world.h"
 
 namespace regoplan {

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "planner/parallel_for.h"
+#include "terramech/parallel_for.h"
 #include "planner/soil_surrogate.h"
 
 namespace regoplan {

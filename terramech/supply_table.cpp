@@ -1,11 +1,11 @@
 #include "terramech/supply_table.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <random>
-#include <thread>
+
+#include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {
@@ -47,18 +47,6 @@ std::vector<WheelLaw> same_soil(const Vehicle& vehicle, const WheelLaw& law) {
   return std::vector<WheelLaw>(vehicle.wheels.size(), law);
 }
 
-/// Calls work(i) for i in [0, count) from several threads.
-template <class Work>
-void share_out(std::size_t count, int threads, const Work& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto run = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(run);
-  run();
-}
-
 }  // namespace
 
 SupplyTable::SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const TrimLimits& limits,
@@ -80,7 +68,7 @@ SupplyTable::SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const Trim
   const LoadSharing sharing(vehicle);
   const std::vector<WheelLaw> laws = same_soil(vehicle, law);
   const std::size_t first = mirrors ? kCurvatures / 2 * kForces * kNormals : 0;
-  share_out(count - first, threads, [&](std::size_t number) {
+  parallel_for(count - first, threads, [&](std::size_t number) {
     const std::size_t i = first + number;
     const double normal = weight_n * normals_[i % kNormals];
     const double force = forces_[i / kNormals % kForces] * normal;
@@ -105,7 +93,7 @@ SupplyTable::SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const Trim
   }
   std::vector<std::vector<double>> excess(kCurvatures - 1);
   const std::size_t middle = (kCurvatures - 1) / 2;
-  share_out(kCurvatures - 1 - (mirrors ? middle : 0), threads, [&](std::size_t number) {
+  parallel_for(kCurvatures - 1 - (mirrors ? middle : 0), threads, [&](std::size_t number) {
     const std::size_t interval = (mirrors ? middle : 0) + number;
     excess[interval] = excesses(vehicle, sharing, laws, limits, interval);
   });
