@@ -30,7 +30,7 @@ double rim_speed_at_torque(const Torque& torque_at, double wanted_nm, double vx_
     reach *= 2;
   }
   // Illinois method.
-  constexpr double kClose = 1e-13;
+  constexpr double kClose = 1e-10;
   double at = high;
   for (int i = 0; i < 80 && f_high != 0; ++i) {
     const double middle = i % 8 == 7 ? (low + high) / 2  // across a jump of the torque

@@ -2,43 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "terramech/faded_forces.h"
 #include "terramech/rim_speed.h"
 
 namespace regoplan {
 
 namespace {
 
-constexpr double kStandstill = VehicleWheels::kStandstillSpeed_mps;
-
-/// What makes forces vanish with the speed that they oppose, v/(v + kStandstill), and its slope
-/// over the speed. One division: they are most of the cost.
-struct Fade {
-  double value, slope_per_speed;
-
-  /// \param a_mps, b_mps components of the speed
-  Fade(double a_mps, double b_mps) {
-    const double speed = std::sqrt(a_mps * a_mps + b_mps * b_mps), whole = speed + kStandstill;
-    constexpr double kLeast = 1e-300;  // at rest all of it is 0
-    const double per_both = 1 / std::max(speed * whole, kLeast);
-    const double per_whole = speed * per_both;
-    value = speed * per_whole;
-    slope_per_speed = kStandstill * per_whole * per_both;
-  }
-};
-
-inline WheelForces faded(const WheelLaw& law, double load_n, const WheelMotion& at) {
-  WheelForces forces = law.forces(load_n, at);
-  const double fade_x = Fade(at.vx_mps, at.rim_speed_mps).value;
-  forces.fx_n *= fade_x;
-  forces.fy_n *= Fade(at.vy_mps, at.rim_speed_mps).value;
-  forces.torque_nm *= fade_x;
-  return forces;
-}
-
 /// Above this, forces fade little enough to be called smooth.
-constexpr double kMoving_mps = 3 * kStandstill;
+constexpr double kMoving_mps = 3 * kStandstill_mps;
 
 bool rolls(const WheelMotion& at) {
   return at.vx_mps * at.rim_speed_mps > 0 &&
@@ -127,13 +100,6 @@ void add_contact(WheelStrain& strain, double radius_m, WheelStatus status, doubl
 
 }  // namespace
 
-/// How a wheel answers: its forces, and the rim speed at which it does.
-struct VehicleWheels::Response {
-  WheelForces forces;
-  double rim_speed_mps = 0;
-  bool as_commanded = true;
-};
-
 VehicleWheels::VehicleWheels(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws)
     : vehicle_(vehicle), soil_laws_(soil_laws), sharing_(vehicle) {
   for (const WheelMount& mount : vehicle.wheels) driven_ += mount.driven;
@@ -147,7 +113,7 @@ VehicleWheels::Response VehicleWheels::response(std::size_t wheel, const WheelLa
   };
   const auto given = [&](double torque_nm) {
     const double rim_speed_mps = rim_speed_at_torque(
-        [&](double rim) { return at_rim(rim).torque_nm; }, torque_nm, at.vx_mps, kStandstill);
+        [&](double rim) { return at_rim(rim).torque_nm; }, torque_nm, at.vx_mps, kStandstill_mps);
     return Response{at_rim(rim_speed_mps), rim_speed_mps, false};
   };
   if (!vehicle_.wheels[wheel].driven) return given(0);
@@ -157,52 +123,12 @@ VehicleWheels::Response VehicleWheels::response(std::size_t wheel, const WheelLa
   return held == forces.torque_nm ? Response{forces, at.rim_speed_mps} : given(held);
 }
 
-/// The torque at which the driven rims turn at their commanded speeds on average.
-double VehicleWheels::shared_torque_nm(const BodyMotion& motion, const WheelSetting& setting,
-                                       const GroundPatch& patch,
-                                       const GroundReaction& reaction) const {
-  if (vehicle_.drive_law != DriveLaw::kEqualTorque) return 0;
-  double most_nm = 0, axle_mps = 0;
-  const auto excess_mps = [&](double torque_nm) {
-    return sum_by_side(vehicle_, 0.0, [&](double& sum, std::size_t i) {
-      const double load = sharing_.load_n(i, reaction);
-      if (!vehicle_.wheels[i].driven || !(load > 0)) return;
-      const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
-      const WheelMotion at =
-          wheel_motion(vehicle_.wheels[i], setting.wheels[i], motion,
-                       setting.rim_speed * setting.wheels[i].rim_speed_per_speed);
-      most_nm = std::max(most_nm, load * vehicle_.wheel.radius_m);
-      axle_mps = std::max(axle_mps, std::abs(at.vx_mps));
-      sum += response(i, law, load, at, torque_nm).rim_speed_mps - at.rim_speed_mps;
-    });
-  };
-  const double limit = vehicle_.torque_max_nm.value_or(std::numeric_limits<double>::infinity());
-  double low = 0, f_low = excess_mps(0);
-  most_nm = std::min(2 * most_nm, limit);
-  double high = f_low < 0 ? most_nm : -most_nm, f_high = excess_mps(high);
-  if (f_low * f_high >= 0) return f_low == 0 ? 0 : high;
-  for (int i = 0; i < 100; ++i) {
-    constexpr double kCloseShare = 1e-12;
-    const double middle =
-        i % 4 == 3 ? (low + high) / 2 : high - f_high * (high - low) / (f_high - f_low);
-    const double f = excess_mps(middle);
-    const bool close = std::abs(middle - high) <= kCloseShare * most_nm;
-    if (f * f_high < 0) {
-      low = high;
-      f_low = f_high;
-    } else {
-      f_low /= 2;
-    }
-    high = middle;
-    f_high = f;
-    if (close || f == 0) break;
-  }
-  return high;
-}
-
 WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& setting,
                               const GroundPatch& patch, const GroundReaction& reaction) const {
-  const double shared = shared_torque_nm(motion, setting, patch, reaction);
+  SharedDrive shared;
+  if (vehicle_.drive_law == DriveLaw::kEqualTorque) {
+    shared = shared_drive(motion, setting, patch, reaction);
+  }
   WheelSums sums;
   sums.contact.load_min_n = reaction.normal_n;
   struct OfSide {
@@ -227,8 +153,12 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
       forces = faded(law, load, at);
       as_commanded = within(vehicle_.torque_max_nm, forces.torque_nm) == forces.torque_nm;
     }
-    if (!as_commanded) [[unlikely]] {
-      const Response response = this->response(i, law, load, at, shared);
+    if (mount.driven && shared.rims_known) {
+      at.rim_speed_mps = shared.rim_speed_mps.at(i);
+      forces = faded(law, load, at);
+      sums.as_commanded = false;
+    } else if (!as_commanded) [[unlikely]] {
+      const Response response = this->response(i, law, load, at, shared.torque_nm);
       forces = response.forces;
       at.rim_speed_mps = response.rim_speed_mps;
       sums.as_commanded = false;
@@ -250,7 +180,7 @@ WheelSlopes VehicleWheels::slopes_by_differences(std::size_t wheel, const WheelL
                                                  double load_n, const WheelMotion& at) const {
   const Response here = response(wheel, law, load_n, at, 0);
   const double h = 1e-4 * std::max({std::abs(at.vx_mps), std::abs(at.vy_mps),
-                                    std::abs(at.rim_speed_mps), kStandstill});
+                                    std::abs(at.rim_speed_mps), kStandstill_mps});
   // Outward, so that mirrored and reversed motions have mirrored and reversed slopes.
   const double hx = std::copysign(h, at.vx_mps != 0 ? at.vx_mps : at.rim_speed_mps);
   const double hy = std::copysign(h, at.vy_mps);
@@ -286,7 +216,7 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
     result.sums = sums(motion, setting, patch, reaction);
     result.smooth = false;
     const double h =
-        1e-4 * std::max({std::abs(motion.vx_mps), std::abs(setting.rim_speed), kStandstill});
+        1e-4 * std::max({std::abs(motion.vx_mps), std::abs(setting.rim_speed), kStandstill_mps});
     const auto moved = [&](const BodyMotion& there) {
       const BodyForce force = sums(there, setting, patch, reaction).force;
       return Eigen::Vector3d{force.forward_n - result.sums.force.forward_n,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "terramech/faded_forces.h"
 #include "terramech/ground_patch.h"
 #include "terramech/steered_wheel.h"
 #include "terramech/vehicle.h"
@@ -89,11 +90,10 @@ struct WheelSlopes {
 
 /// The wheels of a vehicle, each on its soil: the wheel model's forces at the motion of each
 /// contact, with the rim speeds that the drive law and the motors' torque limit give. Near
-/// standstill the forces fade with the speed that they oppose, because a locked wheel shears the
-/// soil fully along either of its axes, whichever way it slides: else its forces would jump.
+/// standstill the forces fade with the speed that they oppose.
 class VehicleWheels {
  public:
-  static constexpr double kStandstillSpeed_mps = 1e-3;
+  static constexpr double kStandstillSpeed_mps = kStandstill_mps;
 
   /// \param soil_laws by the ground's soil indices; all must outlive this
   VehicleWheels(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws);
@@ -113,13 +113,26 @@ class VehicleWheels {
   const LoadSharing& sharing() const { return sharing_; }
 
  private:
-  struct Response;
+  /// How a wheel answers: its forces, and the rim speed at which it does.
+  struct Response {
+    WheelForces forces;
+    double rim_speed_mps = 0;
+    bool as_commanded = true;
+  };
+  /// What wheels with one torque in common settle to.
+  struct SharedDrive {
+    double torque_nm = 0;
+    bool rims_known = false;
+    std::array<double, kMaxWheels> rim_speed_mps{};
+  };
   WheelSlopes slopes_by_differences(std::size_t wheel, const WheelLaw& law, double load_n,
                                     const WheelMotion& at) const;
   Response response(std::size_t wheel, const WheelLaw& law, double load_n, WheelMotion at,
                     double shared_torque_nm) const;
-  double shared_torque_nm(const BodyMotion& motion, const WheelSetting& setting,
-                          const GroundPatch& patch, const GroundReaction& reaction) const;
+  SharedDrive shared_drive(const BodyMotion& motion, const WheelSetting& setting,
+                           const GroundPatch& patch, const GroundReaction& reaction) const;
+  double bracketed_torque_nm(const BodyMotion& motion, const WheelSetting& setting,
+                             const GroundPatch& patch, const GroundReaction& reaction) const;
 
   const Vehicle& vehicle_;
   std::span<const WheelLaw> soil_laws_;
