@@ -134,9 +134,9 @@ ForceTable::ForceTable(const ForceTableSpec& spec) : spec_(spec), direct_(spec.m
 bool ForceTable::refine(const WheelModel& model, const Axes& axes, const ConstantShares& constant,
                         const TableAccuracy& accuracy) {
   constexpr std::size_t kMostNodes = 60000;  // on either side of slip 0: 2 MB
-  constexpr std::size_t kRandomStates = 30000, kCornerStates = 10000;
+  constexpr std::size_t kRandomStates = 20000, kCornerStates = 20000;
   constexpr double kOrder = 4, kLeastGrowth = 1.15, kMostGrowth = 1.6;
-  double share = 1;  // of the accuracy that an axis alone may use up
+  double share = 0.6;  // of the accuracy that an axis alone may use up
   std::mt19937_64 random(1);
   Sizes sizes{.loads = 8, .slips = 12, .laterals = 8};
   while (sizes.loads * sizes.slips * sizes.laterals < kMostNodes) {
@@ -153,7 +153,7 @@ bool ForceTable::refine(const WheelModel& model, const Axes& axes, const Constan
     if (!fine) continue;
     error_ = check(kRandomStates, kCornerStates, 1);
     if (error_.within(accuracy)) return true;
-    share *= 0.7;
+    share *= 0.6;
   }
   error_ = check(kRandomStates, kCornerStates, 1);
   return error_.within(accuracy);
