@@ -6,6 +6,9 @@
 #   sbatch --array=1-4 benchmarks/slurm_array.sh SUITE.yaml OUT
 #   ./regoplan benchmark merge OUT/shard-* --out OUT/whole     # when all tasks have ended
 #
+# A task that Slurm holds ("launch failed requeued held", after a node came back) goes on with
+# `scontrol release JOB`.
+#
 # The folder OUT must be seen by every node. REGOPLAN names the program where it is not ./regoplan.
 #SBATCH --job-name=regoplan
 #SBATCH --requeue

@@ -93,14 +93,23 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
     return differences(direct_, load_n, motion);
   const auto intervals = force_table::intervals(values_);
   const Weights<Four> weights = force_table::weights(at.at, intervals);
-  const Sloped sloped = look_up_sloped(block(values_, at, weights), weights);
+  Sloped sloped = look_up_sloped(block(values_, at, weights), weights);
 
-  // The slip coordinate is the root of the share, whose slope is kept finite at slip 0.
-  constexpr double kSmallSlip = 0.02;
+  // The slip coordinate is the root of the share: at slip 0 a slope over the share is 0/0, and next
+  // to it a spline's noise over nothing. Forces are straight over the share there: the slope next to
+  // 0 is that a little further out.
+  constexpr float kSmallSlip = 0.02F;
+  const float slip = std::max(at.slip, kSmallSlip);
+  if (at.slip < kSmallSlip) [[unlikely]] {
+    Four outward = at.at;
+    outward[kSlip] = kSmallSlip * static_cast<float>(intervals[kSlip]);
+    const Weights<Four> there = force_table::weights(outward, intervals);
+    sloped.by_slip = look_up_sloped(block(values_, at, there), there).by_slip;
+  }
   const double q = double{at.axle}, tangent = double{at.tangent};
   const double bend = kBend[at.driving], end = kEnd[at.driving];
   const double share_by_q = -(1 + bend) / ((q + bend) * (q + bend) * end);
-  const double slip_by_q = 0.5 * share_by_q / std::max(double{at.slip}, kSmallSlip);
+  const double slip_by_q = 0.5 * share_by_q / double{slip};
   const Axes& axes = values_.axes;
   const double g = axes.lateral_bend + axes.lateral_bend_per_axle * q;
   const double per_rise = 1 / double{at.rise}, per_width = 1 / double{at.width};

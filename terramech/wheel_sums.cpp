@@ -18,24 +18,9 @@ bool rolls(const WheelMotion& at) {
          std::max(std::abs(at.vx_mps), std::abs(at.rim_speed_mps)) > kMoving_mps;
 }
 
-/// As the law's, but within a slip of 1e-3 of none those at that slip, carried on straight: tables
-/// bend there, where the forces turn from braking to driving, and their slopes are noise.
-SlopedForces forces_with_slopes(const WheelLaw& law, double load_n, const WheelMotion& at) {
-  constexpr double kCorner = 1e-3;
-  const double corner_mps = kCorner * at.rim_speed_mps;
-  const double excess_mps = at.rim_speed_mps - at.vx_mps;
-  if (std::abs(excess_mps) >= std::abs(corner_mps)) return law.forces_with_slopes(load_n, at);
-  const bool drives = excess_mps * corner_mps >= 0;
-  const double vx_mps = at.rim_speed_mps - (drives ? corner_mps : -corner_mps);
-  SlopedForces forces = law.forces_with_slopes(load_n, {vx_mps, at.vy_mps, at.rim_speed_mps});
-  forces.fx.value_n += forces.fx.by_vx_nspm * (at.vx_mps - vx_mps);
-  forces.fy.value_n += forces.fy.by_vx_nspm * (at.vx_mps - vx_mps);
-  return forces;
-}
-
 /// \pre `rolls(at)`, the law has slopes
 WheelSlopes faded_slopes(const WheelLaw& law, double load_n, const WheelMotion& at) {
-  const SlopedForces forces = forces_with_slopes(law, load_n, at);
+  const SlopedForces forces = law.forces_with_slopes(load_n, at);
   const SlopedForce &fx = forces.fx, &fy = forces.fy;
   const Fade along(at.vx_mps, at.rim_speed_mps), across(at.vy_mps, at.rim_speed_mps);
   const double fade_x = along.value, fade_y = across.value;

@@ -188,6 +188,24 @@ TEST(ForceTable, SlopesAreThoseOfTheDirectModel) {
   }
 }
 
+/// Where forces turn from braking to driving they bend: slopes are those of either side, to 10 %.
+TEST(ForceTable, SlopesOverTheSlipStandNextToNoSlip) {
+  const ForceTable& table = simulant_table();
+  for (const double slip : {-1e-3, -1e-4, -1e-5, -1e-6, 0.0, 1e-6, 1e-5, 1e-4, 1e-3}) {
+    for (const double beta : {0.0, 0.05, 0.3}) {
+      const WheelMotion at = motion_at(slip, beta);
+      constexpr double kStep = 1e-3;
+      const double away = slip < 0 ? kStep : -kStep;  // of vx
+      const auto fx = [&](double step) {
+        return table.direct().forces(60, {at.vx_mps + step, at.vy_mps, at.rim_speed_mps}).fx_n;
+      };
+      const double slope = (fx(2 * away) - fx(away)) / away;
+      const double found = table.forces_with_slopes(60, at).fx.by_vx_nspm;
+      EXPECT_NEAR(found, slope, 0.1 * std::abs(slope)) << slip << ' ' << beta;
+    }
+  }
+}
+
 TEST(ForceTable, SideSlopeStandsAtSlipAngleZeroAndBeyondTheTable) {
   const ForceTable& table = simulant_table();
   EXPECT_GT(table.forces_with_slopes(60, motion_at(0.2, 0)).fy.by_vy_nspm, 10);

@@ -195,30 +195,35 @@ TEST(GenericCorrection, IsNeverTakenFromOrLeftOutByATableOnDisk) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(GenericCorrection, ATablesSlopesAreThoseOfItsForces) {
+/// Against the table without the correction: what the splines round goes out of the difference.
+TEST(GenericCorrection, ATablesSlopesAreThoseOfWhatIsAdded) {
   const ForceTable table({.model = with_correction(), .nominal_load_n = 60});
-  constexpr double kStep = 1e-3;  // far above the rounding of the table's coordinates
+  const ForceTable base({.model = wheel_specs::ishigami2007(), .nominal_load_n = 60});
+  constexpr double kStep = 1e-5;
   for (const Place& at : {Place{60, 0.3, 10}, Place{60, -0.2, -8}, Place{35, 0.66, 19}}) {
     for (const double direction : {1.0, -1.0}) {
       WheelMotion motion = motion_at(at.slip, at.beta_deg * kDegree);
       motion.vx_mps *= direction;
       motion.rim_speed_mps *= direction;
       const SlopedForces sloped = table.forces_with_slopes(at.load_n, motion);
+      const SlopedForces plain = base.forces_with_slopes(at.load_n, motion);
       EXPECT_NEAR(sloped.fx.value_n, table.forces(at.load_n, motion).fx_n, 1e-9);
       EXPECT_NEAR(sloped.fy.value_n, table.forces(at.load_n, motion).fy_n, 1e-9);
       const auto expect = [&](double load_step, const WheelMotion& step,
                               double SlopedForce::*slope) {
-        const auto moved = [&](double sign) {
-          return table.forces(
-              at.load_n + sign * load_step,
-              {motion.vx_mps + sign * step.vx_mps, motion.vy_mps + sign * step.vy_mps,
-               motion.rim_speed_mps + sign * step.rim_speed_mps});
+        const auto added = [&](double sign, double WheelForces::*channel) {
+          const double load_n = at.load_n + sign * load_step;
+          const WheelMotion moved{motion.vx_mps + sign * step.vx_mps,
+                                  motion.vy_mps + sign * step.vy_mps,
+                                  motion.rim_speed_mps + sign * step.rim_speed_mps};
+          return table.forces(load_n, moved).*channel - base.forces(load_n, moved).*channel;
         };
-        const WheelForces up = moved(1), down = moved(-1);
-        const double fx = (up.fx_n - down.fx_n) / (2 * kStep);
-        const double fy = (up.fy_n - down.fy_n) / (2 * kStep);
-        EXPECT_NEAR(sloped.fx.*slope, fx, 0.02 * std::abs(fx) + 0.2);
-        EXPECT_NEAR(sloped.fy.*slope, fy, 0.02 * std::abs(fy) + 0.2);
+        const auto change = [&](double WheelForces::*channel) {
+          return (added(1, channel) - added(-1, channel)) / (2 * kStep);
+        };
+        const double fx = change(&WheelForces::fx_n), fy = change(&WheelForces::fy_n);
+        EXPECT_NEAR(sloped.fx.*slope - plain.fx.*slope, fx, 1e-5 * (1 + std::abs(fx)));
+        EXPECT_NEAR(sloped.fy.*slope - plain.fy.*slope, fy, 1e-5 * (1 + std::abs(fy)));
       };
       expect(kStep, {}, &SlopedForce::by_load);
       expect(0, {.vx_mps = kStep}, &SlopedForce::by_vx_nspm);
