@@ -13,6 +13,7 @@
 #include "app/command.h"
 #include "app/interrupt.h"
 #include "app/plan_options.h"
+#include "app/scenario_settings.h"
 #include "app/staged_files.h"
 #include "app/suite_progress_line.h"
 #include "app/suite_settings.h"
@@ -68,7 +69,7 @@ std::string utc_now() {
   return text;
 }
 
-/// Reads every problem once, so that bad input shows before the first run.
+/// Reads every scenario and sets every sweep point, so that bad input shows before the first run.
 JournalOrigin origin_of(const Suite& suite) {
   JournalOrigin origin{.suite = suite.name,
                        .bounds = suite.bounds,
@@ -79,23 +80,21 @@ JournalOrigin origin_of(const Suite& suite) {
                        .scenarios = {},
                        .planners = suite.planners};
   for (std::size_t i = 0; i < suite.scenarios.size(); ++i) {
+    const SuiteScenario& scenario = suite.scenarios[i];
+    PlanningProblem problem = read_scenario(scenario.file, {}).problem;
+    origin.scenarios[scenario.label] = digest(scenario.file, problem);
     for (std::size_t point = 0; point < suite.sweep.size(); ++point) {
-      const PlanningProblem problem = read_suite_problem(suite, i, point);
-      if (point == 0) {
-        const SuiteScenario& scenario = suite.scenarios[i];
-        origin.scenarios[scenario.label] = digest(scenario.file, problem);
-      }
+      problem = at_sweep_point(std::move(problem), suite, i, point);
     }
   }
   return origin;
 }
 
-void print_outcome(const JournalContents& contents, bool interrupted,
-                   const BenchmarkOptions& options) {
+void print_outcome(const SuiteResults& results, const BenchmarkOptions& options) {
   if (options.json) {
-    fmt::print("{}", benchmark_json(contents, interrupted));
+    fmt::print("{}", benchmark_json(results));
   } else if (!options.quiet) {
-    fmt::print("{}\nreport: {}\n", benchmark_headline(contents, interrupted),
+    fmt::print("{}\nreport: {}\n", benchmark_headline(results),
                (options.out / "report.html").string());
   }
 }
@@ -115,15 +114,16 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
     run_suite(
         suite, runs_of(suite, shard), journal, options.processes,
         [&suite](std::size_t scenario, std::size_t point) {
-          return read_suite_problem(suite, scenario, point);
+          return at_sweep_point(read_scenario(suite.scenarios[scenario].file, {}).problem, suite,
+                                scenario, point);
         },
         [&line](const SuiteProgress& progress) { line.show(progress); }, stop);
   }
-  const JournalContents contents = read_journal(options.out);
-  const bool interrupted = stop.stop_requested();
-  write_benchmark_files(contents, interrupted, options.out);
-  print_outcome(contents, interrupted, options);
-  return interrupted ? kInterrupted : kYes;
+  const SuiteResults results{.journal = read_journal(options.out),
+                             .interrupted = stop.stop_requested()};
+  write_benchmark_files(results, options.out);
+  print_outcome(results, options);
+  return results.interrupted ? kInterrupted : kYes;
 }
 
 ExitStatus run_merge(const BenchmarkOptions& options) {
@@ -133,11 +133,11 @@ ExitStatus run_merge(const BenchmarkOptions& options) {
     throw InputError(options.out.string() + ": holds a benchmark already (runs.jsonl)");
   }
   for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
-  const JournalContents contents = merged(parts);
+  const SuiteResults results{.journal = merged(parts)};
   std::filesystem::create_directories(options.out);
-  write_benchmark_files(contents, false, options.out);
-  write_journal(options.out, contents);
-  print_outcome(contents, false, options);
+  write_benchmark_files(results, options.out);
+  write_journal(options.out, results.journal);
+  print_outcome(results, options);
   return kYes;
 }
 

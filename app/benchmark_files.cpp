@@ -7,7 +7,6 @@
 
 #include "app/benchmark_report.h"
 #include "app/staged_files.h"
-#include "benchmarking/experiment.h"
 #include "benchmarking/ompl_log.h"
 #include "benchmarking/results_database.h"
 #include "benchmarking/summary.h"
@@ -49,10 +48,10 @@ std::string log_name(std::string experiment) {
 
 }  // namespace
 
-std::string benchmark_json(const JournalContents& contents, bool interrupted) {
+std::string benchmark_json(const SuiteResults& results) {
   nlohmann::json experiments = nlohmann::json::array();
   nlohmann::json comparisons = nlohmann::json::array();
-  for (const BenchmarkExperiment& experiment : experiments_of(contents)) {
+  for (const BenchmarkExperiment& experiment : results.experiments) {
     nlohmann::json planners = nlohmann::json::array();
     for (const PlannerRuns& runs : experiment.planners) {
       planners.push_back(json_of(summary_of(runs)));
@@ -64,24 +63,22 @@ std::string benchmark_json(const JournalContents& contents, bool interrupted) {
       }
     }
   }
-  const JournalOrigin& origin = contents.origins.front();
+  const std::vector<JournalOrigin>& origins = results.journal.origins;
   const nlohmann::json json{
-      {"suite", origin.suite},      {"runs", contents.runs.size()},
-      {"interrupted", interrupted}, {"version", contents.origins.back().version},
-      {"experiments", experiments}, {"comparisons", comparisons}};
+      {"suite", origins.front().suite},     {"runs", results.journal.runs.size()},
+      {"interrupted", results.interrupted}, {"version", origins.back().version},
+      {"experiments", experiments},         {"comparisons", comparisons}};
   return json.dump(2) + "\n";
 }
 
-void write_benchmark_files(const JournalContents& contents, bool interrupted,
-                           const std::filesystem::path& folder) {
-  const std::vector<BenchmarkExperiment> experiments = experiments_of(contents);
+void write_benchmark_files(const SuiteResults& results, const std::filesystem::path& folder) {
   StagedFiles staged(folder);
-  for (const BenchmarkExperiment& experiment : experiments) {
+  for (const BenchmarkExperiment& experiment : results.experiments) {
     staged.write({.name = log_name(experiment.name), .content = ompl_log(experiment)});
   }
-  write_results_database(staged.path("benchmark.db"), experiments);
-  staged.write({.name = "benchmark.json", .content = benchmark_json(contents, interrupted)});
-  staged.write({.name = "report.html", .content = benchmark_report(contents, interrupted)});
+  write_results_database(staged.path("benchmark.db"), results.experiments);
+  staged.write({.name = "benchmark.json", .content = benchmark_json(results)});
+  staged.write({.name = "report.html", .content = benchmark_report(results)});
   staged.commit();
 }
 

@@ -3,18 +3,17 @@
 #include <filesystem>
 #include <string>
 
-#include "benchmarking/run_journal.h"
+#include "benchmarking/experiment.h"
 
 namespace regoplan {
 
 /// The text of benchmark.json: a summary of every planner in every experiment, and the paired
 /// comparisons.
-std::string benchmark_json(const JournalContents& contents, bool interrupted);
+std::string benchmark_json(const SuiteResults& results);
 
-/// Writes what is made of a journal, all or none: EXPERIMENT.log in OMPL's grammar, benchmark.db,
+/// Writes what is made of the journal, all or none: EXPERIMENT.log in OMPL's grammar, benchmark.db,
 /// benchmark.json and report.html.
 /// \throws InputError where the folder takes no files
-void write_benchmark_files(const JournalContents& contents, bool interrupted,
-                           const std::filesystem::path& folder);
+void write_benchmark_files(const SuiteResults& results, const std::filesystem::path& folder);
 
 }  // namespace regoplan

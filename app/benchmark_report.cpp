@@ -136,30 +136,30 @@ std::vector<std::string> lead_sentences(const JournalContents& contents, const T
   return sentences;
 }
 
-std::string headline(const std::vector<BenchmarkExperiment>& experiments, const Totals& totals,
-                     const std::string& suite, bool interrupted) {
+std::string headline(const SuiteResults& results, const Totals& totals) {
+  const std::size_t experiments = results.experiments.size();
   return fmt::format("{}: {} of {} runs over {} {} found a path that the exact model confirms{}.",
-                     suite, totals.verified, totals.runs, experiments.size(),
-                     experiments.size() == 1 ? "experiment" : "experiments",
-                     interrupted ? " (interrupted)" : "");
+                     results.journal.origins.front().suite, totals.verified, totals.runs,
+                     experiments, experiments == 1 ? "experiment" : "experiments",
+                     results.interrupted ? " (interrupted)" : "");
 }
 
 }  // namespace
 
-std::string benchmark_headline(const JournalContents& contents, bool interrupted) {
-  const std::vector<BenchmarkExperiment> experiments = experiments_of(contents);
-  return headline(experiments, totals_of(experiments), contents.origins.front().suite, interrupted);
+std::string benchmark_headline(const SuiteResults& results) {
+  return headline(results, totals_of(results.experiments));
 }
 
-std::string benchmark_report(const JournalContents& contents, bool interrupted) {
-  const std::vector<BenchmarkExperiment> experiments = experiments_of(contents);
-  const Totals totals = totals_of(experiments);
-  const JournalOrigin& origin = contents.origins.front();
+std::string benchmark_report(const SuiteResults& results) {
+  const Totals totals = totals_of(results.experiments);
+  const JournalOrigin& origin = results.journal.origins.front();
   nlohmann::json list = nlohmann::json::array();
-  for (const BenchmarkExperiment& experiment : experiments) list.push_back(json_of(experiment));
+  for (const BenchmarkExperiment& experiment : results.experiments) {
+    list.push_back(json_of(experiment));
+  }
   return render({.title = "Benchmark " + origin.suite,
-                 .headline = headline(experiments, totals, origin.suite, interrupted),
-                 .lead = lead_sentences(contents, totals, interrupted),
+                 .headline = headline(results, totals),
+                 .lead = lead_sentences(results.journal, totals, results.interrupted),
                  .body_html = report_assets::kBenchmarkHtml,
                  .script = report_assets::kBenchmarkScript,
                  .data_json = json_for_html({{"suite", origin.suite},

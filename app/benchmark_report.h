@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "benchmarking/run_journal.h"
+#include "benchmarking/experiment.h"
 
 namespace regoplan {
 
 /// The verdict of a suite in one sentence.
-std::string benchmark_headline(const JournalContents& contents, bool interrupted);
+std::string benchmark_headline(const SuiteResults& results);
 
 /// report.html of a suite: success with intervals, profiles, boxes, comparisons, paths.
-std::string benchmark_report(const JournalContents& contents, bool interrupted);
+std::string benchmark_report(const SuiteResults& results);
 
 }  // namespace regoplan

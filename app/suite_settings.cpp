@@ -11,7 +11,6 @@
 #include <set>
 #include <sstream>
 
-#include "app/scenario_settings.h"
 #include "app/settings_mapping.h"
 #include "app/settings_path.h"
 
@@ -205,10 +204,8 @@ Suite read_suite(const std::string& file) {
   });
 }
 
-PlanningProblem read_suite_problem(const Suite& suite, std::size_t scenario,
-                                   std::size_t sweep_point) {
-  const SuiteScenario& read = suite.scenarios[scenario];
-  PlanningProblem problem = read_scenario(read.file, {}).problem;
+PlanningProblem at_sweep_point(PlanningProblem problem, const Suite& suite, std::size_t scenario,
+                               std::size_t sweep_point) {
   for (const auto& [key, value] : suite.sweep[sweep_point]) sweep_key(key)->set(problem, value);
   try {
     validate(problem);

@@ -24,10 +24,10 @@ namespace regoplan {
 /// \throws SettingsError
 Suite read_suite(const std::string& file);
 
-/// The problem of a suite's scenario at a sweep point.
-/// \throws SettingsError
-PlanningProblem read_suite_problem(const Suite& suite, std::size_t scenario,
-                                   std::size_t sweep_point);
+/// The problem of a suite's scenario, or of any other sweep point of it, at a sweep point.
+/// \throws InputError naming the experiment where a value is not possible
+PlanningProblem at_sweep_point(PlanningProblem problem, const Suite& suite, std::size_t scenario,
+                               std::size_t sweep_point);
 
 /// A number that changes when anything changes that the scenario's problem is made of: file, map,
 /// soils, rocks. Hexadecimal.

@@ -34,4 +34,11 @@ std::size_t runs_per_planner(const BenchmarkExperiment& experiment);
 /// The experiments of a journal, in the order of their names; planners in the order of the suite.
 std::vector<BenchmarkExperiment> experiments_of(const JournalContents& contents);
 
+/// What a suite came to, as far as it came.
+struct SuiteResults {
+  JournalContents journal;
+  std::vector<BenchmarkExperiment> experiments = experiments_of(journal);
+  bool interrupted = false;
+};
+
 }  // namespace regoplan

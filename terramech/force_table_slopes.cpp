@@ -96,8 +96,8 @@ ForceTable::forces_with_slopes(double load_n, const WheelMotion& motion) const {
   Sloped sloped = look_up_sloped(block(values_, at, weights), weights);
 
   // The slip coordinate is the root of the share: at slip 0 a slope over the share is 0/0, and next
-  // to it a spline's noise over nothing. Forces are straight over the share there: the slope next to
-  // 0 is that a little further out.
+  // to it a spline's noise over nothing. Forces are straight over the share there: the slope next
+  // to 0 is that a little further out.
   constexpr float kSmallSlip = 0.02F;
   const float slip = std::max(at.slip, kSmallSlip);
   if (at.slip < kSmallSlip) [[unlikely]] {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terramech/bracketed_root.h"
+
 namespace regoplan {
 
 /// Rim speed at which a wheel's torque is the wanted one, for wheels that are given a torque and
@@ -29,26 +31,10 @@ double rim_speed_at_torque(const Torque& torque_at, double wanted_nm, double vx_
     f_high = torque_at(high) - wanted_nm;
     reach *= 2;
   }
-  // Illinois method.
   constexpr double kClose = 1e-10;
-  double at = high;
-  for (int i = 0; i < 80 && f_high != 0; ++i) {
-    const double middle = i % 8 == 7 ? (low + high) / 2  // across a jump of the torque
-                                     : high - f_high * (high - low) / (f_high - f_low);
-    const double f = torque_at(middle) - wanted_nm;
-    const bool close = std::abs(middle - high) <= kClose * scale;
-    at = middle;
-    if (f * f_high < 0) {
-      low = high;
-      f_low = f_high;
-    } else {
-      f_low /= 2;
-    }
-    high = middle;
-    f_high = f;
-    if (close || std::abs(high - low) <= kClose * scale) break;
-  }
-  return at;
+  return bracketed_root([&](double rim_mps) { return torque_at(rim_mps) - wanted_nm; },
+                        {.from = low, .f_from = f_low, .to = high, .f_to = f_high},
+                        {.argument = kClose * scale});
 }
 
 }  // namespace regoplan

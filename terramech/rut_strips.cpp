@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "terramech/bracketed_root.h"
+
 namespace regoplan {
 
 using wheel_contact::LawIntegrals;
@@ -64,23 +66,9 @@ std::optional<double> RutStrips::entry_angle(double load_n, double guess_rad) co
     high = std::min(high * kStep, kQuarterTurn * (1 - 1e-12));
     if (low == high) return std::nullopt;
   }
-  // Illinois: a secant that keeps its bracket
-  double at_low = excess(low), at_high = excess(high);
-  for (int i = 0; i < 60 && high - low > 1e-12 * high; ++i) {
-    const double middle = high - at_high * (high - low) / (at_high - at_low);
-    const double here = excess(middle);
-    if (std::abs(here) < 1e-10 * load_n) return middle;
-    if (here < 0) {
-      low = middle;
-      at_low = here;
-      at_high /= 2;
-    } else {
-      high = middle;
-      at_high = here;
-      at_low /= 2;
-    }
-  }
-  return high;
+  return bracketed_root(excess,
+                        {.from = low, .f_from = excess(low), .to = high, .f_to = excess(high)},
+                        {.argument = 1e-12 * high, .value = 1e-10 * load_n, .calls_max = 60});
 }
 
 RutStrips::Sideways RutStrips::sideways(double sinkage_m, double q, double load_n) const {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "terramech/bracketed_root.h"
+
 namespace regoplan {
 namespace {
 
@@ -225,31 +227,20 @@ LimitUse limit_use(const Trim& trim, const TrimLimits& limits) {
 
 namespace {
 
-/// Where the first limit is reached within the last step of a walk, by the Illinois method on the
-/// arc length; the walk stands beyond the limit.
+/// Where the first limit is reached within the last step of a walk, over the arc length; the walk
+/// stands beyond the limit.
 Point limit_within_step(const Walk& walk, double used_before,
                         const std::function<double(const Point&)>& used) {
-  constexpr double kClose = 1e-5;
-  double low = 0, high = walk.last_arc();
-  double f_low = used_before - 1, f_high = used(walk.at()) - 1;
   Point at = walk.at();
-  for (int i = 0; i < 20 && high - low > 1e-9; ++i) {
-    const double middle = high - f_high * (high - low) / (f_high - f_low);
-    const auto point = walk.between(middle);
-    if (!point) break;
-    const double f = used(*point) - 1;
+  const auto excess = [&](double arc) {
+    const auto point = walk.between(arc);
+    if (!point) return 0.0;  // as near as the walk can say
     at = *point;
-    if (std::abs(f) < kClose) break;
-    if (f > 0) {
-      high = middle;
-      f_high = f;
-      f_low /= 2;
-    } else {
-      low = middle;
-      f_low = f;
-      f_high /= 2;
-    }
-  }
+    return used(at) - 1;
+  };
+  bracketed_root(
+      excess, {.from = 0, .f_from = used_before - 1, .to = walk.last_arc(), .f_to = used(at) - 1},
+      {.argument = 1e-9, .value = 1e-5, .calls_max = 20});
   return at;
 }
 
