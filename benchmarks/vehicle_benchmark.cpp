@@ -67,16 +67,16 @@ std::vector<Asked> questions(const Lrv& lrv) {
   return asked;
 }
 
+VehicleDynamics on_a_slope(const Lrv& lrv) {
+  const GroundPatch patch{
+      .known = true, .z_m = 0, .slope_forward = 0.05, .slope_left = 0.05, .soil = {}};
+  return {lrv.vehicle, lrv.laws, [patch](double, double, double) { return patch; }, kMoon_mps2};
+}
+
 /// A slalom on a slope, started anew every 10 s.
 void vehicle_step(benchmark::State& state, Law law, double speed_mps, double step_s) {
   const Lrv lrv(law);
-  const VehicleDynamics dynamics(
-      lrv.vehicle, lrv.laws,
-      [](double, double, double) {
-        return GroundPatch{
-            .known = true, .z_m = 0, .slope_forward = 0.05, .slope_left = 0.05, .soil = {}};
-      },
-      kMoon_mps2);
+  const VehicleDynamics dynamics = on_a_slope(lrv);
   const VehicleState start = dynamics.rolling_state(0, 0, 0, speed_mps);
   VehicleState at = start;
   const int steps = static_cast<int>(10 / step_s);
@@ -102,13 +102,7 @@ BENCHMARK_CAPTURE(vehicle_step, fast_0p05_mps, Law::kDirectFast, 0.05, 0.5);
 /// from that of steps of 1/512 s, per metre driven.
 void slalom_of_a_minute(benchmark::State& state, double speed_mps) {
   const Lrv lrv(Law::kTable);
-  const VehicleDynamics dynamics(
-      lrv.vehicle, lrv.laws,
-      [](double, double, double) {
-        return GroundPatch{
-            .known = true, .z_m = 0, .slope_forward = 0.05, .slope_left = 0.05, .soil = {}};
-      },
-      kMoon_mps2);
+  const VehicleDynamics dynamics = on_a_slope(lrv);
   const auto slalom = [&](double step_s) {
     VehicleState at = dynamics.rolling_state(0, 0, 0, speed_mps);
     const auto per_bend = static_cast<int>(std::lround(6 / step_s));

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/terramech/named_soils.h"
+
 namespace regoplan {
 namespace {
 
@@ -44,19 +46,10 @@ double ground_m(double x_m, double y_m) {
 MapSoil soil(std::string name, double cohesion_pa, double friction_angle_deg, double kphi) {
   const double degree = std::numbers::pi / 180;
   UncertainSoil numbers;
-  numbers.mean = {.cohesion_pa = cohesion_pa,
-                  .friction_angle_rad = friction_angle_deg * degree,
-                  .kc = 1370,
-                  .kphi = kphi,
-                  .n = 1,
-                  .a0 = 0.4,
-                  .a1 = 0.15,
-                  .lambda = 0.9,
-                  .density_kgpm3 = 1600,
-                  .kx0_m = 0.036,
-                  .kx1_m = 0.043,
-                  .ky0_m = 0.013,
-                  .ky1_m = 0.020};
+  numbers.mean = named_soils::simulant_2007();
+  numbers.mean.cohesion_pa = cohesion_pa;
+  numbers.mean.friction_angle_rad = friction_angle_deg * degree;
+  numbers.mean.kphi = kphi;
   numbers.standard_deviation.cohesion_pa = 0.2 * cohesion_pa;
   numbers.standard_deviation.friction_angle_rad = 2 * degree;
   numbers.standard_deviation.kphi = 0.2 * kphi;

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "tests/terramech/named_soils.h"
+
 namespace regoplan {
 namespace {
 
@@ -100,19 +102,7 @@ std::array<double, kChannelCount> true_channels(const TrueWheel& truth, const Di
 
 DiagnosisSetup simulant_setup() {
   DiagnosisSetup setup{.wheel = {.radius_m = 0.09, .width_m = 0.1}};
-  setup.soil.mean = {.cohesion_pa = 800,
-                     .friction_angle_rad = 37.2 * kDegree,
-                     .kc = 1370,
-                     .kphi = 8.14e5,
-                     .n = 1,
-                     .a0 = 0.4,
-                     .a1 = 0.15,
-                     .lambda = 0.9,
-                     .density_kgpm3 = 1600,
-                     .kx0_m = 0.036,
-                     .kx1_m = 0.043,
-                     .ky0_m = 0.013,
-                     .ky1_m = 0.020};
+  setup.soil.mean = named_soils::simulant_2007();
   setup.soil.standard_deviation = {.cohesion_pa = 150,
                                    .friction_angle_rad = 1.5 * kDegree,
                                    .kc = 300,
