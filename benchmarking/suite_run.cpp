@@ -19,6 +19,10 @@ using Clock = std::chrono::steady_clock;
 /// soil draws.
 constexpr double kVerificationLimit_s = 120;
 
+/// What it may take beyond the bound of its search, which OMPL watches now and then, before
+/// allocations fail.
+constexpr double kVerificationMemory_mb = 1024;
+
 /// Estimates what remains from what has been done in this session.
 class Stopwatch {
  public:
@@ -60,7 +64,8 @@ ChildTask task_of(const Suite& suite, const SuiteRun& run, const World& searched
       .progress_interval_s = bounds.progress_interval_s};
   return {.work = [&searched, &verdict,
                    request] { return bytes_of(benchmark(searched, verdict, request)); },
-          .time_limit_s = bounds.time_s + kVerificationLimit_s};
+          .time_limit_s = bounds.time_s + kVerificationLimit_s,
+          .memory_limit_mb = bounds.memory_mb + kVerificationMemory_mb};
 }
 
 }  // namespace

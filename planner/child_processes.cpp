@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +14,8 @@
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <fstream>
+#include <new>
 #include <string_view>
 #include <system_error>
 
@@ -52,16 +55,32 @@ void say_why(int pipe, char kind, const std::exception& bad) {
   say(pipe, why.data(), why.size());
 }
 
+/// Limits the address space to what is taken now and so much more.
+void limit_memory(double more_mb) {
+  std::ifstream stream("/proc/self/statm");
+  std::size_t pages = 0;
+  if (!(stream >> pages)) return;
+  const std::size_t bytes = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) +
+                            static_cast<std::size_t>(more_mb * 1024 * 1024);
+  const rlimit limit{.rlim_cur = bytes, .rlim_max = bytes};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
 [[noreturn]] void be_child(const ChildTask& task, int pipe) {
   // The parent decides what an interrupt means, and ends its children; they end with it.
   std::signal(SIGINT, SIG_IGN);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (task.memory_limit_mb) limit_memory(*task.memory_limit_mb);
   try {
     const std::vector<char> bytes = task.work();
     say(pipe, &kAnswer, 1);
     say(pipe, bytes.data(), bytes.size());
   } catch (const InputError& bad) {
     say_why(pipe, kBadInput, bad);
+  } catch (const std::bad_alloc&) {
+    constexpr std::string_view kWhy = "took more memory than it may";
+    say(pipe, &kException, 1);
+    say(pipe, kWhy.data(), kWhy.size());
   } catch (const std::exception& bad) {
     say_why(pipe, kException, bad);
   }

@@ -12,6 +12,8 @@ namespace regoplan {
 struct ChildTask {
   std::function<std::vector<char>()> work;  ///< its answer, as bytes
   std::optional<double> time_limit_s{};     ///< killed when it takes longer
+  /// What it may take beyond what the parent has; an allocation beyond that fails.
+  std::optional<double> memory_limit_mb{};
 };
 
 /// What a child came to.

@@ -72,6 +72,22 @@ TEST(Children, CostOneTaskWhenTheyCrashThrowOrHang) {
   EXPECT_EQ(all[4].bytes, text("well"));
 }
 
+TEST(Children, CostOneTaskWhenTheyTakeTooMuchMemory) {
+  const auto taking = [](std::size_t megabytes) {
+    return ChildTask{.work =
+                         [megabytes] {
+                           const std::vector<char> taken(megabytes << 20, 'x');
+                           return text(taken.back() == 'x' ? "had it" : "");
+                         },
+                     .memory_limit_mb = 500};
+  };
+  const auto all = answers({taking(1000), taking(100)}, 1, AnswerOrder::kAsGiven);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_FALSE(all[0].bytes);
+  EXPECT_NE(all[0].failure, "");
+  EXPECT_EQ(all[1].bytes, text("had it"));
+}
+
 TEST(Children, AnswerInTheOrderOfTheTasksOrOfTheirEnds) {
   const auto slow = task([] {
     std::this_thread::sleep_for(std::chrono::milliseconds(600));
