@@ -26,12 +26,6 @@ void Lattice::clear() {
   best_.clear();
 }
 
-bool Lattice::hopeless(double cost, const VehicleState& state) const {
-  const Goal& goal = problem_.world().problem().goal;
-  const double away_m = std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) - goal.radius_m;
-  return cost + least_cost(problem_.world().problem(), away_m) >= best_.cost();
-}
-
 void Lattice::push(const Round& round, double cost, const VehicleState& state, int node,
                    const std::optional<Drive>& drive) {
   const double rest = rough_cost_to_go(round.resolution, problem_, state);
@@ -85,7 +79,8 @@ bool Lattice::try_drive(const Round& round, int parent, const Drive& drive) {
           .try_emplace(lattice_cell(round.resolution, world.problem(), node.values.vehicle),
                        Cell{.cost = std::numeric_limits<double>::infinity()})
           .first->second;
-  if (cell.closed || node.cost >= cell.cost || hopeless(node.cost, node.values.vehicle)) {
+  if (cell.closed || node.cost >= cell.cost ||
+      problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) {
     return false;
   }
   cell.cost = node.cost;
@@ -108,7 +103,7 @@ Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminati
     const Entry entry = open_.top();
     open_.pop();
     const DriveNode& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (hopeless(node.cost, node.values.vehicle)) continue;
+    if (problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) continue;
     if (!entry.drive) {
       Cell& cell =
           cells_[lattice_cell(round.resolution, problem_.world().problem(), node.values.vehicle)];

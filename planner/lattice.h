@@ -66,7 +66,6 @@ class Lattice : public ompl::base::Planner {
   void expand(const Round& round, int node);
   /// Drives it and keeps what it leads to. \returns whether that is the goal
   bool try_drive(const Round& round, int node, const Drive& drive);
-  bool hopeless(double cost, const VehicleState& state) const;
   void push(const Round& round, double cost, const VehicleState& state, int node,
             const std::optional<Drive>& drive);
   /// Whether a cell has been reached for no more.
