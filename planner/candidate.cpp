@@ -11,6 +11,7 @@
 
 #include "planner/path_margins.h"
 #include "planner/soil_uncertainty.h"
+#include "planner/steer_back.h"
 #include "terramech/parallel_for.h"
 
 namespace regoplan {
@@ -30,21 +31,28 @@ std::string why_overturned(const Replay& replay) {
                      end.y_m);
 }
 
+bool passes(const Replay& replayed) {
+  return replayed.reached_goal && !replayed.rejection;
+}
+
 VerifiedPath verify(const World& verdict, const World& searched, const FoundPath& path) {
   const ReplaySteps fine = verification_steps(verdict);
-  const ReplaySteps coarse{.coarse_s = fine.coarse_s};
+  const Replay as_searched = replay(searched, path.controls, {.coarse_s = fine.coarse_s}, false);
   VerifiedPath verified{
       .candidate = {.planner = path.planner, .seed = path.seed, .controls = path.controls},
       .replay = replay(verdict, path.controls, fine)};
+  if (!passes(verified.replay)) {
+    verified.candidate.controls = steered_back(verdict, fine, path.controls, as_searched.coarse);
+    verified.replay = replay(verdict, verified.candidate.controls, fine);
+  }
   const Replay& replayed = verified.replay;
   Candidate& candidate = verified.candidate;
   candidate.points = replayed.points;
   candidate.length_m = replayed.length_m;
   candidate.duration_s = replayed.duration_s;
   candidate.energy_j = replayed.energy_j;
-  candidate.verified.passed = replayed.reached_goal && !replayed.rejection;
-  candidate.verified.deviation_max_m =
-      deviation_max_m(replayed, replay(searched, path.controls, coarse, false));
+  candidate.verified.passed = passes(replayed);
+  candidate.verified.deviation_max_m = deviation_max_m(replayed, as_searched);
   if (!candidate.verified.passed) candidate.verified.reason = why_overturned(replayed);
   if (candidate.points.empty()) return verified;
   candidate.margin_min = candidate.points[smallest_margin_index(candidate.points)].margin;

@@ -28,7 +28,10 @@ struct VerifiedPaths {
 };
 
 /// Drives every path again with the direct wheel model and a ten times finer step, and judges it:
-/// the goal is reached, every limit holds at every step, every margin wherever it is solved.
+/// the goal is reached, every limit holds at every step, every margin wherever it is solved. A path
+/// that does not pass is steered back to where the search had it and judged once more: errors of
+/// the search's tables and steps grow with the way, and its controls alone would end metres aside
+/// of a long one.
 /// \param verdict, searched the two worlds of one problem
 VerifiedPaths verify_all(const World& verdict, const World& searched,
                          const std::vector<FoundPath>& found,

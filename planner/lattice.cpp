@@ -4,7 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "planner/goal_connection.h"
 #include "planner/path_cost.h"
+#include "planner/steer_back.h"
 
 namespace regoplan {
 
@@ -24,12 +26,6 @@ void Lattice::clear() {
   cells_.clear();
   open_ = {};
   best_.clear();
-}
-
-bool Lattice::hopeless(double cost, const VehicleState& state) const {
-  const Goal& goal = problem_.world().problem().goal;
-  const double away_m = std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) - goal.radius_m;
-  return cost + least_cost(problem_.world().problem(), away_m) >= best_.cost();
 }
 
 void Lattice::push(const Round& round, double cost, const VehicleState& state, int node,
@@ -63,6 +59,40 @@ void Lattice::expand(const Round& round, int index) {
   }
 }
 
+bool Lattice::connect(int index) {
+  const World& world = problem_.world();
+  const PlanningProblem& asked = world.problem();
+  const DriveNode& from = nodes_[static_cast<std::size_t>(index)];
+  const VehicleState& state = from.values.vehicle;
+  constexpr double kSlowShare = 0.35, kRadii = 12, kEvery_radii = 2;
+  const double radius_m = 1 / asked.vehicle.curvature_max_1pm;
+  const double away_radii =
+      std::hypot(state.x_m - asked.goal.x_m, state.y_m - asked.goal.y_m) / radius_m;
+  if (!asked.goal.heading_rad || std::abs(state.rim_speed_mps) > kSlowShare * asked.speed_max_mps ||
+      away_radii > kRadii) {
+    return false;
+  }
+  // The nearer, the oftener.
+  if (near_goal_++ % (1 + static_cast<int>(away_radii / kEvery_radii)) != 0) return false;
+  const GoalConnection way = connection_to_goal(problem_, state, 2 * kRadii * radius_m);
+  VehicleSpace::Values values = from.values;
+  double cost = from.cost;
+  std::vector<Drive> drives = drives_to(nodes_, index);
+  for (const GoalConnection::Step& due : way.steps) {
+    const VehicleControl control = steered_back(asked, due.control, due.due, values.vehicle);
+    const SearchStep step = problem_.steps().next(values, control, problem_.step_s());
+    cost += step_cost(world, values, step, problem_.step_s());
+    values = step.values;
+    drives.push_back({.control = control, .steps = 1});
+    if (problem_.hopeless(cost, values.vehicle, best_.cost()) ||
+        !problem_.steps().allowed(values)) {
+      return false;
+    }
+    if (world.at_goal(values.vehicle)) return best_.offer(cost, std::move(drives));
+  }
+  return false;
+}
+
 bool Lattice::try_drive(const Round& round, int parent, const Drive& drive) {
   const World& world = problem_.world();
   const double step_s = problem_.step_s();
@@ -85,7 +115,8 @@ bool Lattice::try_drive(const Round& round, int parent, const Drive& drive) {
           .try_emplace(lattice_cell(round.resolution, world.problem(), node.values.vehicle),
                        Cell{.cost = std::numeric_limits<double>::infinity()})
           .first->second;
-  if (cell.closed || node.cost >= cell.cost || hopeless(node.cost, node.values.vehicle)) {
+  if (cell.closed || node.cost >= cell.cost ||
+      problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) {
     return false;
   }
   cell.cost = node.cost;
@@ -99,6 +130,7 @@ Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminati
   cells_.clear();
   open_ = {};
   pushed_ = 0;
+  near_goal_ = 0;
   for (const VehicleSpace::Values& start : starts_) {
     nodes_.push_back({.values = start});
     push(round, 0, start.vehicle, static_cast<int>(nodes_.size()) - 1, std::nullopt);
@@ -108,12 +140,13 @@ Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminati
     const Entry entry = open_.top();
     open_.pop();
     const DriveNode& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (hopeless(node.cost, node.values.vehicle)) continue;
+    if (problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) continue;
     if (!entry.drive) {
       Cell& cell =
           cells_[lattice_cell(round.resolution, problem_.world().problem(), node.values.vehicle)];
       if (cell.closed) continue;
       cell.closed = true;
+      if (round.resolution.reverse && connect(entry.node)) return RoundEnd::kFound;
       expand(round, entry.node);
       continue;
     }

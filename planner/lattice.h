@@ -20,7 +20,8 @@ namespace regoplan {
 /// has reached for less is dropped. Rounds with growing bounds go
 /// through finer resolutions and driving in reverse until a path is found; then, where the problem
 /// asks to improve, through smaller weights, each round pruned against the best cost so far.
-/// Deterministic; draws nothing.
+/// Rounds with reverse also try, from slow nodes near a goal with a heading, the shortest way to
+/// its pose (`connection_to_goal`). Deterministic; draws nothing.
 ///
 /// An iteration is one drive taken from the queue. Progress: `best cost REAL`, in the units of the
 /// objective.
@@ -64,9 +65,11 @@ class Lattice : public ompl::base::Planner {
   void search_for_first(const ompl::base::PlannerTerminationCondition& stop);
   void improve(const ompl::base::PlannerTerminationCondition& stop);
   void expand(const Round& round, int node);
+  /// Tries the way from a slow node straight to the pose of the goal. \returns whether it leads
+  /// there for less
+  bool connect(int node);
   /// Drives it and keeps what it leads to. \returns whether that is the goal
   bool try_drive(const Round& round, int node, const Drive& drive);
-  bool hopeless(double cost, const VehicleState& state) const;
   void push(const Round& round, double cost, const VehicleState& state, int node,
             const std::optional<Drive>& drive);
   /// Whether a cell has been reached for no more.
@@ -78,6 +81,7 @@ class Lattice : public ompl::base::Planner {
   std::unordered_map<std::uint64_t, Cell> cells_;
   std::priority_queue<Entry, std::vector<Entry>, Later> open_;
   std::uint32_t pushed_ = 0;
+  int near_goal_ = 0;  ///< nodes from which the goal's pose might have been tried
   BestPath best_;
 };
 

@@ -9,6 +9,7 @@
 #include "planner/lattice.h"
 #include "planner/map_decomposition.h"
 #include "planner/stable_sparse.h"
+#include "planner/state_cost.h"
 
 namespace regoplan {
 
@@ -20,6 +21,7 @@ ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
   const double map_size_m = problem.diagonal_m();
   if (name == "Lattice") return std::make_shared<Lattice>(problem);
   if (name == "StableSparse") return std::make_shared<StableSparse>(problem);
+  if (name == "StateCost") return std::make_shared<StateCost>(problem);
   if (name == "SyclopRRT") return make_syclop_rrt(problem);
   if (name == "SyclopEST") return make_syclop_est(problem);
   if (name == "SST") {

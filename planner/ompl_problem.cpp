@@ -5,10 +5,12 @@
 #include <ompl/control/PathControl.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "planner/path_cost.h"
 #include "planner/steering_samplers.h"
 #include "planner/vehicle_space.h"
 
@@ -21,32 +23,37 @@ namespace oc = ompl::control;
 class DynamicsPropagator : public oc::StatePropagator {
  public:
   // A plain pointer: the space information owns the propagator.
-  DynamicsPropagator(oc::SpaceInformation* si, SearchSteps& steps)
-      : oc::StatePropagator(si), steps_(steps) {}
+  DynamicsPropagator(oc::SpaceInformation* si, const World& world, SearchSteps& steps)
+      : oc::StatePropagator(si), world_(world), steps_(steps) {}
 
   void propagate(const ob::State* state, const oc::Control* control, double duration,
                  ob::State* result) const override {
     const auto* from = state->as<VehicleSpace::StateType>();
     auto* to = result->as<VehicleSpace::StateType>();
-    static_cast<VehicleSpace::Values&>(*to) =
-        steps_.next(*from, VehicleControlSpace::control(control), duration).values;
+    SearchStep step = steps_.next(*from, VehicleControlSpace::control(control), duration);
+    step.values.cost = from->cost + step_cost(world_, *from, step, duration);
+    static_cast<VehicleSpace::Values&>(*to) = step.values;
   }
   bool canPropagateBackward() const override { return false; }
 
  private:
+  const World& world_;
   SearchSteps& steps_;
 };
 
 class WorldValidity : public ob::StateValidityChecker {
  public:
-  WorldValidity(ob::SpaceInformation* si, SearchSteps& steps)
-      : ob::StateValidityChecker(si), steps_(steps) {}
+  WorldValidity(ob::SpaceInformation* si, const OmplProblem& problem, SearchSteps& steps)
+      : ob::StateValidityChecker(si), problem_(problem), steps_(steps) {}
 
   bool isValid(const ob::State* state) const override {
-    return steps_.allowed(*state->as<VehicleSpace::StateType>());
+    const auto* values = state->as<VehicleSpace::StateType>();
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    return !problem_.hopeless(values->cost, values->vehicle, kAny) && steps_.allowed(*values);
   }
 
  private:
+  const OmplProblem& problem_;
   SearchSteps& steps_;
 };
 
@@ -85,6 +92,8 @@ class VehicleGoal : public ob::GoalSampleableRegion {
         heading_rad, kSpeedShare * world_.problem().speed_max_mps);
     typed->strain = {};
     typed->possible = true;
+    const auto& cost_axis = si_->getStateSpace()->as<VehicleSpace>()->cost_axis();
+    typed->cost = cost_axis ? random_.uniformReal(0, cost_axis->below) : 0;
   }
   unsigned int maxSampleCount() const override { return std::numeric_limits<unsigned int>::max(); }
 
@@ -94,12 +103,16 @@ class VehicleGoal : public ob::GoalSampleableRegion {
   mutable ompl::RNG random_;
 };
 
-oc::SpaceInformationPtr space_of(const World& world) {
-  const PlanningProblem& problem = world.problem();
-  const double curvature_max = problem.vehicle.curvature_max_1pm;
-  auto states = std::make_shared<VehicleSpace>(
+std::shared_ptr<VehicleSpace> states_of(const PlanningProblem& problem) {
+  return std::make_shared<VehicleSpace>(
       problem.map.elevation().frame, problem.speed_max_mps,
-      VehicleSpace::Weights{.heading_m_per_rad = 1 / curvature_max, .speed_m = 1});
+      VehicleSpace::Weights{.heading_m_per_rad = 1 / problem.vehicle.curvature_max_1pm,
+                            .speed_m = 1});
+}
+
+oc::SpaceInformationPtr space_of(const PlanningProblem& problem,
+                                 const std::shared_ptr<VehicleSpace>& states) {
+  const double curvature_max = problem.vehicle.curvature_max_1pm;
   auto controls = std::make_shared<VehicleControlSpace>(states, 0.1 * problem.speed_max_mps,
                                                         problem.speed_max_mps, curvature_max);
   return std::make_shared<oc::SpaceInformation>(states, controls);
@@ -113,15 +126,16 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
       steps_(world, guidance.margin_min, guidance.seed),
       seed_(guidance.seed),
       improves_(guidance.improve),
-      space_(space_of(world)) {
+      states_(states_of(world.problem())),
+      space_(space_of(world.problem(), states_)) {
   space_->getControlSpace()->setControlSamplerAllocator([this](const oc::ControlSpace* controls) {
     return std::make_shared<SteeringSampler>(controls, world_, way_);
   });
   space_->setDirectedControlSamplerAllocator([this](const oc::SpaceInformation* space) {
     return std::make_shared<PursuitSampler>(space, world_, way_);
   });
-  space_->setStatePropagator(std::make_shared<DynamicsPropagator>(space_.get(), steps_));
-  space_->setStateValidityChecker(std::make_shared<WorldValidity>(space_.get(), steps_));
+  space_->setStatePropagator(std::make_shared<DynamicsPropagator>(space_.get(), world_, steps_));
+  space_->setStateValidityChecker(std::make_shared<WorldValidity>(space_.get(), *this, steps_));
   space_->setPropagationStepSize(world.search_step_s());
   space_->setMinMaxControlDuration(1, 24);
   space_->setup();
@@ -137,6 +151,24 @@ void OmplProblem::pose(ob::ProblemDefinition& definition) const {
   // By default a threshold is 0, which no path reaches: the search would use all its time.
   objective->setCostThreshold(ob::Cost(improves_ ? 0 : std::numeric_limits<double>::max()));
   definition.setOptimizationObjective(objective);
+}
+
+void OmplProblem::accept_first_below(double cost) {
+  improves_ = false;
+  cost_below_ = cost;
+  if (!std::isfinite(cost)) return;
+  // As long as the way that it pays for, were it driven at top speed; half of that, for place and
+  // heading to lead.
+  constexpr double kShare = 0.5;
+  const PlanningProblem& problem = world_.problem();
+  const double per_metre = rough_cost(problem, 1, 1 / problem.speed_max_mps);
+  states_->set_cost_axis({.below = cost, .metres = kShare / per_metre});
+}
+
+bool OmplProblem::hopeless(double cost, const VehicleState& state, double best_cost) const {
+  const Goal& goal = world_.problem().goal;
+  const double away_m = std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) - goal.radius_m;
+  return cost + least_cost(world_.problem(), away_m) >= std::min(best_cost, cost_below_);
 }
 
 double OmplProblem::diagonal_m() const {

@@ -4,11 +4,14 @@
 #include <ompl/control/SpaceInformation.h>
 
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "planner/cost_to_go.h"
 #include "planner/search_run.h"
 #include "planner/search_steps.h"
+#include "planner/vehicle_space.h"
 #include "planner/world.h"
 
 namespace regoplan {
@@ -39,6 +42,14 @@ class OmplProblem {
   /// Whether a search goes on for a better path once it has one.
   bool improves() const { return improves_; }
 
+  /// For a planner that drives others: from here on any path below a cost will do, and the cost is
+  /// a coordinate of states. The next planner is to be made after this.
+  void accept_first_below(double cost);
+
+  /// Whether a path through a state, reached at a cost, can come to less than what is asked for
+  /// and than another path's cost.
+  bool hopeless(double cost, const VehicleState& state, double best_cost) const;
+
   /// Of every propagation; controls last whole multiples of it.
   double step_s() const { return space_->getPropagationStepSize(); }
 
@@ -52,6 +63,8 @@ class OmplProblem {
   SearchSteps steps_;
   std::uint64_t seed_;
   bool improves_;
+  double cost_below_ = std::numeric_limits<double>::infinity();
+  std::shared_ptr<VehicleSpace> states_;
   ompl::control::SpaceInformationPtr space_;
 };
 

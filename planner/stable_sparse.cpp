@@ -43,9 +43,7 @@ void StableSparse::clear() {
 }
 
 bool StableSparse::hopeless(double cost, const VehicleState& state) const {
-  const PlanningProblem& problem = problem_.world().problem();
-  const double away_m = std::hypot(state.x_m - problem.goal.x_m, state.y_m - problem.goal.y_m);
-  return cost + least_cost(problem, away_m - problem.goal.radius_m) >= best_.cost();
+  return problem_.hopeless(cost, state, best_.cost());
 }
 
 VehicleState StableSparse::drawn_state() {

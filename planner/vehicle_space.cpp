@@ -28,7 +28,10 @@ double angle_between(double a, double b) {
 class UniformSampler : public ob::StateSampler {
  public:
   explicit UniformSampler(const VehicleSpace* space)
-      : ob::StateSampler(space), frame_(space->frame()), speed_max_(space->speed_max_mps()) {}
+      : ob::StateSampler(space),
+        frame_(space->frame()),
+        speed_max_(space->speed_max_mps()),
+        cost_axis_(space->cost_axis()) {}
 
   void sampleUniform(ob::State* state) override {
     set(state, rng_.uniformReal(frame_.west_m, frame_.east_m()),
@@ -49,7 +52,7 @@ class UniformSampler : public ob::StateSampler {
   }
 
  private:
-  static void set(ob::State* state, double x, double y, double yaw, double speed) {
+  void set(ob::State* state, double x, double y, double yaw, double speed) {
     auto* typed = state->as<VehicleSpace::StateType>();
     typed->vehicle = {.x_m = x,
                       .y_m = y,
@@ -58,10 +61,12 @@ class UniformSampler : public ob::StateSampler {
                       .rim_speed_mps = speed};
     typed->strain = {};
     typed->possible = true;
+    typed->cost = cost_axis_ ? rng_.uniformReal(0, cost_axis_->below) : 0;
   }
 
   GridFrame frame_;
   double speed_max_;
+  std::optional<VehicleSpace::CostAxis> cost_axis_;
 };
 
 /// Position on the map: what tree planners spread over.
@@ -99,7 +104,8 @@ VehicleSpace::VehicleSpace(const GridFrame& frame, double speed_max_mps, const W
 
 double VehicleSpace::getMaximumExtent() const {
   return std::hypot(frame_.east_m() - frame_.west_m, frame_.north_m - frame_.south_m()) +
-         weights_.heading_m_per_rad * std::numbers::pi + 2 * weights_.speed_m;
+         weights_.heading_m_per_rad * std::numbers::pi + 2 * weights_.speed_m +
+         (cost_axis_ ? cost_axis_->metres * cost_axis_->below : 0);
 }
 
 double VehicleSpace::getMeasure() const {
@@ -122,9 +128,11 @@ void VehicleSpace::copyState(ob::State* to, const ob::State* from) const {
 double VehicleSpace::distance(const ob::State* a, const ob::State* b) const {
   const VehicleState& va = vehicle(a);
   const VehicleState& vb = vehicle(b);
+  const double dearer = std::abs(a->as<StateType>()->cost - b->as<StateType>()->cost);
   return std::hypot(va.x_m - vb.x_m, va.y_m - vb.y_m) +
          weights_.heading_m_per_rad * angle_between(va.yaw_rad, vb.yaw_rad) +
-         weights_.speed_m * std::abs(va.motion.vx_mps - vb.motion.vx_mps) / speed_max_mps_;
+         weights_.speed_m * std::abs(va.motion.vx_mps - vb.motion.vx_mps) / speed_max_mps_ +
+         (cost_axis_ ? cost_axis_->metres * dearer : 0);
 }
 
 bool VehicleSpace::equalStates(const ob::State* a, const ob::State* b) const {

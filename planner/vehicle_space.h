@@ -4,6 +4,7 @@
 #include <ompl/control/spaces/RealVectorControlSpace.h>
 
 #include <memory>
+#include <optional>
 
 #include "maps/terrain_map.h"
 #include "terramech/vehicle_dynamics.h"
@@ -13,12 +14,16 @@ namespace regoplan {
 /// OMPL's view of the states of a vehicle on a map. The metric is symmetric: distance on the map
 /// plus weighted differences of heading and speed, in metres. Each state carries the strain of the
 /// step that led to it, which validity needs and the dynamics knows anyway.
+///
+/// Under a bound of the cost it is state-cost space (Hauser and Zhou 2016): the cost of the way to
+/// a state is a coordinate of it, drawn and measured like the others.
 class VehicleSpace : public ompl::base::StateSpace {
  public:
   struct Values {
     VehicleState vehicle;
     WheelStrain strain;
     bool possible = true;  ///< false where the dynamics found no such state
+    double cost = 0;       ///< of the way there, by the objective, where planners count it
   };
   /// OMPL forbids copying states; their values may be.
   class StateType : public ompl::base::State, public Values {};
@@ -29,7 +34,17 @@ class VehicleSpace : public ompl::base::StateSpace {
     double speed_m = 0.5;
   };
 
+  /// The coordinate of the cost: up to a bound, and how much a unit of it counts.
+  struct CostAxis {
+    double below = 0;
+    double metres = 0;
+  };
+
   VehicleSpace(const GridFrame& frame, double speed_max_mps, const Weights& weights);
+
+  /// From here on the cost is a coordinate. Not while a planner runs.
+  void set_cost_axis(const CostAxis& axis) { cost_axis_ = axis; }
+  const std::optional<CostAxis>& cost_axis() const { return cost_axis_; }
 
   unsigned int getDimension() const override { return 5; }
   double getMaximumExtent() const override;
@@ -56,6 +71,7 @@ class VehicleSpace : public ompl::base::StateSpace {
   GridFrame frame_;
   double speed_max_mps_;
   Weights weights_;
+  std::optional<CostAxis> cost_axis_;
 };
 
 /// Controls: speed target and curvature target.

@@ -174,8 +174,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
   // A search keeps a reserve, but may start as fast as the problem says.
   const double speed_allowed_mps =
-      use_ == WorldUse::kSearch ? std::max(0.995 * problem_.speed_max_mps, problem_.start.speed_mps)
-                                : (1 + kRounding) * problem_.speed_max_mps;
+      use_ == WorldUse::kSearch
+          ? std::max(0.995 * problem_.speed_max_mps, (1 + kRounding / 2) * problem_.start.speed_mps)
+          : (1 + kRounding) * problem_.speed_max_mps;
   if (speed > speed_allowed_mps) {
     return because(Rejection::kBounds, speed, problem_.speed_max_mps);
   }

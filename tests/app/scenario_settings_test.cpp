@@ -114,7 +114,7 @@ TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
   EXPECT_EQ(error_of("planner:", "planer:").substr(0, 54),
             "s.yaml:8: planer: unknown key (did you mean planner?)");
   EXPECT_EQ(error_of("iterations: 200", "name: A*"),
-            "s.yaml:8: planner.name: A* is not valid (allowed: auto | Lattice | StableSparse "
+            "s.yaml:8: planner.name: A* is not valid (allowed: auto | Lattice | StableSparse | StateCost "
             "| SST | RRT | KPIECE1 | EST | PDST | SyclopRRT | SyclopEST)");
 }
 

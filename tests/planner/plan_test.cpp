@@ -61,6 +61,15 @@ TEST_P(EveryPlanner, FindsAVerifiedPathAcrossOpenGround) {
 INSTANTIATE_TEST_SUITE_P(All, EveryPlanner, testing::ValuesIn(planner_names()),
                          [](const auto& planner) { return planner.param; });
 
+TEST(Plan, AStartAtTopSpeedIsDrivenOnFrom) {
+  PlanningProblem problem = lrv_problem(one_soil_map(
+      50, firm_regolith(), [](double x, double y) { return 0.02 * std::sin(x) * std::cos(y); }));
+  problem.search.planner = "Lattice";
+  problem.start.speed_mps = problem.speed_max_mps;
+  const PlanResult result = planned(problem);
+  EXPECT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+}
+
 TEST(Plan, SearchesUnderEveryDriveLawAndWithWheelsThatRollFreely) {
   for (const auto change : {+[](Vehicle& v) { v.drive_law = DriveLaw::kEqualSpeed; },
                             +[](Vehicle& v) { v.drive_law = DriveLaw::kEqualTorque; },
