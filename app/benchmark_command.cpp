@@ -90,6 +90,14 @@ JournalOrigin origin_of(const Suite& suite) {
   return origin;
 }
 
+ScenarioMaps maps_of(const Suite& suite) {
+  ScenarioMaps maps;
+  for (std::size_t i = 0; i < suite.scenarios.size(); ++i) {
+    maps.emplace(suite.scenarios[i].label, read_suite_problem(suite, i, 0).map);
+  }
+  return maps;
+}
+
 void print_outcome(const JournalContents& contents, bool interrupted,
                    const BenchmarkOptions& options) {
   if (options.json) {
@@ -121,7 +129,7 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
   }
   const JournalContents contents = read_journal(options.out);
   const bool interrupted = stop.stop_requested();
-  write_benchmark_files(contents, interrupted, options.out);
+  write_benchmark_files(contents, interrupted, maps_of(suite), options.out);
   print_outcome(contents, interrupted, options);
   return interrupted ? kInterrupted : kYes;
 }
@@ -135,7 +143,7 @@ ExitStatus run_merge(const BenchmarkOptions& options) {
   for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
   const JournalContents contents = merged(parts);
   std::filesystem::create_directories(options.out);
-  write_benchmark_files(contents, false, options.out);
+  write_benchmark_files(contents, false, {}, options.out);
   write_journal(options.out, contents);
   print_outcome(contents, false, options);
   return kYes;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/benchmark_report.h"
 #include "app/staged_files.h"
 #include "benchmarking/experiment.h"
 #include "benchmarking/ompl_log.h"
@@ -73,7 +72,7 @@ std::string benchmark_json(const JournalContents& contents, bool interrupted) {
 }
 
 void write_benchmark_files(const JournalContents& contents, bool interrupted,
-                           const std::filesystem::path& folder) {
+                           const ScenarioMaps& maps, const std::filesystem::path& folder) {
   const std::vector<BenchmarkExperiment> experiments = experiments_of(contents);
   StagedFiles staged(folder);
   for (const BenchmarkExperiment& experiment : experiments) {
@@ -81,7 +80,7 @@ void write_benchmark_files(const JournalContents& contents, bool interrupted,
   }
   write_results_database(staged.path("benchmark.db"), experiments);
   staged.write({.name = "benchmark.json", .content = benchmark_json(contents, interrupted)});
-  staged.write({.name = "report.html", .content = benchmark_report(contents, interrupted)});
+  staged.write({.name = "report.html", .content = benchmark_report(contents, interrupted, maps)});
   staged.commit();
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/benchmark_report.h"
 #include "benchmarking/run_journal.h"
 
 namespace regoplan {
@@ -12,9 +13,9 @@ namespace regoplan {
 std::string benchmark_json(const JournalContents& contents, bool interrupted);
 
 /// Writes what is made of a journal, all or none: EXPERIMENT.log in OMPL's grammar, benchmark.db,
-/// benchmark.json and report.html.
+/// benchmark.json and report.html, which draws the maps that are given.
 /// \throws InputError where the folder takes no files
 void write_benchmark_files(const JournalContents& contents, bool interrupted,
-                           const std::filesystem::path& folder);
+                           const ScenarioMaps& maps, const std::filesystem::path& folder);
 
 }  // namespace regoplan

@@ -1,15 +1,22 @@
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "benchmarking/run_journal.h"
+#include "maps/terrain_map.h"
 
 namespace regoplan {
 
 /// The verdict of a suite in one sentence.
 std::string benchmark_headline(const JournalContents& contents, bool interrupted);
 
-/// report.html of a suite: success with intervals, profiles, boxes, comparisons, paths.
-std::string benchmark_report(const JournalContents& contents, bool interrupted);
+/// The terrain of scenarios by their labels.
+using ScenarioMaps = std::map<std::string, TerrainMap>;
+
+/// report.html of a suite: success with intervals, profiles, boxes, comparisons, paths over the
+/// terrain of those scenarios whose map is given.
+std::string benchmark_report(const JournalContents& contents, bool interrupted,
+                             const ScenarioMaps& maps);
 
 }  // namespace regoplan
