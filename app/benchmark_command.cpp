@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -69,25 +70,36 @@ std::string utc_now() {
   return text;
 }
 
-/// Reads every scenario and sets every sweep point, so that bad input shows before the first run.
-JournalOrigin origin_of(const Suite& suite) {
-  JournalOrigin origin{.suite = suite.name,
-                       .bounds = suite.bounds,
-                       .version = REGOPLAN_VERSION,
-                       .host = host_name(),
-                       .cpu = processor(),
-                       .started = utc_now(),
-                       .scenarios = {},
-                       .planners = suite.planners};
+/// What is needed of every scenario, read once.
+struct ReadScenarios {
+  std::map<std::string, std::string> digests;  ///< by label
+  ScenarioMaps maps;
+};
+
+/// Sets every sweep point too, so that bad input shows before the first run.
+ReadScenarios read_scenarios(const Suite& suite) {
+  ReadScenarios read;
   for (std::size_t i = 0; i < suite.scenarios.size(); ++i) {
     const SuiteScenario& scenario = suite.scenarios[i];
     PlanningProblem problem = read_scenario(scenario.file, {}).problem;
-    origin.scenarios[scenario.label] = digest(scenario.file, problem);
+    read.digests[scenario.label] = digest(scenario.file, problem);
+    read.maps.emplace(scenario.label, problem.map);
     for (std::size_t point = 0; point < suite.sweep.size(); ++point) {
       problem = at_sweep_point(std::move(problem), suite, i, point);
     }
   }
-  return origin;
+  return read;
+}
+
+JournalOrigin origin_of(const Suite& suite, const ReadScenarios& read) {
+  return {.suite = suite.name,
+          .bounds = suite.bounds,
+          .version = REGOPLAN_VERSION,
+          .host = host_name(),
+          .cpu = processor(),
+          .started = utc_now(),
+          .scenarios = read.digests,
+          .planners = suite.planners};
 }
 
 void print_outcome(const SuiteResults& results, const BenchmarkOptions& options) {
@@ -106,10 +118,10 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
   const Shard shard = shard_of(options.shard);
   const Suite suite = read_suite(options.suite);
   require_writable_folder(options.out);
-  const JournalOrigin origin = origin_of(suite);
+  const ReadScenarios read = read_scenarios(suite);
   const std::stop_token stop = stop_on_interrupt();
   {
-    RunJournal journal(options.out, origin);
+    RunJournal journal(options.out, origin_of(suite, read));
     SuiteProgressLine line(options.quiet);
     run_suite(
         suite, runs_of(suite, shard), journal, options.processes,
@@ -121,7 +133,7 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
   }
   const SuiteResults results{.journal = read_journal(options.out),
                              .interrupted = stop.stop_requested()};
-  write_benchmark_files(results, options.out);
+  write_benchmark_files(results, read.maps, options.out);
   print_outcome(results, options);
   return results.interrupted ? kInterrupted : kYes;
 }
@@ -135,7 +147,7 @@ ExitStatus run_merge(const BenchmarkOptions& options) {
   for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
   const SuiteResults results{.journal = merged(parts)};
   std::filesystem::create_directories(options.out);
-  write_benchmark_files(results, options.out);
+  write_benchmark_files(results, {}, options.out);
   write_journal(options.out, results.journal);
   print_outcome(results, options);
   return kYes;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/benchmark_report.h"
 #include "app/staged_files.h"
 #include "benchmarking/ompl_log.h"
 #include "benchmarking/results_database.h"
@@ -71,14 +70,15 @@ std::string benchmark_json(const SuiteResults& results) {
   return json.dump(2) + "\n";
 }
 
-void write_benchmark_files(const SuiteResults& results, const std::filesystem::path& folder) {
+void write_benchmark_files(const SuiteResults& results, const ScenarioMaps& maps,
+                           const std::filesystem::path& folder) {
   StagedFiles staged(folder);
   for (const BenchmarkExperiment& experiment : results.experiments) {
     staged.write({.name = log_name(experiment.name), .content = ompl_log(experiment)});
   }
   write_results_database(staged.path("benchmark.db"), results.experiments);
   staged.write({.name = "benchmark.json", .content = benchmark_json(results)});
-  staged.write({.name = "report.html", .content = benchmark_report(results)});
+  staged.write({.name = "report.html", .content = benchmark_report(results, maps)});
   staged.commit();
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/benchmark_report.h"
 #include "benchmarking/experiment.h"
 
 namespace regoplan {
@@ -12,8 +13,9 @@ namespace regoplan {
 std::string benchmark_json(const SuiteResults& results);
 
 /// Writes what is made of the journal, all or none: EXPERIMENT.log in OMPL's grammar, benchmark.db,
-/// benchmark.json and report.html.
+/// benchmark.json and report.html, which draws the maps that are given.
 /// \throws InputError where the folder takes no files
-void write_benchmark_files(const SuiteResults& results, const std::filesystem::path& folder);
+void write_benchmark_files(const SuiteResults& results, const ScenarioMaps& maps,
+                           const std::filesystem::path& folder);
 
 }  // namespace regoplan

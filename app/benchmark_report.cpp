@@ -6,6 +6,7 @@
 #include <set>
 
 #include "app/report_assets.h"
+#include "app/report_map.h"
 #include "app/report_page.h"
 #include "benchmarking/experiment.h"
 #include "benchmarking/summary.h"
@@ -84,6 +85,23 @@ nlohmann::json json_of(const BenchmarkExperiment& experiment) {
           {"comparisons", std::move(comparisons)}};
 }
 
+/// The scenario's label: what a sweep adds to an experiment's name follows a comma.
+std::string scenario_of(const std::string& experiment) {
+  return experiment.substr(0, experiment.find(','));
+}
+
+nlohmann::json maps_json(const ScenarioMaps& maps) {
+  // A page under 5 MB: small pictures, and no more of them than a person looks at.
+  constexpr ReportMapDetail kSmall{.cells_a_side = 128, .rocks = 800};
+  constexpr std::size_t kMapsMax = 20;
+  nlohmann::json all = nlohmann::json::object();
+  for (const auto& [label, map] : maps) {
+    if (all.size() == kMapsMax) break;
+    all[label] = report_map(map, kSmall);
+  }
+  return all;
+}
+
 struct Totals {
   int runs = 0, verified = 0, overturned = 0, crashed = 0;
 };
@@ -118,11 +136,12 @@ std::vector<std::string> lead_sentences(const JournalContents& contents, const T
       bounds.iterations ? fmt::format(" (at most {} iterations)", *bounds.iterations) : "",
       bounds.memory_mb));
   if (totals.overturned > 0) {
-    sentences.push_back(
-        fmt::format("{} solutions did not survive that replay.", totals.overturned));
+    sentences.push_back(fmt::format("{} solution{} did not survive that replay.", totals.overturned,
+                                    totals.overturned == 1 ? "" : "s"));
   }
   if (totals.crashed > 0) {
-    sentences.push_back(fmt::format("{} runs ended without an answer.", totals.crashed));
+    sentences.push_back(fmt::format("{} run{} ended without an answer.", totals.crashed,
+                                    totals.crashed == 1 ? "" : "s"));
   }
   std::set<std::string> machines, versions;
   for (const JournalOrigin& origin : contents.origins) {
@@ -150,20 +169,23 @@ std::string benchmark_headline(const SuiteResults& results) {
   return headline(results, totals_of(results.experiments));
 }
 
-std::string benchmark_report(const SuiteResults& results) {
+std::string benchmark_report(const SuiteResults& results, const ScenarioMaps& maps) {
   const Totals totals = totals_of(results.experiments);
   const JournalOrigin& origin = results.journal.origins.front();
   nlohmann::json list = nlohmann::json::array();
   for (const BenchmarkExperiment& experiment : results.experiments) {
     list.push_back(json_of(experiment));
+    list.back()["scenario"] = scenario_of(experiment.name);
   }
   return render({.title = "Benchmark " + origin.suite,
                  .headline = headline(results, totals),
                  .lead = lead_sentences(results.journal, totals, results.interrupted),
                  .body_html = report_assets::kBenchmarkHtml,
                  .script = report_assets::kBenchmarkScript,
-                 .data_json = json_for_html({{"suite", origin.suite},
+                 .data_json = json_for_html({{"kind", "benchmark"},
+                                             {"suite", origin.suite},
                                              {"time_s", origin.bounds.time_s},
+                                             {"maps", maps_json(maps)},
                                              {"experiments", std::move(list)}})});
 }
 

@@ -76,7 +76,9 @@ std::string table_row(const EvaluatedPath& path) {
 }
 
 std::string table_html(const EvaluationResult& result) {
-  std::string html = "<section><h2>Side by side</h2><div class=\"scroll\"><table>\n<thead><tr>";
+  std::string html =
+      "<section><h2>Side by side</h2><div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+      "aria-label=\"Table of the paths\"><table>\n<thead><tr>";
   for (const char* head :
        {"Rank", "Path", "Verdict", "Smallest margin", "Limited by", "Cornering 5/50/95 %",
         "Tip-over 5/50/95 %", "Traction 5/50/95 %", "P(margins hold), 95 % interval",

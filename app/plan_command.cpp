@@ -13,10 +13,11 @@ Command add_plan_command(CLI::App& program) {
     PlanOutput output;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* parser = program.add_subcommand(
-      "plan",
-      "Find, verify and rank paths.\n"
-      "Writes plan.json, candidate-K.csv, candidate-K.geojson and report.html.");
+  CLI::App* parser =
+      program.add_subcommand("plan",
+                             "Find, verify and rank paths.\n"
+                             "Writes plan.json, candidate-K.csv, candidate-K.geojson, margin.tif, "
+                             "supply.tif and report.html.");
   parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, start, goal, limits")
       ->required();
   parser->add_option("--out", options->output.folder, "folder for the results")

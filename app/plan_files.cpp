@@ -12,6 +12,9 @@
 #include "app/csv_cells.h"
 #include "app/model_settings.h"
 #include "app/plan_report.h"
+#include "maps/raster_files.h"
+#include "planner/pareto.h"
+#include "planner/terrain_rasters.h"
 
 namespace regoplan {
 namespace {
@@ -112,10 +115,16 @@ std::string plan_json(const PlanningProblem& problem, const PlanResult& result) 
     rejected[std::string(name(static_cast<Rejection>(i)))] =
         result.rejected.at(static_cast<std::size_t>(i));
   }
+  const std::vector<bool> pareto = pareto_best(result.candidates);
+  Json candidates = Json::array();
+  for (std::size_t i = 0; i < pareto.size(); ++i) {
+    candidates.push_back(candidate_json(result.candidates[i]));
+    candidates.back()["pareto"] = static_cast<bool>(pareto[i]);
+  }
   Json json{{"status", name(result.status)},
             {"reason", result.reason},
             {"certificate", result.certificate ? Json(*result.certificate) : Json(nullptr)},
-            {"candidates", list_json(result.candidates, candidate_json)},
+            {"candidates", candidates},
             {"rejected", rejected},
             {"propagations", result.propagations},
             {"planning_time_s", result.planning_time_s},
@@ -172,6 +181,24 @@ std::string candidate_geojson(const PlanningProblem& problem, const Candidate& c
   return json.dump() + "\n";
 }
 
+namespace {
+
+void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
+  write_bands(rasters.frame,
+              {{.description = "stability margin of driving straight on, smallest over headings",
+                .values = rasters.margin}},
+              staged.path("margin.tif"));
+  std::vector<RasterBand> supply;
+  for (std::size_t i = 0; i < rasters.speeds_mps.size(); ++i) {
+    supply.push_back({.description = fmt::format("lateral supply for turns at {} m/s, newtons",
+                                                 rasters.speeds_mps[i]),
+                      .values = rasters.supply_n[i]});
+  }
+  write_bands(rasters.frame, supply, staged.path("supply.tif"));
+}
+
+}  // namespace
+
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
                       const std::filesystem::path& folder) {
   std::vector<RenderedFile> files{{"report.html", plan_report(problem, result)}};
@@ -182,6 +209,7 @@ void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
   }
   files.push_back({"plan.json", plan_json(problem, result)});  // last: it speaks for the others
   StagedFiles staged(folder);
+  write_rasters(terrain_rasters(problem), staged);
   for (const RenderedFile& file : files) staged.write(file);
   staged.commit();
   for (std::size_t rank = result.candidates.size() + 1;; ++rank) {

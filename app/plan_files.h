@@ -20,8 +20,9 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
 /// A candidate's path in map coordinates, GeoJSON with a `crs` member: candidate-K.geojson.
 std::string candidate_geojson(const PlanningProblem& problem, const Candidate& candidate);
 
-/// Writes plan.json, candidate-K.csv, candidate-K.geojson and report.html, all or none, and takes
-/// away the candidate files of an earlier plan in the same folder.
+/// Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, and as GeoTIFF in the map's
+/// place margin.tif and supply.tif, a band for each speed (see `TerrainRasters`), all or none, and
+/// takes away the candidate files of an earlier plan in the same folder.
 /// \throws InputError where the folder takes no files
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
                       const std::filesystem::path& folder);

@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "app/report_map.h"
+#include "planner/pareto.h"
+#include "planner/wheel_loads_along.h"
 
 namespace regoplan {
 namespace {
@@ -49,7 +51,19 @@ std::vector<TrajectoryPoint> thinned(const std::vector<TrajectoryPoint>& points,
   return kept;
 }
 
-json points_json(const std::vector<TrajectoryPoint>& points) {
+/// A column for each wheel: `load_front_left_n`.
+void add_wheel_loads(const PlanningProblem& problem, const std::vector<TrajectoryPoint>& points,
+                     json& columns) {
+  const auto loads = wheel_loads_along_n(problem, points);
+  for (std::size_t wheel = 0; wheel < problem.vehicle.wheels.size(); ++wheel) {
+    json numbers = json::array();
+    for (const std::vector<double>& of_point : loads)
+      numbers.push_back(rounded(of_point[wheel], 1));
+    columns["load_" + problem.vehicle.wheels[wheel].name + "_n"] = std::move(numbers);
+  }
+}
+
+json points_json(const PlanningProblem& problem, const std::vector<TrajectoryPoint>& points) {
   json columns = json::object();
   const auto column = [&](const char* name, int decimals, const auto& value) {
     json numbers = json::array();
@@ -79,10 +93,12 @@ json points_json(const std::vector<TrajectoryPoint>& points) {
   json soils = json::array();
   for (const TrajectoryPoint& point : points) soils.push_back(point.soil);
   columns["soil"] = std::move(soils);
+  add_wheel_loads(problem, points, columns);
   return columns;
 }
 
-json candidate_json(const Candidate& candidate, std::size_t points_max) {
+json candidate_json(const PlanningProblem& problem, const Candidate& candidate,
+                    std::size_t points_max) {
   return {{"rank", candidate.rank},
           {"planner", candidate.planner},
           {"seed", candidate.seed},
@@ -104,16 +120,19 @@ json candidate_json(const Candidate& candidate, std::size_t points_max) {
             {"margin_min", candidate.verified.margin_min},
             {"max_deviation_m", candidate.verified.deviation_max_m}}},
           {"points_total", candidate.points.size()},
-          {"points", points_json(thinned(candidate.points, points_max))}};
+          {"points", points_json(problem, thinned(candidate.points, points_max))}};
 }
 
-json candidates_json(const std::vector<Candidate>& candidates) {
+json candidates_json(const PlanningProblem& problem, const std::vector<Candidate>& candidates) {
   const std::size_t points_max = std::min(
       kPointsOfPathMax,
       std::max<std::size_t>(50, kPointsOfAllMax / std::max<std::size_t>(1, candidates.size())));
+  const std::vector<bool> pareto = pareto_best(candidates);
   json rows = json::array();
-  for (const Candidate& candidate : candidates)
-    rows.push_back(candidate_json(candidate, points_max));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    rows.push_back(candidate_json(problem, candidates[i], points_max));
+    rows.back()["pareto"] = static_cast<bool>(pareto[i]);
+  }
   return rows;
 }
 
@@ -263,8 +282,8 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"verification_time_s", result.verification_time_s},
                {"problem", problem_json(problem)},
                {"map", report_map(problem.map)},
-               {"candidates", candidates_json(result.candidates)},
-               {"overturned", candidates_json(result.overturned)},
+               {"candidates", candidates_json(problem, result.candidates)},
+               {"overturned", candidates_json(problem, result.overturned)},
                {"what_ifs", json::array()},
                {"rejected", rejected_json(result)},
                {"rejected_states", rejected_states_json(result.rejected_states)}};

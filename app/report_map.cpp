@@ -11,9 +11,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kSideMax = 512;
-constexpr std::size_t kRocksMax = 20000;
-
 std::string base64(const std::vector<std::uint16_t>& numbers) {
   static constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -41,9 +38,9 @@ struct Blocks {
   int factor = 1;
 };
 
-Blocks blocks_of(const GridFrame& frame) {
+Blocks blocks_of(const GridFrame& frame, int side_max) {
   Blocks blocks{.frame = frame};
-  blocks.factor = (std::max(frame.columns, frame.rows) + kSideMax - 1) / kSideMax;
+  blocks.factor = (std::max(frame.columns, frame.rows) + side_max - 1) / side_max;
   blocks.frame.columns = (frame.columns + blocks.factor - 1) / blocks.factor;
   blocks.frame.rows = (frame.rows + blocks.factor - 1) / blocks.factor;
   blocks.frame.cell_width_m *= blocks.factor;
@@ -134,11 +131,11 @@ double rounded_mm(double value_m) {
   return std::round(value_m * 1e3) / 1e3;
 }
 
-json rocks_json(std::vector<Rock> rocks) {
-  if (rocks.size() > kRocksMax) {
+json rocks_json(std::vector<Rock> rocks, std::size_t most) {
+  if (rocks.size() > most) {
     std::stable_sort(rocks.begin(), rocks.end(),
                      [](const Rock& a, const Rock& b) { return a.radius_m > b.radius_m; });
-    rocks.resize(kRocksMax);
+    rocks.resize(most);
   }
   json rows = json::array();
   for (const Rock& rock : rocks)
@@ -149,9 +146,9 @@ json rocks_json(std::vector<Rock> rocks) {
 
 }  // namespace
 
-json report_map(const TerrainMap& map) {
+json report_map(const TerrainMap& map, const ReportMapDetail& detail) {
   const GridFrame& frame = map.elevation().frame;
-  const Blocks blocks = blocks_of(frame);
+  const Blocks blocks = blocks_of(frame, detail.cells_a_side);
   json soils = json::array();
   for (const MapSoil& soil : map.soils()) soils.push_back(soil_json(soil));
   json classes = json::array();
@@ -181,7 +178,7 @@ json report_map(const TerrainMap& map) {
           {"unmapped",
            unmapped ? map.soils().at(static_cast<std::size_t>(*unmapped)).name : "forbidden"},
           {"rocks_total", map.rocks().size()},
-          {"rocks", rocks_json(map.rocks())}};
+          {"rocks", rocks_json(map.rocks(), detail.rocks)}};
 }
 
 }  // namespace regoplan

@@ -14,10 +14,12 @@ function(report_files variable folder)
   set(${variable} ${files} PARENT_SCOPE)
 endfunction()
 
-report_files(page_scripts page format.js dom.js colours.js)
+report_files(page_scripts page format.js dom.js colours.js axes.js legend.js pointing.js save.js figure.js)
 # Paths on a map: what the reports of plans and evaluations share.
-report_files(map_scripts map terrain.js model.js candidate_table.js map_frame.js map_canvas.js map_overlay.js
-             map_view.js charts.js layers.js readout.js rejections.js)
+report_files(map_scripts map terrain.js model.js candidate_table.js map_frame.js map_canvas.js vehicle.js map_overlay.js
+             map_view.js charts.js layers.js readout.js playback.js rejections.js)
+report_files(benchmark_scripts benchmark planners.js tables.js profiles.js spread.js progress.js paths.js
+             main.js)
 report_files(diagnosis_scripts diagnosis model.js residual_maps.js curves.js tables.js main.js)
 
 regoplan_embed(
@@ -34,4 +36,4 @@ regoplan_embed(
   kDiagnosisHtml app/report/diagnosis/diagnosis.html
   kDiagnosisScript ${diagnosis_scripts}
   kBenchmarkHtml app/report/benchmark/benchmark.html
-  kBenchmarkScript app/report/benchmark/figures.js app/report/benchmark/main.js)
+  kBenchmarkScript app/report/map/terrain.js ${benchmark_scripts})

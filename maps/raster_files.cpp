@@ -195,12 +195,33 @@ void check_unit(GDALRasterBand& band, const std::string& file) {
   fail(file, fmt::format("its heights are in \"{}\", metres are needed", unit));
 }
 
-template <typename Raster, typename Number>
-void write_raster(const Raster& raster, const std::vector<Number>& cells, GDALDataType type,
-                  double nodata, const char* predictor, const std::string& file) {
+template <typename Number>
+struct Layer {
+  const std::vector<Number>& cells;
+  std::string description = {};
+};
+
+template <typename Number>
+bool write_layer(GDALRasterBand& band, const Layer<Number>& layer, GDALDataType type,
+                 double nodata) {
+  const bool good = band.SetNoDataValue(nodata) == CE_None;
+  if (!layer.description.empty()) band.SetDescription(layer.description.c_str());
+  // GDAL takes the cells it writes through a pointer to non-const, and leaves them as they are.
+  return good && band.RasterIO(GF_Write, 0, 0, band.GetXSize(), band.GetYSize(),
+                               const_cast<Number*>(layer.cells.data()), band.GetXSize(),
+                               band.GetYSize(), type, 0, 0, nullptr) == CE_None;
+}
+
+template <typename Number>
+void write_raster(const GridFrame& frame, const std::vector<Layer<Number>>& layers,
+                  GDALDataType type, double nodata, const char* predictor,
+                  const std::string& file) {
   const QuietGdal quiet;
-  const GridFrame& frame = raster.frame;
-  if (cells.size() != static_cast<std::size_t>(frame.columns) * frame.rows || cells.empty()) {
+  const std::size_t count =
+      static_cast<std::size_t>(frame.columns) * static_cast<std::size_t>(frame.rows);
+  if (count == 0 || layers.empty() || std::ranges::any_of(layers, [&](const Layer<Number>& layer) {
+        return layer.cells.size() != count;
+      })) {
     fail(file, "cannot be written: the cells do not fill the grid");
   }
   write_whole_file(file, [&](const std::string& unfinished) {
@@ -210,23 +231,21 @@ void write_raster(const Raster& raster, const std::vector<Number>& cells, GDALDa
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("PREDICTOR", predictor);
     GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-    GDALDatasetUniquePtr dataset(driver == nullptr
-                                     ? nullptr
-                                     : driver->Create(unfinished.c_str(), frame.columns, frame.rows,
-                                                      1, type, options.List()));
+    GDALDatasetUniquePtr dataset(
+        driver == nullptr ? nullptr
+                          : driver->Create(unfinished.c_str(), frame.columns, frame.rows,
+                                           static_cast<int>(layers.size()), type, options.List()));
     if (dataset == nullptr) fail_with_gdal(file, "cannot be written");
     std::array<double, 6> transform{frame.west_m,        frame.cell_width_m, 0, frame.north_m, 0,
                                     -frame.cell_height_m};
-    GDALRasterBand& band = *dataset->GetRasterBand(1);
     bool good = dataset->SetGeoTransform(transform.data()) == CE_None;
-    good = good && band.SetNoDataValue(nodata) == CE_None;
     if (!frame.crs_wkt.empty()) {
       good = good && dataset->SetProjection(frame.crs_wkt.c_str()) == CE_None;
     }
-    // GDAL takes the cells it writes through a pointer to non-const, and leaves them as they are.
-    good = good && band.RasterIO(GF_Write, 0, 0, frame.columns, frame.rows,
-                                 const_cast<Number*>(cells.data()), frame.columns, frame.rows, type,
-                                 0, 0, nullptr) == CE_None;
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      good = good &&
+             write_layer(*dataset->GetRasterBand(static_cast<int>(i) + 1), layers[i], type, nodata);
+    }
     // Closing writes what is left, and says in its last remark only whether it could.
     dataset.reset();
     good = good && CPLGetLastErrorType() < CE_Failure;
@@ -331,12 +350,20 @@ std::string adopt_crs(ClassRaster& classes, const GridFrame& elevation,
 }
 
 void write_elevation(const ElevationRaster& elevation, const std::string& file) {
-  write_raster(elevation, elevation.height_m, GDT_Float32, std::numeric_limits<double>::quiet_NaN(),
-               "3", file);
+  write_raster<float>(elevation.frame, {{elevation.height_m}}, GDT_Float32,
+                      std::numeric_limits<double>::quiet_NaN(), "3", file);
 }
 
 void write_classes(const ClassRaster& classes, const std::string& file) {
-  write_raster(classes, classes.code, GDT_Int32, ClassRaster::kNoData, "2", file);
+  write_raster<std::int32_t>(classes.frame, {{classes.code}}, GDT_Int32, ClassRaster::kNoData, "2",
+                             file);
+}
+
+void write_bands(const GridFrame& frame, const std::vector<RasterBand>& bands,
+                 const std::string& file) {
+  std::vector<Layer<float>> layers;
+  for (const RasterBand& band : bands) layers.push_back({band.values, band.description});
+  write_raster(frame, layers, GDT_Float32, std::numeric_limits<double>::quiet_NaN(), "3", file);
 }
 
 }  // namespace regoplan

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "maps/rock_files.h"
 #include "maps/terrain_map.h"
@@ -28,5 +29,13 @@ std::string adopt_crs(ClassRaster& classes, const GridFrame& elevation,
 /// Write GeoTIFF, whole or not at all. \throws InputError where the file cannot be written
 void write_elevation(const ElevationRaster& elevation, const std::string& file);
 void write_classes(const ClassRaster& classes, const std::string& file);
+
+/// Rasters of one grid in one file, each with a name for people; NaN where nothing is known.
+struct RasterBand {
+  std::string description;
+  std::vector<float> values;  ///< row by row from the north
+};
+void write_bands(const GridFrame& frame, const std::vector<RasterBand>& bands,
+                 const std::string& file);
 
 }  // namespace regoplan

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string_view>
 
-#include "terramech/parallel_for.h"
 #include "planner/world.h"
+#include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {
@@ -38,9 +38,12 @@ class Plane {
   Plane(const Plane&) = delete;
   Plane& operator=(const Plane&) = delete;
 
-  /// Steady driving; the ground rises to the left.
-  StateMargins margins(double speed_mps, double curvature_1pm, double slope_rad) const {
-    const GroundPatch patch{.known = true, .slope_left = std::tan(slope_rad)};
+  /// Steady driving; the ground rises to the left, or so far from ahead as `uphill_rad` says.
+  StateMargins margins(double speed_mps, double curvature_1pm, double slope_rad,
+                       double uphill_rad = std::numbers::pi / 2) const {
+    const GroundPatch patch{.known = true,
+                            .slope_forward = std::tan(slope_rad) * std::cos(uphill_rad),
+                            .slope_left = std::tan(slope_rad) * std::sin(uphill_rad)};
     const VehicleState state = dynamics_.rolling_state(0, 0, 0, speed_mps, curvature_1pm);
     const SupplyQuestion question = question_of(dynamics_, state, patch);
     return margins_of(dynamics_, polygon_, question, supply_.answer(question));
@@ -77,6 +80,22 @@ class Plane {
   SupportPolygon polygon_;
   SolvedSupply supply_;
 };
+
+/// Forces depend on velocity ratios only: a slow speed stands for all.
+constexpr double kSlow_mps = 0.01;
+
+/// The smallest margin of driving straight on, whatever the heading on the slope. The vehicle is
+/// the same to either side, so half of the directions do.
+double margin_of_any_heading(const Plane& plane, double slope_rad) {
+  constexpr int kDirections = 6;
+  double least = 1;
+  for (int i = 0; i <= (slope_rad > 0 ? kDirections : 0); ++i) {
+    const StateMargins margins =
+        plane.margins(kSlow_mps, 0, slope_rad, i * std::numbers::pi / kDirections);
+    least = std::min(least, margins.stability().value_or(-1));
+  }
+  return least;
+}
 
 SafeCurvature largest_safe(const Plane& plane, const ChartSettings& settings, SafeCurvature at) {
   if (const auto reason = plane.forbidden(at.speed_mps, 0, at.slope_rad)) {
@@ -134,12 +153,12 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings) {
   parallel_for(chart.side_slopes.size(), settings.threads, [&](std::size_t i) {
     SideSlope& at = chart.side_slopes[i];
     const Plane plane(settings, static_cast<std::size_t>(at.soil));
-    constexpr double kSlow_mps = 0.01;  // forces depend on velocity ratios only
     const StateMargins margins = plane.margins(kSlow_mps, 0, at.slope_rad);
     at.cornering = margins.cornering.value_or(-1);
     at.tip_over = margins.tip_over;
     // Beyond the supply there is no traction either; the cornering margin tells by how much.
     at.traction = margins.traction.value_or(std::min(at.cornering, 0.0));
+    at.any_heading = margin_of_any_heading(plane, at.slope_rad);
   });
   return chart;
 }

@@ -39,6 +39,7 @@ struct SideSlope {
   int soil = 0;
   double slope_rad = 0;
   double cornering = 0, tip_over = 0, traction = 0;
+  double any_heading = 0;  ///< the smallest of the three over all directions of driving straight on
 };
 
 struct FeasibilityChart {

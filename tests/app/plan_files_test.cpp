@@ -150,10 +150,31 @@ TEST(PlanFiles, AFolderHoldsTheCandidatesOfOnePlanOnly) {
   const ScratchFolder folder;
   folder.write("candidate-notes.csv", "mine");
   write_plan_files(flat_problem(), result_with(3), folder.path(""));
-  EXPECT_EQ(folder.count(), 1 + 2 + 3 * 2);
+  EXPECT_EQ(folder.count(), 1 + 4 + 3 * 2);
   write_plan_files(flat_problem(), result_with(1), folder.path(""));
-  EXPECT_EQ(folder.count(), 1 + 2 + 1 * 2);
+  EXPECT_EQ(folder.count(), 1 + 4 + 1 * 2);
   EXPECT_EQ(folder.read("plan.json"), plan_json(flat_problem(), result_with(1)));
+}
+
+TEST(PlanFiles, MarginAndSupplyLieInTheMapsPlace) {
+  const ScratchFolder folder;
+  PlanningProblem problem = flat_problem();
+  problem.limits = default_limits(problem.vehicle);
+  write_plan_files(problem, result_with(1), folder.path("out"));
+  for (const char* name : {"out/margin.tif", "out/supply.tif"}) {
+    const ElevationRaster read = read_elevation(folder.path(name));  // band 1
+    EXPECT_EQ(read.frame, problem.map.elevation().frame) << name;
+    EXPECT_GT(read.height_m[20 * 40 + 20], 0.1F) << name;
+  }
+}
+
+TEST(PlanFiles, MarksWhatNoOtherCandidateBeats) {
+  PlanResult result = result_with(2);
+  result.candidates[0].margin_min = 0.2;
+  result.candidates[1].margin_min = 0.1;
+  const auto candidates = nlohmann::json::parse(plan_json(flat_problem(), result)).at("candidates");
+  EXPECT_EQ(candidates[0].at("pareto"), true);
+  EXPECT_EQ(candidates[1].at("pareto"), false);
 }
 
 }  // namespace

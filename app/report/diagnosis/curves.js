@@ -15,9 +15,8 @@ function curves(host) {
       'p', {class: 'note'},
       `Points are runs with one standard deviation of the noise. ${
           lines}Runs stand at the mean load of their condition, moved there by the slope of the model; lines join means over replicates.`));
-  const legend = element('div', {class: 'residual-legend'});
-  for (const model of SHOWN_MODELS) chartKey(legend, model.name, model.colour, model.dash);
-  host.append(legend);
+  host.append(
+      element('div', {class: 'residual-legend'}, ...MODEL_KEYS.map(key => legendKey(key).node)));
   for (const channel of channels) {
     const panels = panelsOf(channel), row = element('div', {class: 'panels'});
     const {title, unit} = channelOf(channel);
@@ -27,18 +26,8 @@ function curves(host) {
   }
 }
 
-/// A legend's entry: a piece of the line and its name.
-function chartKey(host, name, colour, dash) {
-  const sample = d3.create('svg').attr('viewBox', '0 0 26 8').attr('aria-hidden', 'true');
-  sample.append('line')
-      .attr('x2', 26)
-      .attr('y1', 4)
-      .attr('y2', 4)
-      .attr('stroke', `var(${colour})`)
-      .attr('stroke-width', 2)
-      .attr('stroke-dasharray', dash);
-  host.append(element('span', {class: 'key'}, sample.node(), name));
-}
+const MODEL_KEYS =
+    SHOWN_MODELS.map(({name, colour, dash}) => ({name, colour: cssVar(colour), dash}));
 
 /// What a model says of a run on the panels: the corrected one where it had not seen it.
 const shownValue = (row, key) =>
@@ -64,50 +53,42 @@ const panelsOf = channel => grouped(
                                         d3.ascending(othersOf(a[0].run), othersOf(b[0].run)));
 
 function curvePanel(channel, rows, yDomain) {
-  const first = rows[0].run, others = othersOf(first);
+  const first = rows[0].run, others = othersOf(first),
+        {title: channelTitle, unit} = channelOf(channel);
   const title = `Slip angle ${degreesText(ANGLE_OF[first])}${others ? ', ' + others : ''}`;
   const rmse = key => Math.sqrt(d3.mean(rows, r => Math.pow(r.measured - shownValue(r, key), 2)));
-  const said =
+  const errors =
       SHOWN_MODELS.map(m => `${m.name} ${withChannelUnit(channel, rmse(m.key))}`).join(', ');
-  const figure = element('figure', {class: 'chart'}, element('figcaption', {}, title));
-  const svg = d3.select(figure)
-                  .append('svg')
-                  .attr('role', 'img')
-                  .attr(
-                      'aria-label',
-                      `${channelOf(channel).title} over slip ratio, ${title}, ${
-                          rows.length} runs; root mean square error: ${said}`);
-  const draw = () => drawPanel(svg, Math.max(220, figure.clientWidth), channel, rows, yDomain);
-  onWidth(figure, draw);
-  return figure;
+  const columns = ['load_n', 'slip_ratio', 'slip_angle_deg'];
+  return figure(
+             {
+               title,
+               level: 4,
+               name: () => `${channelTitle} over slip ratio, ${unit}, ${title.toLowerCase()}`,
+               shared_keys: () => MODEL_KEYS,
+               said: () => `${channelTitle} over slip ratio, ${
+                   rows.length} runs; root mean square error: ${errors}.`,
+               data: () => ({
+                 columns: [
+                   'run_id', ...columns, `measured_${channel}`, `noise_${channel}`,
+                   ...SHOWN_MODELS.map(m => `${m.key}_${channel}`)
+                 ],
+                 rows: rows.map(
+                     r =>
+                         [RUNS.run_id[r.run], ...columns.map(c => RUNS[c][r.run]), r.measured,
+                          r.noise, ...SHOWN_MODELS.map(m => shownValue(r, m.key))])
+               })
+             },
+             (svg, width) => drawPanel(svg, width, channel, rows, yDomain))
+      .node;
 }
 
 function drawPanel(svg, width, channel, rows, yDomain) {
-  const margin = {left: 44, right: 12, top: 8, bottom: 32}, height = 190;
+  const box = chartBox(svg, width, 190, {left: 44, right: 12, top: 8, bottom: 32});
   const {scale} = channelOf(channel);
-  const x = paddedScale(RUNS.slip_ratio, 0.2, [margin.left, width - margin.right]);
-  const y = d3.scaleLinear().domain(yDomain).nice(4).range([height - margin.bottom, margin.top]);
-  svg.attr('viewBox', `0 0 ${width} ${height}`).attr('height', height).selectAll('*').remove();
-  svg.append('g')
-      .attr('class', 'grid')
-      .selectAll('line')
-      .data(y.ticks(4))
-      .join('line')
-      .attr('x1', margin.left)
-      .attr('x2', width - margin.right)
-      .attr('y1', y)
-      .attr('y2', y);
-  svg.append('g')
-      .attr('class', 'axis')
-      .attr('transform', `translate(0,${height - margin.bottom})`)
-      .call(d3.axisBottom(x).ticks(Math.max(3, width / 80)).tickSize(4));
-  svg.append('g')
-      .attr('class', 'axis')
-      .attr('transform', `translate(${margin.left},0)`)
-      .call(d3.axisLeft(y).ticks(4).tickSize(0).tickPadding(6))
-      .select('.domain')
-      .remove();
-  axisTitle(svg, width - margin.right, height - 3, 'slip ratio');
+  const x = paddedScale(RUNS.slip_ratio, 0.2, [box.left, box.right]);
+  const y = d3.scaleLinear().domain(yDomain).nice(4).range([box.bottom, box.top]);
+  drawAxes(svg, box, {scale: x, title: 'slip ratio'}, {scale: y});
 
   const bySlip =
       grouped(rows, r => SLIP_OF[r.run]).sort((a, b) => SLIP_OF[a[0].run] - SLIP_OF[b[0].run]);
@@ -151,9 +132,13 @@ function drawPanel(svg, width, channel, rows, yDomain) {
       .attr('class', 'measured')
       .attr('r', 2.6)
       .attr('cy', r => y(scale * r.measured));
-  points.append('title').text(
-      r => `${RUNS.run_id[r.run]}: slip ratio ${significant(RUNS.slip_ratio[r.run], 3)}, load ${
-          significant(
-              RUNS.load_n[r.run], 3)} N, measured ${withChannelUnit(channel, r.measured)}; ${
-          SHOWN_MODELS.map(m => `${m.name} ${inUnit(channel, shownValue(r, m.key))}`).join(', ')}`);
+  return rows.map(
+      r => ({
+        x: x(RUNS.slip_ratio[r.run]),
+        y: y(scale * r.measured),
+        text: `${RUNS.run_id[r.run]}: slip ratio ${significant(RUNS.slip_ratio[r.run], 3)}, load ${
+            significant(
+                RUNS.load_n[r.run], 3)}\u00a0N, measured ${withChannelUnit(channel, r.measured)}; ${
+            SHOWN_MODELS.map(m => `${m.name} ${inUnit(channel, shownValue(r, m.key))}`).join(', ')}`
+      }));
 }

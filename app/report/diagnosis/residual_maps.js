@@ -45,92 +45,80 @@ function residualMaps(host) {
   }
 }
 
+/// What the marks say, from far below to far above.
+function residualKeys(most) {
+  const colour = residualColour(most);
+  return [-most, -most / 2, 0, most / 2, most].map((z, k) => ({
+                                                     name: `${fixed(z, 0)}${
+                                                         k === 0     ? ' and less' :
+                                                             k === 4 ? ' and more' :
+                                                                       ''}`,
+                                                     colour: colour(z),
+                                                     symbol: markOf(z)
+                                                   }));
+}
+
 function residualLegend(most) {
   const legend = element('div', {class: 'residual-legend'});
-  const draw = () => {
-    const colour = residualColour(most);
-    legend.replaceChildren(...[-most, -most / 2, 0, most / 2, most].map((z, k) => {
-      const svg = d3.create('svg').attr('viewBox', '-9 -9 18 18').attr('aria-hidden', 'true');
-      svg.append('path').attr('class', 'residual').attr('d', markOf(z)).attr('fill', colour(z));
-      const text = `${fixed(z, 0)}${k === 0 ? ' and less' : k === 4 ? ' and more' : ''}`;
-      return element('span', {class: 'key'}, svg.node(), text);
-    }));
-  };
+  const draw = () => legend.replaceChildren(...residualKeys(most).map(key => legendKey(key).node));
   draw();
   onThemeChange(draw);
   return legend;
 }
 
 function residualMap(channel, model, most) {
-  const marks = conditions(channel, model.key);
+  const marks = conditions(channel, model.key), {title} = channelOf(channel);
   const beyond = marks.filter(m => Math.abs(m.z) >= BEYOND_NOISE).length;
   const rms = Math.sqrt(d3.mean(marks, m => m.z * m.z) || 0);
   const said = `rms ${fixed(rms, 1)}; ${beyond} of ${marks.length} conditions beyond two`;
-  const figure = element(
-      'figure', {class: 'chart'},
-      element(
-          'figcaption', {}, element('span', {}, capital(model.name)),
-          element('span', {class: 'key'}, said)));
-  const svg = d3.select(figure)
-                  .append('svg')
-                  .attr('role', 'img')
-                  .attr(
-                      'aria-label',
-                      `${channelOf(channel).title}, ${
-                          model.name}, residuals over slip ratio and slip angle: ${said}`);
-  const draw = () => drawResidualMap(svg, Math.max(220, figure.clientWidth), channel, marks, most);
-  onWidth(figure, draw);
-  onThemeChange(draw);
-  return figure;
-}
-
-/// A linear axis that shows every value with room around it.
-function paddedScale(values, least, range) {
-  let [low, high] = d3.extent(values);
-  const middle = (low + high) / 2, half = Math.max(high - low, least) / 2;
-  return d3.scaleLinear().domain([middle - half * 1.12, middle + half * 1.12]).range(range);
+  const made = figure(
+      {
+        title: capital(model.name),
+        level: 4,
+        name: () => `${title}, residuals, ${model.name}`,
+        shared_keys: () => residualKeys(most),
+        said: () => `${title}, residuals over slip ratio and slip angle: ${said}.`,
+        data: () => ({
+          columns: [
+            'slip_ratio', 'slip_angle_deg', 'other_conditions', 'runs', `residual_${channel}`,
+            'residual_in_standard_deviations'
+          ],
+          rows: marks.map(m => [m.slip, m.angle, m.others, m.count, m.difference, m.z])
+        })
+      },
+      (svg, width) => drawResidualMap(svg, width, channel, marks, most));
+  made.node.querySelector('figcaption h4').after(element('span', {class: 'key'}, said));
+  return made.node;
 }
 
 function drawResidualMap(svg, width, channel, marks, most) {
   const angles = new Set(ANGLE_OF).size, margin = {left: 44, right: 12, top: 20, bottom: 34};
   const height = margin.top + margin.bottom + Math.min(190, 50 + 26 * angles);
-  const x = paddedScale(RUNS.slip_ratio, 0.2, [margin.left, width - margin.right]);
-  const y = paddedScale(RUNS.slip_angle_deg, 4, [height - margin.bottom, margin.top]);
-  const colour = residualColour(most);
-  svg.attr('viewBox', `0 0 ${width} ${height}`).attr('height', height).selectAll('*').remove();
-  svg.append('g')
-      .attr('class', 'axis')
-      .attr('transform', `translate(0,${height - margin.bottom})`)
-      .call(d3.axisBottom(x).ticks(Math.max(3, width / 80)).tickSize(4));
-  svg.append('g')
-      .attr('class', 'axis')
-      .attr('transform', `translate(${margin.left},0)`)
-      .call(
-          d3.axisLeft(y).ticks(Math.min(6, 1 + angles)).tickSize(4).tickFormat(v => `${v}\u00b0`));
-  axisTitle(svg, width - margin.right, height - 4, 'slip ratio');
-  axisTitle(svg, 4, 11, 'slip angle', 'start');
+  const box = chartBox(svg, width, height, margin), colour = residualColour(most);
+  const x = paddedScale(RUNS.slip_ratio, 0.2, [box.left, box.right]);
+  const y = paddedScale(RUNS.slip_angle_deg, 4, [box.bottom, box.top]);
+  drawAxes(svg, box, {scale: x, title: 'slip ratio'}, {
+    scale: y,
+    ticks: Math.min(6, 1 + angles),
+    format: v => `${v}\u00b0`,
+    title: 'slip angle',
+    grid: false
+  });
   const places = new Map();
-  for (const mark of marks) {
+  return marks.map(mark => {
     const key = `${mark.slip}|${mark.angle}`, taken = places.get(key) || 0;
+    const at = {x: x(mark.slip) + 9 * taken, y: y(mark.angle)};
     places.set(key, taken + 1);
-    const group = svg.append('path')
-                      .attr('class', 'residual')
-                      .attr('d', markOf(mark.z))
-                      .attr('fill', colour(mark.z))
-                      .attr('transform', `translate(${x(mark.slip) + 9 * taken},${y(mark.angle)})`);
-    group.append('title').text(
-        `slip ratio ${significant(mark.slip, 3)}, slip angle ${degreesText(mark.angle)}${
-            mark.others ? ', ' + mark.others : ''}: ${withChannelUnit(channel, mark.difference)}, ${
-            fixed(mark.z, 1)} standard deviations (${mark.count} runs)`);
-  }
-}
-
-function axisTitle(svg, x, y, text, anchor = 'end') {
-  svg.append('g')
-      .attr('class', 'axis')
-      .append('text')
-      .attr('x', x)
-      .attr('y', y)
-      .attr('text-anchor', anchor)
-      .text(text);
+    svg.append('path')
+        .attr('class', 'residual')
+        .attr('d', markOf(mark.z))
+        .attr('fill', colour(mark.z))
+        .attr('transform', `translate(${at.x},${at.y})`);
+    return {
+      ...at,
+      text: `slip ratio ${significant(mark.slip, 3)}, slip angle ${degreesText(mark.angle)}${
+          mark.others ? ', ' + mark.others : ''}: ${withChannelUnit(channel, mark.difference)}, ${
+          fixed(mark.z, 1)} standard deviations (${mark.count} runs)`
+    };
+  });
 }

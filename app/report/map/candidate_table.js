@@ -2,6 +2,7 @@
 const CANDIDATE_COLUMNS = [
   {text: 'Rank', value: p => p.rank, cell: p => p.label},
   {text: 'Planner', value: p => p.planner, cell: p => p.planner},
+  {text: 'Pareto', value: p => (p.pareto && p.verified_path ? 0 : 1), cell: paretoCell},
   {text: 'Length', number: true, value: p => p.length_m, cell: p => fixed(p.length_m, 1, 'm')},
   {text: 'Duration', number: true, value: p => p.duration_s, cell: p => SECONDS(p.duration_s)},
   {text: 'Energy', number: true, value: p => p.energy_j, cell: p => energy(p.energy_j)},
@@ -37,6 +38,14 @@ function marginCell(margin) {
   const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
   swatch.style.background = marginColour(margin);
   return element('span', {}, swatch, fixed(margin, 3));
+}
+
+/// Marks a path that no other beats in smallest margin, duration and energy at once.
+function paretoCell(path) {
+  if (!path.pareto || !path.verified_path) return '';
+  return element(
+      'span', {title: 'No other path beats it in margin, duration and energy'}, '\u25c6',
+      element('span', {class: 'visually-hidden'}, ' Pareto-best'));
 }
 
 function limitingCell(path) {
@@ -95,7 +104,7 @@ function candidateTable(host) {
   view.events.on('selected.table', update).on('visible.table', update);
   host.append(element(
       'p', {class: 'note'},
-      'Ranked by the margin that 95 % of the soil draws keep. Every path was replayed with the direct wheel model and a ten times finer step; the deviation is between search and replay.'));
+      'Ranked by the margin that 95 % of the soil draws keep. Every path was replayed with the direct wheel model and a ten times finer step; the deviation is between search and replay. \u25c6 marks what no other path beats in smallest margin, duration and energy at once.'));
   const wide = element(
       'table', {class: 'candidates'},
       element(

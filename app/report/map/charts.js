@@ -59,6 +59,18 @@ const CHARTS = [
     series: [{name: 'largest of the wheels', key: 'sinkage_max_m', colour: '--series-1'}]
   },
   {
+    title: 'Wheel loads',
+    unit: 'N',
+    decimals: 0,
+    zero: true,
+    series: VEHICLE.wheels.map(wheel => ({
+                                 name: words(wheel.name),
+                                 key: `load_${wheel.name}_n`,
+                                 colour: wheel.y_m > 0 ? '--series-1' : '--series-2',
+                                 dash: [null, '7 3', '2 2.5', '9 3 2 3'][axleOf(wheel) % 4]
+                               }))
+  },
+  {
     title: 'Elevation and soil',
     unit: 'm',
     decimals: 2,
@@ -96,7 +108,6 @@ function charts(host) {
       view.axis = radio.value;
       drawAll();
     });
-  panels.forEach(panel => onWidth(panel.node, panel.draw));
   caption();
   view.events.on('selected.charts', drawAll)
       .on('cursor.charts', () => panels.forEach(panel => panel.point()));
@@ -117,99 +128,70 @@ function chartDomain(chart, columns) {
   return high > low ? [low, high] : [low - 0.5, high + 0.5];
 }
 
+const CHART_HEIGHT = 170, CHART_MARGIN = {
+  left: 48,
+  right: 22,
+  top: 14,
+  bottom: 20
+};
+
 function chartPanel(chart) {
-  const margin = {left: 48, right: 22, top: 8, bottom: 20}, height = 164, scaled = chart.scale || 1;
-  const values = key => view.selected.points[key].map(v => (isKnown(v) ? v * scaled : null));
-  const caption = element(
-      'figcaption', {},
-      element(
-          'h3', {}, chart.title,
-          chart.unit ? element('span', {class: 'unit'}, ` ${chart.unit}`) : ''));
-  const node = element('figure', {class: 'chart'}, caption);
-  const svg =
-      d3.select(node)
-          .append('svg')
-          .attr('role', 'img')
-          .attr(
-              'aria-label',
-              `${chart.title} along the selected path; the values at the marker stand in the heading`);
-  const keys =
-      chart.series.map(series => chartKey(caption, series.name, series.colour, series.dash));
-  const bandKey = chart.band ? chartKey(caption, 'supply', '--band', null, 8) : null;
+  const scaled = chart.scale || 1;
+  const at = (key, i) => {
+    const value = view.selected.points[key][i];
+    return isKnown(value) ? value * scaled : null;
+  };
+  const column = key => view.selected.points[key].map((_, i) => at(key, i));
+  const keys = chart.series.map(
+      series => ({name: series.name, colour: cssVar(series.colour), dash: series.dash}));
+  if (chart.band) keys.push({name: 'supply', colour: cssVar('--band'), area: true});
   if (chart.soils)
-    MAP.soils.forEach((soil, k) => {
-      const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
-      swatch.style.background = soilColour(k);
-      caption.append(element('span', {class: 'key'}, swatch, soil.name));
-    });
+    MAP.soils.forEach((soil, k) => keys.push({name: soil.name, colour: soilColour(k), area: true}));
+  const shown = chart.series.concat(
+      (chart.band || []).map((key, k) => ({key, name: `supply to the ${k ? 'left' : 'right'}`})));
+  const made =
+      figure(
+          {
+            title: chart.title,
+            unit: chart.unit,
+            keys,
+            name: () => `${chart.title} along path ${view.selected.label}`,
+            said: () => rangesText(shown.map(({name, key}) => ({
+                                               name: `${chart.title}, ${name}`,
+                                               values: column(key),
+                                               decimals: chart.decimals,
+                                               unit: chart.unit
+                                             }))),
+            data: () => pointColumns(['distance_m', 'time_s', ...shown.map(s => s.key)]),
+          },
+          draw);
   let x = null, y = null, marker = null;
 
-  function draw() {
-    const width = Math.max(240, node.clientWidth), path = view.selected,
-          along = path.points[view.axis];
-    const columns = chart.series.map(s => values(s.key)), band = (chart.band || []).map(values);
-    x = d3.scaleLinear().domain([0, d3.max(along) || 1]).range([margin.left, width - margin.right]);
+  function draw(svg, width) {
+    const path = view.selected, along = path.points[view.axis];
+    const columns = chart.series.map(s => column(s.key)), band = (chart.band || []).map(column);
+    const box = chartBox(svg, width, CHART_HEIGHT, CHART_MARGIN);
+    x = d3.scaleLinear().domain([0, d3.max(along) || 1]).range([box.left, box.right]);
     y = d3.scaleLinear().domain(chartDomain(chart, columns.concat(band))).nice(5).range([
-      height - margin.bottom, margin.top
+      box.bottom, box.top
     ]);
-    svg.attr('viewBox', `0 0 ${width} ${height}`).attr('height', height).selectAll('*').remove();
     const unit = view.axis === 'time_s' ? 's' : 'm';
-    svg.append('g')
-        .attr('class', 'grid')
-        .selectAll('line')
-        .data(y.ticks(4))
-        .join('line')
-        .attr('x1', margin.left)
-        .attr('x2', width - margin.right)
-        .attr('y1', y)
-        .attr('y2', y);
-    svg.append('g')
-        .attr('class', 'axis')
-        .attr('transform', `translate(0,${height - margin.bottom})`)
-        .call(d3.axisBottom(x)
-                  .ticks(Math.max(3, width / 90))
-                  .tickSize(4)
-                  .tickFormat(v => `${v} ${unit}`));
-    svg.append('g')
-        .attr('class', 'axis')
-        .attr('transform', `translate(${margin.left},0)`)
-        .call(d3.axisLeft(y).ticks(4).tickSize(0).tickPadding(6))
-        .select('.domain')
-        .remove();
-    if (chart.soils) drawSoils(svg, x, height - margin.bottom, along, path.points.soil);
+    drawAxes(svg, box, {scale: x, format: v => `${v} ${unit}`}, {scale: y});
+    if (chart.soils) drawSoils(svg, x, box.bottom, along, path.points.soil);
     const line = d3.line()
                      .defined((v, i) => isKnown(v) && isKnown(along[i]))
                      .x((_, i) => x(along[i]))
                      .y(v => y(v));
-    if (chart.band) {
-      svg.append('path')
-          .attr('fill', cssVar('--band'))
-          .attr(
-              'd',
-              d3.area()
-                  .defined((_, i) => isKnown(band[0][i]) && isKnown(band[1][i]))
-                  .x((_, i) => x(along[i]))
-                  .y0((_, i) => y(band[0][i]))
-                  .y1((_, i) => y(band[1][i]))(along));
-      for (const edge of band)
-        svg.append('path')
-            .attr('class', 'line')
-            .attr('stroke', cssVar('--series-1'))
-            .attr('stroke-opacity', 0.6)
-            .attr('d', line(edge));
-    }
+    if (chart.band) drawBand(svg, band, along, x, y, line);
     chart.series.forEach(
         (series, k) => svg.append('path')
                            .attr('class', 'line')
                            .attr('stroke', cssVar(series.colour))
                            .attr('stroke-dasharray', series.dash || null)
                            .attr('d', line(columns[k])));
-    drawLimits(svg, chart, y, margin.left, width - margin.right);
-    marker = svg.append('g').attr('display', 'none');
-    marker.append('line')
-        .attr('class', 'crosshair')
-        .attr('y1', margin.top)
-        .attr('y2', height - margin.bottom);
+    drawLimits(svg, chart, y, box.left, box.right);
+    marker = svg.append('g').attr('class', 'marker').attr('display', 'none');
+    marker.append('line').attr('class', 'crosshair').attr('y1', box.top).attr('y2', box.bottom);
     marker.selectAll('circle')
         .data(chart.series)
         .join('circle')
@@ -217,9 +199,10 @@ function chartPanel(chart) {
         .attr('fill', s => cssVar(s.colour))
         .attr('stroke', cssVar('--panel'));
     const overlay = svg.append('rect')
-                        .attr('x', margin.left)
-                        .attr('width', width - margin.left - margin.right)
-                        .attr('height', height)
+                        .attr('class', 'pointer-area')
+                        .attr('x', box.left)
+                        .attr('width', box.right - box.left)
+                        .attr('height', CHART_HEIGHT)
                         .attr('fill', 'transparent');
     overlay.on('mousemove touchmove', () => {
       const value = x.invert(d3.mouse(svg.node())[0]), i = d3.bisectLeft(along, value);
@@ -229,30 +212,51 @@ function chartPanel(chart) {
   }
 
   function point() {
-    if (!marker || !view.cursor || view.cursor.path !== view.selected) return;
-    const i = view.cursor.index, points = view.selected.points;
-    marker.attr('display', null);
-    marker.select('line').attr('x1', x(points[view.axis][i])).attr('x2', x(points[view.axis][i]));
-    const at = series => {
-      const v = points[series.key][i];
-      return isKnown(v) ? v * scaled : null;
-    };
-    marker.selectAll('circle')
-        .attr('display', s => (at(s) === null ? 'none' : null))
-        .attr('cx', x(points[view.axis][i]))
-        .attr('cy', s => (at(s) === null ? 0 : y(at(s))));
+    if (!view.cursor || view.cursor.path !== view.selected) return;
+    const i = view.cursor.index;
     chart.series.forEach((series, k) => {
-      keys[k].textContent = fixed(at(series), chart.decimals);
+      made.values[k].textContent = fixed(at(series.key, i), chart.decimals);
     });
-    if (bandKey)
-      bandKey.textContent =
-          chart.band.map(key => fixed(points[key][i], chart.decimals)).join(' to ');
+    if (chart.band)
+      made.values[chart.series.length].textContent =
+          chart.band.map(key => fixed(at(key, i), chart.decimals)).join(' to ');
+    if (!marker) return;
+    const place = x(view.selected.points[view.axis][i]);
+    marker.attr('display', null);
+    marker.select('line').attr('x1', place).attr('x2', place);
+    marker.selectAll('circle')
+        .attr('display', s => (at(s.key, i) === null ? 'none' : null))
+        .attr('cx', place)
+        .attr('cy', s => (at(s.key, i) === null ? 0 : y(at(s.key, i))));
   }
 
-  return {node, draw, point};
+  return {...made, point};
 }
 
-const cssVar = name => `var(${name})`;
+/// Columns of the selected path, as they stand in candidate-K.csv.
+function pointColumns(names) {
+  const {points} = view.selected;
+  return {columns: names, rows: points.time_s.map((_, i) => names.map(name => points[name][i]))};
+}
+
+/// The area between two columns, with its edges.
+function drawBand(svg, band, along, x, y, line) {
+  svg.append('path')
+      .attr('fill', cssVar('--band'))
+      .attr(
+          'd',
+          d3.area()
+              .defined((_, i) => isKnown(band[0][i]) && isKnown(band[1][i]) && isKnown(along[i]))
+              .x((_, i) => x(along[i]))
+              .y0((_, i) => y(band[0][i]))
+              .y1((_, i) => y(band[1][i]))(along));
+  for (const edge of band)
+    svg.append('path')
+        .attr('class', 'line')
+        .attr('stroke', cssVar('--series-1'))
+        .attr('stroke-opacity', 0.6)
+        .attr('d', line(edge));
+}
 
 /// Limits as dashed lines; one that lies beyond the axis is said in words.
 function drawLimits(svg, chart, y, left, right) {
@@ -272,25 +276,10 @@ function drawLimits(svg, chart, y, left, right) {
     svg.append('text')
         .attr('class', 'limit-label')
         .attr('x', right)
-        .attr('y', beyond ? top + 4 : at + (at < top + 14 ? 12 : -4))
+        .attr('y', beyond ? top + 8 : at - 4)
         .attr('text-anchor', 'end')
         .text(`limit ${fixed(limit, decimals)}${beyond ? ' (above)' : ''}`);
   }
-}
-
-/// An entry of a chart's legend; returns the node that takes the value at the marker.
-function chartKey(caption, name, colour, dash, width = 2) {
-  const sample = d3.create('svg').attr('viewBox', '0 0 22 8').attr('aria-hidden', 'true');
-  sample.append('line')
-      .attr('x2', 22)
-      .attr('y1', 4)
-      .attr('y2', 4)
-      .attr('stroke', cssVar(colour))
-      .attr('stroke-width', width)
-      .attr('stroke-dasharray', dash || null);
-  const value = element('b');
-  caption.append(element('span', {class: 'key'}, sample.node(), `${name} `, value));
-  return value;
 }
 
 /// The soil below the vehicle as a band along the axis.

@@ -20,11 +20,13 @@ function mapCanvas(canvas, frame) {
     canvas.height = frame.height * density;
   }
 
-  function forgetTheme() { pictures.shade = null; }
+  function forgetTheme() {
+    pictures.shade = null;
+  }
 
   function draw() {
     const context = canvas.getContext('2d'), density = canvas.width / frame.width;
-    if (!pictures.shade) pictures.shade = hillshade(TERRAIN, stretch, DARK.matches);
+    if (!pictures.shade) pictures.shade = hillshade(TERRAIN, stretch, isDark());
     context.setTransform(density, 0, 0, density, 0, 0);
     context.clearRect(0, 0, frame.width, frame.height);
     context.save();
@@ -47,8 +49,8 @@ function mapCanvas(canvas, frame) {
     drawForbidden(context, density, west, north, width, height);
     if (LAYERS.soils) {
       context.imageSmoothingEnabled = false;
-      context.globalAlpha = DARK.matches ? 0.3 : 0.36;
-      context.globalCompositeOperation = DARK.matches ? 'source-over' : 'multiply';
+      context.globalAlpha = isDark() ? 0.3 : 0.36;
+      context.globalCompositeOperation = isDark() ? 'source-over' : 'multiply';
       context.drawImage(pictures.soils, west, north, width, height);
       context.globalAlpha = 1;
       context.globalCompositeOperation = 'source-over';
@@ -95,7 +97,7 @@ function mapCanvas(canvas, frame) {
     const k = frame.pixelsPerMetre(), kx = TERRAIN.cell_width_m * k, ky = TERRAIN.cell_height_m * k;
     context.save();
     context.setTransform(density * kx, 0, 0, density * ky, density * west, density * north);
-    context.strokeStyle = DARK.matches ? '#ffffff' : '#3a2d1a';
+    context.strokeStyle = isDark() ? '#ffffff' : '#3a2d1a';
     for (const [path, width, alpha] of [[contours.fine, 0.7, 0.3], [contours.bold, 1.2, 0.5]]) {
       context.globalAlpha = alpha;
       context.lineWidth = width / kx;
@@ -105,8 +107,8 @@ function mapCanvas(canvas, frame) {
   }
 
   function drawRocks(context) {
-    context.fillStyle = DARK.matches ? '#b49b83' : '#4a3826';
-    context.strokeStyle = DARK.matches ? '#000000' : '#ffffff';
+    context.fillStyle = isDark() ? '#b49b83' : '#4a3826';
+    context.strokeStyle = isDark() ? '#000000' : '#ffffff';
     context.lineWidth = 0.6;
     for (const [x_m, y_m, radius_m] of MAP.rocks) {
       const [x, y] = frame.screen(x_m, y_m), r = radius_m * frame.pixelsPerMetre();
@@ -123,7 +125,7 @@ function mapCanvas(canvas, frame) {
         new Map([...view.reasons].map(reason => [reason, new Path2D(symbolPath(reason, 30))]));
     const density = canvas.width / frame.width;
     context.lineWidth = 0.7;
-    context.strokeStyle = DARK.matches ? '#000000b0' : '#ffffffd0';
+    context.strokeStyle = isDark() ? '#000000b0' : '#ffffffd0';
     for (const state of shownMarks()) {
       const [x, y] = frame.screen(state.x_m, state.y_m);
       if (x < 0 || y < 0 || x > frame.width || y > frame.height) continue;

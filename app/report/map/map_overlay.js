@@ -5,7 +5,7 @@ function mapOverlay(svg, frame) {
   const pathLayer = over.append('g');
   const placeLayer = over.append('g');
   const markerLayer = over.append('g').attr('pointer-events', 'none');
-  const axes = [svg.append('g').attr('class', 'axis'), svg.append('g').attr('class', 'axis')];
+  const axisGroups = [svg.append('g').attr('class', 'axis'), svg.append('g').attr('class', 'axis')];
   const scaleBar = svg.append('g').attr('class', 'scale-bar');
 
   function resize() {
@@ -157,13 +157,13 @@ function mapOverlay(svg, frame) {
       const ticks = scale.ticks(6);
       return d3.format(`.${d3.precisionFixed(ticks.length > 1 ? ticks[1] - ticks[0] : 1)}f`);
     };
-    axes[0]
+    axisGroups[0]
         .attr('transform', `translate(0,${frame.top + frame.plotHeight})`)
         .call(d3.axisBottom(x)
                   .ticks(Math.max(2, Math.min(8, frame.width / 110)))
                   .tickSize(4)
                   .tickFormat(plain(x)));
-    axes[1]
+    axisGroups[1]
         .attr('transform', `translate(${frame.left},0)`)
         .call(d3.axisLeft(y).ticks(6).tickSize(4).tickFormat(plain(y)));
     const span_m = d3.tickStep(0, 130 / frame.pixelsPerMetre(), 1.5),
@@ -200,30 +200,7 @@ function mapOverlay(svg, frame) {
     const g = markerLayer.append('g').attr(
         'transform', `translate(${x},${y}) rotate(${- (p.yaw_deg[index] || 0)})`);
     if ((body.x_max_m - body.x_min_m) * k > 16) {
-      g.append('rect')
-          .attr('class', 'vehicle')
-          .attr('x', body.x_min_m * k)
-          .attr('y', -body.y_max_m * k)
-          .attr('width', (body.x_max_m - body.x_min_m) * k)
-          .attr('height', (body.y_max_m - body.y_min_m) * k)
-          .attr('rx', 2);
-      for (const wheel of VEHICLE.wheels) {
-        const steer = wheel.steered ?
-            (p.steer_deg[index] || 0) * Math.sign(wheel.x_m - VEHICLE.turn_centre_x_m) :
-            0;
-        g.append('rect')
-            .attr('class', 'vehicle-wheel')
-            .attr('x', -VEHICLE.wheel_radius_m * k)
-            .attr('y', -VEHICLE.wheel_width_m * k / 2)
-            .attr('width', 2 * VEHICLE.wheel_radius_m * k)
-            .attr('height', VEHICLE.wheel_width_m * k)
-            .attr('transform', `translate(${wheel.x_m * k},${- wheel.y_m * k}) rotate(${- steer})`);
-      }
-      g.append('path')
-          .attr('class', 'vehicle')
-          .attr(
-              'd',
-              `M${body.x_max_m * k + 3},-4L${body.x_max_m * k + 10},0L${body.x_max_m * k + 3},4Z`);
+      drawVehicle(g, k, p.curvature_1pm[index]);
     } else {
       g.append('path').attr('class', 'marker-dot').attr('d', 'M-7,-6.5L10,0L-7,6.5L-3.5,0Z');
     }

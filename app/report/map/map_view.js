@@ -165,6 +165,9 @@ function mapView(host) {
     '-': () => scale(1 / 1.4),
     '0': showPaths,
     '1': showAll,
+    ' ': () => view.events.call('playback'),
+    ',': () => stepMarker(-1),
+    '.': () => stepMarker(1),
   };
   host.addEventListener('keydown', event => {
     const act = keys[event.key];
@@ -182,11 +185,15 @@ function mapView(host) {
       'div', {class: 'buttons screen-only'}, button('+', 'Zoom in', () => scale(1.5)),
       button('\u2212', 'Zoom out', () => scale(1 / 1.5)),
       button('Paths', 'Show the paths', showPaths), button('All', 'Show the whole map', showAll)));
+  host.after(saveMenu(
+      'Map', () => 'Map',
+      () => ({title: document.title, svg: svg.node(), canvas: node, keys: mapKeys()}), mapData));
 
   onWidth(host, resize);
   onThemeChange(() => {
     canvas.forgetTheme();
-    redraw();
+    overlay.arrange();
+    canvas.draw();  // at once: a printer does not wait
   });
   view.events.on('selected.map', overlay.drawPaths)
       .on('visible.map', overlay.drawPaths)
@@ -203,4 +210,25 @@ function mapView(host) {
 function chooseMark(state) {
   view.mark = state;
   view.events.call('marks');
+}
+
+/// What the colours of a saved map mean.
+function mapKeys() {
+  const [low, high] = marginColour.domain();
+  const margins = [low, (low + high) / 2, high].map(
+      m => ({name: `margin ${fixed(m, 2)}`, colour: marginColour(m), area: true}));
+  return margins.concat(
+      MAP.soils.map((soil, k) => ({name: soil.name, colour: soilColour(k), area: true})));
+}
+
+/// The points of the paths shown, as drawn.
+function mapData() {
+  const names = ['time_s', 'x_m', 'y_m', 'z_m', 'margin'];
+  const shown = view.paths.filter(p => p.visible && p.length);
+  return {
+    columns: ['path', ...names],
+    rows: shown.flatMap(
+        path =>
+            path.points.time_s.map((_, i) => [path.label, ...names.map(n => path.points[n][i])]))
+  };
 }

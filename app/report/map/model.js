@@ -3,6 +3,9 @@
 const PLAN = REPORT, MAP = REPORT.map, LIMITS = REPORT.problem.limits,
       VEHICLE = REPORT.problem.vehicle;
 const WEIGHT_N = VEHICLE.mass_kg * PLAN.problem.gravity_mps2;
+/// Axles counted from the front.
+const AXLES_X_M = [...new Set(VEHICLE.wheels.map(w => w.x_m))].sort(d3.descending);
+const axleOf = wheel => AXLES_X_M.indexOf(wheel.x_m);
 const MARGINS = ['cornering', 'tip_over', 'traction'];
 
 const view = {
@@ -15,7 +18,8 @@ const view = {
   axis: 'distance_m',  // of the charts
   reasons: new Set(),  // of rejection, shown on the map
   mark: null,          // a rejected state
-  events: d3.dispatch('selected', 'visible', 'cursor', 'axis', 'marks', 'layers', 'goto'),
+  events:
+      d3.dispatch('selected', 'visible', 'cursor', 'axis', 'marks', 'layers', 'goto', 'playback'),
 };
 view.selected = view.paths.find(path => path.length) || null;
 if (view.selected) view.selected.visible = true;

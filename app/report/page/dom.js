@@ -40,7 +40,19 @@ function table(caption, columns, rows) {
 
 const DARK = window.matchMedia('screen and (prefers-color-scheme: dark)');
 const cssColour = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
-const onThemeChange = draw => DARK.addListener(draw);
+/// Whether pictures are dark. Paper never is: while the page prints, `printing` undoes the theme.
+const isDark = () => DARK.matches && !document.documentElement.classList.contains('printing');
+function onThemeChange(draw) {
+  DARK.addListener(draw);
+  themeListeners.push(draw);
+}
+const themeListeners = [];
+for (const [event, printing] of [['beforeprint', true], ['afterprint', false]])
+  window.addEventListener(event, () => {
+    if (!DARK.matches) return;
+    document.documentElement.classList.toggle('printing', printing);
+    themeListeners.forEach(draw => draw());
+  });
 
 /// Calls draw(width) now and whenever the node's width changes.
 function onWidth(node, draw) {

@@ -5,6 +5,8 @@ whatIfTable(byId('what-ifs'));
 rejectionBars(byId('rejected'));
 facts(byId('facts'));
 readout(byId('readout'), byId('position'));
+playback(byId('playback'));
+vehicleFigure(byId('vehicle'));
 layerPanel(byId('layers'), mapView(byId('map')));
 charts(byId('charts'));
 if (view.selected) setCursor(view.selected, worstIndex(view.selected));

@@ -1,0 +1,53 @@
+// Makes the four reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
+import {execFileSync} from 'node:child_process';
+import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
+import {join} from 'node:path';
+
+const [program, source, folder] = process.argv.slice(2);
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+const scenario = name => join(source, 'benchmarks/scenarios', `${name}.yaml`);
+
+/// Runs the program; status 2 is an answer too.
+function regoplan(...args) {
+  try {
+    execFileSync(program, [...args, '--quiet'], {stdio: ['ignore', 'ignore', 'inherit']});
+  } catch (failure) {
+    if (failure.status !== 2) throw failure;
+  }
+}
+
+/// A path along the corridor of fast_corner, round its corner on a radius.
+function cornerPath(name, radius_m, speed_mps) {
+  const points = [];
+  for (let x = 20; x < 100 - radius_m; x += 2) points.push([x, 100]);
+  for (let i = 0; i <= 12; ++i) {
+    const angle = Math.PI / 2 * i / 12;
+    points.push(
+        [100 - radius_m + radius_m * Math.sin(angle), 100 + radius_m - radius_m * Math.cos(angle)]);
+  }
+  for (let y = 102 + radius_m; y <= 180; y += 2) points.push([100, y]);
+  const rows = points.map(([x, y]) => `${x.toFixed(3)},${y.toFixed(3)},${speed_mps}\n`);
+  writeFileSync(join(folder, name), 'x_m,y_m,speed_mps\n' + rows.join(''));
+  return join(folder, name);
+}
+
+regoplan(
+    'demo', '--planner', 'Lattice', '--iterations', '600', '--candidates', '3', '--out',
+    join(folder, 'plan'));
+regoplan(
+    'evaluate', scenario('fast_corner'), cornerPath('wide.csv', 14, 1),
+    cornerPath('tight.csv', 8, 2.9), '--draws', '20', '--out', join(folder, 'evaluation'));
+const recording = name => join(source, 'scenarios/diagnosis', name);
+regoplan(
+    'diagnose', recording('recording.csv'), '--setup', recording('setup.yaml'), '--out',
+    join(folder, 'diagnosis'));
+writeFileSync(join(folder, 'suite.yaml'), `name: small
+scenarios: [${scenario('dune_field')}, ${scenario('side_slope')}]
+planners: [RRT, KPIECE1]
+seeds: 3
+time_s: 30
+iterations: 400
+soil_draws: 2
+`);
+regoplan('benchmark', join(folder, 'suite.yaml'), '--out', join(folder, 'benchmark'));

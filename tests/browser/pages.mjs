@@ -1,0 +1,37 @@
+// The reports under test in a headless Chromium.
+import {statSync} from 'node:fs';
+import {join} from 'node:path';
+import {chromium} from 'playwright-core';
+
+export const KINDS = ['plan', 'evaluation', 'diagnosis', 'benchmark'];
+const folder = process.env.REGOPLAN_PAGES;
+export const fileOf = kind => join(folder, kind, 'report.html');
+export const bytesOf = kind => statSync(fileOf(kind)).size;
+
+let browser = null;
+export async function startBrowser() {
+  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+}
+export const stopBrowser = () => browser.close();
+
+/// Opens a report and hands it to `look(page)` with what went wrong so far.
+export async function withPage(kind, look, {width = 1600, theme = 'light'} = {}) {
+  const context = await browser.newContext(
+      {viewport: {width, height: 900}, colorScheme: theme, acceptDownloads: true});
+  context.setDefaultTimeout(15000);
+  const page = await context.newPage(), errors = [], requests = [];
+  page.on('console', message => message.type() === 'error' && errors.push(message.text()));
+  page.on('pageerror', error => errors.push(error.message));
+  page.on('request', request => requests.push(request.url()));
+  const before = Date.now();
+  try {
+    await page.goto(`file://${fileOf(kind)}`);
+    await page.waitForSelector('html[data-drawn=yes]').catch(failure => {
+      throw new Error(errors.join('; ') || failure.message);
+    });
+    const opened_ms = Date.now() - before;
+    await look(page, {errors, requests, opened_ms});
+  } finally {
+    await context.close();
+  }
+}
