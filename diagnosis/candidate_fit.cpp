@@ -274,12 +274,12 @@ std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Hypot
     if (fit.evidence.settings == settings) break;
     settings = fit.evidence.settings;
   }
-  if (fit.shape.cols() == 0 || candidate.effects.size() > 1) return fit;  // pairs: rough forms only
+  if (fit.shape.cols() == 0) return fit;
   // forms that hold closely deserve to be told from forms that hold roughly
   const CandidateFit rough = fit;
   fit.shape_spread = kShapeSpreads.front();
   renew_shape(problem, functions, fit);
-  descend(problem, settings, 2, functions, fit);
+  if (candidate.effects.size() == 1) descend(problem, settings, 2, functions, fit);
   fit.evidence = weigh();
   const double a = fit.evidence.log_marginal, b = rough.evidence.log_marginal;
   if (b > a) fit = rough;

@@ -70,23 +70,25 @@ std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
   return claimed;
 }
 
+bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed) {
+  const std::set<std::string> ids = parts_of(scored.id);
+  return ids.size() == claimed.size() && std::ranges::all_of(claimed, [&](const NameClass& names) {
+           return std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });
+         });
+}
+
 const ScoredId* best_of(const std::vector<ScoredId>& scored,
                         const std::vector<NameClass>& claimed) {
   const ScoredId* best = nullptr;
   for (const ScoredId& s : scored) {
-    const std::set<std::string> ids = parts_of(s.id);
-    if (ids.size() != claimed.size()) continue;
-    const auto named = [&](const NameClass& names) {
-      return std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });
-    };
-    if (!std::ranges::all_of(claimed, named)) continue;
+    if (!is_of(s, claimed)) continue;
     if (best == nullptr || s.probability > best->probability) best = &s;
   }
   return best;
 }
 
 std::string objection(const FitProblem& problem, const CandidateFit& fit) {
-  constexpr double kSoilBack = 4.0, kPlausible = 3.5;
+  constexpr double kSoilBack = 4.0, kPlausible = 3.5, kWrongWay = 2;
   for (std::size_t i = 0; i < problem.soil.size(); ++i) {
     const double pull = fit.x[static_cast<Eigen::Index>(i)];
     if (std::abs(pull) > kSoilBack) {
@@ -113,7 +115,8 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
         const Eigen::VectorXd weight = data.noise.diagonal().cwiseInverse();
         const Eigen::VectorXd own = part->segment(from, n);
         const Eigen::VectorXd left = data.mean - fit.prediction.segment(from, n) + own;
-        if (own.dot(weight.cwiseProduct(left)) < 0) {
+        const double own_size = std::sqrt(own.dot(weight.cwiseProduct(own)));
+        if (own.dot(weight.cwiseProduct(left)) < -kWrongWay * own_size) {
           return fmt::format("{} would move {} the wrong way", effect.id, name(channel));
         }
       }

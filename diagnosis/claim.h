@@ -14,11 +14,15 @@ struct NameClass {
 /// reach 0.9, of at most 4; none where nothing reaches it.
 std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored);
 
+/// Whether a candidate consists of one effect of each class.
+bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed);
+
 /// The best scored candidate whose every effect is of one of the classes.
 const ScoredId* best_of(const std::vector<ScoredId>& scored, const std::vector<NameClass>& claimed);
 
 /// Why a fitted claim is not believed; empty where it is: an amplitude or a soil number far from
-/// what is usual, or a channel that the effect should move and that moved the other way.
+/// what is usual, or a channel that the effect should move and that moved the other way beyond its
+/// noise.
 std::string objection(const FitProblem& problem, const CandidateFit& fit);
 
 /// Channels in which an effect of a fitted candidate shows beyond the noise.

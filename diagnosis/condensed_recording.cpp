@@ -70,8 +70,39 @@ bool side_is_turned(const Recording& recording, const std::vector<std::size_t>& 
   return along > 3 * against;
 }
 
-/// Means of one channel over the replicates, and their covariance: each run's own scatter, outliers
-/// weighted down, and what the runs of one day share.
+std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
+  const std::string channel(name(noise.channel));
+  switch (noise.source) {
+    case NoiseSource::kSetup:
+      return fmt::format("{}: no replicates; noise {:.3g} from the setup", channel, noise.constant);
+    case NoiseSource::kNeighbours:
+      return fmt::format(
+          "{}: neither replicates nor setup tell the noise; {:.3g} was taken from "
+          "the scatter between neighbouring conditions, which is cautious: small "
+          "effects stay unseen",
+          channel, noise.constant);
+    case NoiseSource::kReplicates:
+      break;
+  }
+  std::string text = fmt::format("{}: one run scatters by {:.3g} ({} degrees of freedom)", channel,
+                                 noise.constant, noise.degrees_of_freedom);
+  if (noise.proportional > 0)
+    text += fmt::format(", plus {:.2g} of the signal", noise.proportional);
+  if (noise.day_offset > 0) {
+    text +=
+        fmt::format(", days differ by {:.3g}{}", noise.day_offset,
+                    noise.day_assumed ? " (assumed: no condition was run on several days)" : "");
+  }
+  if (noise.day_gain > 0) text += fmt::format(", days by {:.2g} of the signal", noise.day_gain);
+  if (!noise.outliers.empty()) {
+    text += ", outliers:";
+    for (const std::size_t run : noise.outliers) text += " " + recording.runs[run].run_id;
+  }
+  return text;
+}
+
+}  // namespace
+
 ChannelData means_of(const Recording& recording, const std::vector<Condition>& conditions,
                      const ChannelNoise& noise, const std::vector<double>& adjusted) {
   ChannelData data{.channel = noise.channel};
@@ -120,39 +151,6 @@ ChannelData means_of(const Recording& recording, const std::vector<Condition>& c
   data.scale = scales[static_cast<std::size_t>(n / 2)];
   return data;
 }
-
-std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
-  const std::string channel(name(noise.channel));
-  switch (noise.source) {
-    case NoiseSource::kSetup:
-      return fmt::format("{}: no replicates; noise {:.3g} from the setup", channel, noise.constant);
-    case NoiseSource::kNeighbours:
-      return fmt::format(
-          "{}: neither replicates nor setup tell the noise; {:.3g} was taken from "
-          "the scatter between neighbouring conditions, which is cautious: small "
-          "effects stay unseen",
-          channel, noise.constant);
-    case NoiseSource::kReplicates:
-      break;
-  }
-  std::string text = fmt::format("{}: one run scatters by {:.3g} ({} degrees of freedom)", channel,
-                                 noise.constant, noise.degrees_of_freedom);
-  if (noise.proportional > 0)
-    text += fmt::format(", plus {:.2g} of the signal", noise.proportional);
-  if (noise.day_offset > 0) {
-    text +=
-        fmt::format(", days differ by {:.3g}{}", noise.day_offset,
-                    noise.day_assumed ? " (assumed: no condition was run on several days)" : "");
-  }
-  if (noise.day_gain > 0) text += fmt::format(", days by {:.2g} of the signal", noise.day_gain);
-  if (!noise.outliers.empty()) {
-    text += ", outliers:";
-    for (const std::size_t run : noise.outliers) text += " " + recording.runs[run].run_id;
-  }
-  return text;
-}
-
-}  // namespace
 
 CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup) {
   CondensedRecording result;

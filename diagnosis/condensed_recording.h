@@ -28,4 +28,10 @@ struct CondensedRecording {
 /// all identical
 CondensedRecording condense(const Recording& recording, const DiagnosisSetup& setup);
 
+/// Means of one channel over the replicates, and their covariance: each run's own scatter, outliers
+/// weighted down, and what the runs of one day share.
+/// \param adjusted per run: the value moved to its condition's mean load, slip and slip angle
+ChannelData means_of(const Recording& recording, const std::vector<Condition>& conditions,
+                     const ChannelNoise& noise, const std::vector<double>& adjusted);
+
 }  // namespace regoplan

@@ -62,12 +62,14 @@ std::vector<Condition> group_conditions(const Recording& recording,
   for (Condition& group : groups) {
     const double share = 1.0 / static_cast<double>(group.runs.size());
     group.conditions.time_s = 0;
+    group.day = recording.runs[group.runs.front()].day;
     for (const std::size_t r : group.runs) {
       const WheelRun& run = recording.runs[r];
       group.load_n += share * run.load_n;
       group.slip_ratio += share * run.slip_ratio;
       group.slip_angle_rad += share * run.slip_angle_rad;
       group.conditions.time_s += share * run.conditions.time_s;
+      group.one_day = group.one_day && run.day == recording.runs[group.runs.front()].day;
     }
   }
   return groups;

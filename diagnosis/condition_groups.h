@@ -15,6 +15,8 @@ struct Condition {
   double slip_angle_rad = 0;
   WheelConditions conditions;
   std::string wheel;
+  double day = 0;                 ///< of its first run
+  bool one_day = true;            ///< whether all its runs are of that day
   std::vector<std::size_t> runs;  ///< indices into the recording
 };
 

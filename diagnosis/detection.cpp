@@ -29,6 +29,11 @@ class WhitenedFit {
     return whitened(recording_.bed, factor_, values);
   }
 
+  /// Values less what the fit takes up of them.
+  Eigen::MatrixXd left_by_fit(const Eigen::MatrixXd& whitened) const {
+    return whitened - jacobian_ * precision_.solve(jacobian_.transpose() * whitened);
+  }
+
   Eigen::VectorXd colour(Eigen::VectorXd values) const {
     const TestBed& bed = recording_.bed;
     for (std::size_t c = 0; c < bed.channels.size(); ++c) {
@@ -135,6 +140,37 @@ LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& f
     }
   }
   return result;
+}
+
+double p_value_along(const CondensedRecording& recording, const FitRemainder& fit,
+                     const std::vector<Direction>& directions, std::uint64_t seed) {
+  constexpr int kDraws = 2000;
+  const WhitenedFit whitened(recording, fit);
+  const auto count = static_cast<Eigen::Index>(directions.size());
+  if (count == 0) return 1;
+  Eigen::MatrixXd along(recording.bed.size(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    along.col(i) = whitened.whiten(directions[static_cast<std::size_t>(i)].values);
+  }
+  along = whitened.left_by_fit(along);
+  std::mt19937_64 random(seed);
+  Eigen::MatrixXd draws(count, kDraws);
+  for (int i = 0; i < kDraws; ++i)
+    draws.col(i) = along.transpose() * whitened.draw(random).residual;
+  const Eigen::VectorXd deviation =
+      draws.array().square().rowwise().mean().sqrt().max(1e-300).matrix();
+  const auto farthest = [&](const Eigen::VectorXd& values) {
+    double most = 0;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double z = values[i] / deviation[i];
+      most = std::max(most, directions[static_cast<std::size_t>(i)].either_sign ? std::abs(z) : z);
+    }
+    return most;
+  };
+  const double found = farthest(along.transpose() * whitened.whiten(fit.residual));
+  int beyond = 0;
+  for (int i = 0; i < kDraws; ++i) beyond += farthest(draws.col(i)) >= found;
+  return (1.0 + beyond) / (kDraws + 1.0);
 }
 
 Eigen::MatrixXd residuals_of_noise(const CondensedRecording& recording, const FitRemainder& fit,

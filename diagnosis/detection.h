@@ -21,6 +21,17 @@ struct FitRemainder {
 LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
                       std::uint64_t seed, double significance = 0.005);
 
+/// One way in which a recording may differ from a model: what some effect would add.
+struct Direction {
+  Eigen::VectorXd values;
+  bool either_sign = false;  ///< the effect may also act the other way round
+};
+
+/// Probability that noise alone makes some of the directions stand out as far as the residual does
+/// after the fit: a sharper test than lack_of_fit() of what is looked for.
+double p_value_along(const CondensedRecording& recording, const FitRemainder& fit,
+                     const std::vector<Direction>& directions, std::uint64_t seed);
+
 /// Residuals that noise alone would leave after the fit, one column a draw, in the channels' units.
 Eigen::MatrixXd residuals_of_noise(const CondensedRecording& recording, const FitRemainder& fit,
                                    std::uint64_t seed, int draws);

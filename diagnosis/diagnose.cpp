@@ -12,6 +12,7 @@
 #include "diagnosis/next_experiment.h"
 #include "diagnosis/sentence.h"
 #include "diagnosis/smallest_detectable.h"
+#include "diagnosis/stray_runs.h"
 #include "diagnosis/unnamed_correction.h"
 #include "terramech/input_error.h"
 
@@ -24,13 +25,20 @@ constexpr double kClearEvidence = 9;  // nats by which a name must beat `paramet
 constexpr double kClearGain = 2;      // standard errors of the held-out gain
 constexpr double kWorthNaming = 0.5;  // share of the excess misfit that a claim explains
 
+/// The recording condensed, strays weighed down.
+CondensedRecording prepared(const Recording& recording, const DiagnosisSetup& setup) {
+  CondensedRecording condensed = condense(recording, setup);
+  const Calibration first = calibrate(condensed.bed, soil_coordinates(setup.soil));
+  return strays_weighed_down(recording, std::move(condensed), first.prediction);
+}
+
 /// One diagnosis under way: what has been found, and the parts that later steps build on.
 class Diagnosing {
  public:
   Diagnosing(const Recording& recording, const DiagnosisSetup& setup,
              const DiagnosisOptions& options)
       : options_(options),
-        condensed_(condense(recording, setup)),
+        condensed_(prepared(recording, setup)),
         bed_(condensed_.bed),
         soil_(soil_coordinates(setup.soil)),
         wide_soil_(soil_coordinates(setup.soil, kWideSoil)),
@@ -112,13 +120,32 @@ class Diagnosing {
     for (Eigen::Index i = 0; i < base_.x.size() && loose; ++i) {
       if (std::abs(kWideSoil * loose->x[i]) > kWorstPull) unfit_ = true;
     }
-    rejected_ = unfit_;
+    stands_out_ = p_value_along(condensed_, remainder, directions(), options_.seed) < 0.005;
+    rejected_ = unfit_ || stands_out_;
     const FitRemainder fixed{
         .residual = measured_ - *predict(bed_, soil_, {}, Eigen::VectorXd::Zero(base_.x.size())),
         .x = Eigen::VectorXd(0),
         .jacobian = Eigen::MatrixXd(bed_.size(), 0)};
     const LackOfFit at_means = lack_of_fit(condensed_, fixed, options_.seed, 0.05);
     consistent_ = at_means.f <= at_means.critical;
+  }
+
+  /// What each effect at a usual size would add to the calibrated model.
+  std::vector<Direction> directions() const {
+    std::vector<Direction> all;
+    for (const Effect& effect : effects_) {
+      Eigen::VectorXd x(base_.x.size() + static_cast<Eigen::Index>(effect.coordinates.size()));
+      x.head(base_.x.size()) = base_.x;
+      bool either_sign = false;
+      for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
+        const bool is_signed = !effect.coordinates[i].logarithmic;
+        x[base_.x.size() + static_cast<Eigen::Index>(i)] = is_signed ? 1 : 0;
+        either_sign = either_sign || is_signed;
+      }
+      const auto with = predict(bed_, soil_, {{effect}}, x);
+      if (with) all.push_back({*with - base_.prediction, either_sign});
+    }
+    return all;
   }
 
   std::vector<SmallestDetectable> detectable() const {
@@ -145,9 +172,18 @@ class Diagnosing {
         named = std::max(named, s.score);
       }
     }
-    rejected_ = unfit_ || named > parameters + kClearEvidence;
-    weigh(scored_, !rejected_);
-    for (const ScoredId& s : scored_) found_.ranking.push_back({s.id, s.probability});
+    rejected_ = unfit_ || stands_out_ || named > parameters + kClearEvidence;
+    rank(!rejected_);
+  }
+
+  void rank(bool no_lack_of_fit) {
+    weigh(scored_, no_lack_of_fit);
+    const auto parameters =
+        std::ranges::find_if(scored_, [](const ScoredId& s) { return s.id == "parameters"; });
+    found_.ranking.clear();
+    for (const ScoredId& s : scored_) {
+      found_.ranking.push_back({s.id, s.probability, s.score - parameters->score});
+    }
   }
 
   void decide() {
@@ -157,7 +193,7 @@ class Diagnosing {
       return;
     }
     const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
-    const std::vector<NameClass> claimed = proven_one_by_one(claimed_names(scored_));
+    const std::vector<NameClass> claimed = proven_one_by_one();
     const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
     if (best != nullptr) {
       const std::string doubt = objection(problem, best->fit);
@@ -171,7 +207,9 @@ class Diagnosing {
       const double gain = gain_in_errors(bed_, proof.corrected, proof.calibrated, back);
       const double excess = std::max(proof.excess, 0.0);
       const double share = (proof.share_explained * excess + back) / std::max(excess + back, 1e-12);
-      const bool proven = gain > kClearGain && share > kWorthNaming;
+      // noise alone moves the misfit by so much
+      const double slack = std::sqrt(2.0 * static_cast<double>(bed_.size())) / (excess + back + 1);
+      const bool proven = gain > kClearGain && share + slack > kWorthNaming;
       if (doubt.empty() && proven) {
         found_.claims = claims_of(problem, scored_, claimed, best->fit);
         const bool single = std::ranges::all_of(
@@ -191,45 +229,63 @@ class Diagnosing {
       // only a name's evidence spoke against the calibrated model, and the name does not hold
       found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
       correct_with(held_out({}), base_, {});
-      weigh(scored_, true);
-      found_.ranking.clear();
-      for (const ScoredId& s : scored_) found_.ranking.push_back({s.id, s.probability});
+      rank(true);
       return;
     }
     found_.verdict = Verdict::kUnexplained;
     describe_without_name();
   }
 
-  /// Of two effects each must do its part on held-out conditions; else it is dropped: scores take
-  /// what one mechanism's form leaves for a second mechanism.
-  std::vector<NameClass> proven_one_by_one(const std::vector<NameClass>& claimed) {
-    const ScoredId* pair = claimed.size() == 2 ? best_of(scored_, claimed) : nullptr;
-    if (pair == nullptr) return claimed;
-    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
-    const auto correction = [&](const CandidateFit& fit) {
-      return CorrectedModel{.fit = &fit, .remainder = remainder_settings(problem, fit)};
-    };
-    const HeldOut both =
-        best_hold_out(condensed_, soil_, base_, correction(pair->fit), options_.threads);
-    double least = INFINITY;
-    std::vector<NameClass> kept = claimed;
-    for (std::size_t alone = 0; alone < 2; ++alone) {
-      const ScoredId* single = best_of(scored_, {claimed[alone]});
-      if (single == nullptr) continue;
-      const HeldOut without = hold_out(condensed_, soil_, base_, correction(single->fit),
-                                       both.families, options_.threads);
-      const double gain = gain_in_errors(bed_, both.corrected, without.corrected);
-      if (gain > kClearGain || gain > least) continue;
-      least = gain;
-      kept = {claimed[alone]};
-    }
-    if (kept.size() == 1) {
+  /// Of two effects each must do its part on held-out conditions, whatever the kind of families:
+  /// scores take what one mechanism's form leaves for a second mechanism. Pairs that do not are
+  /// given up, and the rest is weighed anew.
+  std::vector<NameClass> proven_one_by_one() {
+    constexpr int kMostPairs = 3;
+    for (int tried = 0;; ++tried) {
+      const std::vector<NameClass> claimed = claimed_names(scored_);
+      if (claimed.size() < 2) return claimed;
+      const auto idle = idle_effect(claimed);
+      if (!idle) return claimed;
       found_.notes.push_back(fmt::format(
-          "{} scores best, but on held-out conditions the second effect adds {:.1f} standard "
-          "errors only: {} alone is judged",
-          pair->id, least, kept.front().ids.front()));
+          "{} and {} score best together, but on held-out conditions {} adds {:.1f} standard "
+          "errors only: the pair is given up",
+          claimed[0].ids.front(), claimed[1].ids.front(), claimed[idle->effect].ids.front(),
+          idle->gain));
+      std::erase_if(scored_, [&](const ScoredId& s) {
+        return is_of(s, claimed) || (tried + 1 == kMostPairs && s.id.find('+') != s.id.npos);
+      });
+      rank(false);
     }
-    return kept;
+  }
+
+  struct IdleEffect {
+    std::size_t effect = 0;
+    double gain = 0;  // standard errors
+  };
+
+  /// The effect of a pair without which held-out conditions are predicted as well.
+  std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const {
+    const ScoredId* pair = best_of(scored_, claimed);
+    if (pair == nullptr) return std::nullopt;
+    const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
+    const auto proof = [&](const CandidateFit& fit, const Families& families) {
+      const CorrectedModel model{.fit = &fit, .remainder = remainder_settings(problem, fit)};
+      return hold_out(condensed_, soil_, base_, model, families, options_.threads).corrected;
+    };
+    std::array<double, 2> gain{-INFINITY, -INFINITY};
+    for (const Families& families : all_families(bed_)) {
+      const Eigen::VectorXd both = proof(pair->fit, families);
+      for (const std::size_t left_out : {0, 1}) {
+        const ScoredId* single = best_of(scored_, {claimed[1 - left_out]});
+        gain[left_out] = single == nullptr
+                             ? INFINITY
+                             : std::max(gain[left_out],
+                                        gain_in_errors(bed_, both, proof(single->fit, families)));
+      }
+    }
+    const std::size_t least = gain[0] < gain[1] ? 0 : 1;
+    if (gain[least] > kClearGain) return std::nullopt;
+    return IdleEffect{least, gain[least]};
   }
 
   /// A surface over the calibrated soil, or over the soil that a discrepancy leaves to be found:
@@ -255,6 +311,15 @@ class Diagnosing {
   /// Takes a fit and the remainder added to it (settings; empty: none) for the corrected model.
   void correct_with(const HeldOut& proof, const CandidateFit& fit,
                     const std::vector<std::size_t>& settings) {
+    if (&fit != &base_ || !settings.empty()) {
+      const std::string reason = no_better_than_calibrated(bed_, proof);
+      if (!reason.empty()) {
+        found_.notes.push_back("the corrected model is the calibrated one: " + reason);
+        correct_with(hold_out(condensed_, soil_, base_, {}, proof.families, options_.threads),
+                     base_, {});
+        return;
+      }
+    }
     const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
     found_.fit = proof.fit;
     found_.held_out_by = proof.families.by;
@@ -356,8 +421,9 @@ class Diagnosing {
   CandidateFit base_;
   Eigen::MatrixXd soil_free_;
   std::vector<ScoredId> scored_;
-  bool unfit_ = false;     // lack of fit, or soil numbers that calibration pulled too far
-  bool rejected_ = false;  // that, or a name far better than calibration alone
+  bool stands_out_ = false;  // the residual lies along some effect farther than noise goes
+  bool unfit_ = false;       // lack of fit, or soil numbers that calibration pulled too far
+  bool rejected_ = false;    // that, or a name far better than calibration alone
   bool consistent_ = false;
   Diagnosis found_;
 };

@@ -53,6 +53,7 @@ struct Claim {
 struct ScoredCandidate {
   std::string id;  ///< of a mechanism, an instrument fault, `a+b`, `none`, `parameters`, ...
   double probability = 0;
+  double evidence_nats = 0;  ///< log marginal likelihood over that of `parameters`
 };
 
 /// A part of the operating space in which measurement and calibrated model differ.

@@ -96,7 +96,7 @@ void add(Products& to, const Products& part, double sign) {
 }  // namespace
 
 SettingWeights SettingWeights::of_named() {
-  return weights_of({.3, .25, .2, .12, .07, .035, .015, .005});
+  return weights_of({.4, .3, .2, .07, .02, .006, .003, .001});
 }
 SettingWeights SettingWeights::of_none() {
   return weights_of({.5, .3, .2, 0, 0, 0, 0, 0});

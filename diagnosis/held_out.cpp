@@ -1,5 +1,7 @@
 #include "diagnosis/held_out.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -122,11 +124,44 @@ Families by_axis(const TestBed& bed, const std::string& column) {
   return {};
 }
 
+/// Where every condition was run on one day only: else its own day would predict it.
+Families by_day(const TestBed& bed) {
+  Families days{.by = "day"};
+  std::map<double, std::size_t> family;
+  for (const Condition& at : bed.conditions) {
+    if (!at.one_day) return {};
+    days.of_condition.push_back(family.try_emplace(at.day, family.size()).first->second);
+  }
+  days.count = family.size();
+  return days.count <= 2 * kMostBands ? days : Families{};
+}
+
 Families merged(Families families, std::size_t most) {
   if (families.count <= most) return families;
   for (std::size_t& family : families.of_condition) family = family * most / families.count;
   families.count = most;
   return families;
+}
+
+/// By how much one prediction's misfit falls below another's, and what noise makes of it.
+struct Fall {
+  double misfit = 0, spread = 0;
+  double in_errors() const { return misfit / (2 * std::sqrt(std::max(spread, 1e-12))); }
+};
+
+Fall fall_of(const TestBed& bed, std::size_t channel, const Eigen::VectorXd& better,
+             const Eigen::VectorXd& worse) {
+  const ChannelData& data = bed.channels[channel];
+  Fall fall;
+  for (Eigen::Index i = 0; i < data.mean.size(); ++i) {
+    const Eigen::Index row = bed.offset(channel) + i;
+    const double variance = data.noise(i, i);
+    fall.misfit +=
+        (std::pow(data.mean[i] - worse[row], 2) - std::pow(data.mean[i] - better[row], 2)) /
+        variance;
+    fall.spread += std::pow(better[row] - worse[row], 2) / variance;
+  }
+  return fall;
 }
 
 }  // namespace
@@ -140,6 +175,7 @@ std::vector<Families> all_families(const TestBed& bed) {
     families.by = by;
     if (families.count >= kFewestFamilies) all.push_back(std::move(families));
   }
+  if (Families days = by_day(bed); days.count >= kFewestFamilies) all.push_back(std::move(days));
   if (all.empty()) all.push_back(families_of(bed));
   return all;
 }
@@ -238,18 +274,33 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
 
 double gain_in_errors(const TestBed& bed, const Eigen::VectorXd& better,
                       const Eigen::VectorXd& worse, double prior_gain) {
-  const Eigen::VectorXd measured = bed.measured();
-  double fall = prior_gain, spread = prior_gain;
+  Fall whole{prior_gain, prior_gain};
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    for (Eigen::Index i = 0; i < bed.channels[c].mean.size(); ++i) {
-      const Eigen::Index row = bed.offset(c) + i;
-      const double variance = bed.channels[c].noise(i, i);
-      fall += (std::pow(measured[row] - worse[row], 2) - std::pow(measured[row] - better[row], 2)) /
-              variance;
-      spread += std::pow(better[row] - worse[row], 2) / variance;
+    const Fall fall = fall_of(bed, c, better, worse);
+    whole.misfit += fall.misfit;
+    whole.spread += fall.spread;
+  }
+  return whole.in_errors();
+}
+
+double gain_in_errors(const TestBed& bed, std::size_t channel, const Eigen::VectorXd& better,
+                      const Eigen::VectorXd& worse) {
+  return fall_of(bed, channel, better, worse).in_errors();
+}
+
+std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof) {
+  constexpr double kClear = 2;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const double gain = gain_in_errors(bed, c, proof.corrected, proof.calibrated);
+    if (gain < -kClear) {
+      return fmt::format("held out by {}, it predicts {} worse by {:.1f} standard errors",
+                         proof.families.by, name(bed.channels[c].channel), -gain);
     }
   }
-  return fall / (2 * std::sqrt(std::max(spread, 1e-12)));
+  const double gain = gain_in_errors(bed, proof.corrected, proof.calibrated);
+  if (gain > kClear) return "";
+  return fmt::format("held out by {}, it gains {:.1f} standard errors, and 2 are asked for",
+                     proof.families.by, gain);
 }
 
 HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,

@@ -16,7 +16,8 @@ struct Families {
 /// than 3 unless nothing else is there; slips in at most 6 bands).
 Families families_of(const TestBed& bed);
 
-/// Every kind of families of which there are at least 3; families_of() where there is none.
+/// Every kind of families of which there are at least 3, days too where no condition was run on two
+/// of them; families_of() where there is none.
 std::vector<Families> all_families(const TestBed& bed);
 
 /// The model that is to prove itself.
@@ -48,6 +49,15 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
 /// misfit to the soil tests, which counts as data
 double gain_in_errors(const TestBed& bed, const Eigen::VectorXd& better,
                       const Eigen::VectorXd& worse, double prior_gain = 0);
+
+/// The rows of one channel alone.
+double gain_in_errors(const TestBed& bed, std::size_t channel, const Eigen::VectorXd& better,
+                      const Eigen::VectorXd& worse);
+
+/// Why a corrected model is not handed out in place of the calibrated one; empty where it is: on
+/// held-out conditions it is not better by more than two standard errors, or worse by more than
+/// two in some channel.
+std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof);
 
 /// Held out by the kind of families in which the correction does best: a form that holds between
 /// conditions need not hold beyond them.

@@ -48,6 +48,13 @@ struct Shares {
     case ShearLaw::kHump:
       return {vector_math::with_sign(hump(vector_math::abs(jx), law.residual), jx),
               hump(jy, law.residual)};
+    case ShearLaw::kWithinLimit: {
+      const Vec ex = vector_math::with_sign(mobilised(vector_math::abs(jx)), jx);
+      const Vec ey = mobilised(jy), a = ex * ex, b = ey * ey, least = a < b ? a : b;
+      // (a + b)^2 - max(a, b)^2: nothing where one of the shares is
+      const Vec cut = root(root(1.0 + law.coupling * (2.0 * a * b + least * least)));
+      return {ex / cut, ey / cut};
+    }
     case ShearLaw::kAlongDisplacement: {
       const Vec j = length(jx, jy), share = mobilised(j) / j;
       return {share * jx, share * jy};

@@ -11,6 +11,7 @@ namespace regoplan::wheel_contact {
 struct StressLaw {
   ShearLaw shear = ShearLaw::kSeparate;
   double residual = 1;  ///< shear hump: residual over peak
+  double coupling = 1;  ///< kWithinLimit: how far shares are cut back, 1 at the limit
   Layering layering;
 };
 

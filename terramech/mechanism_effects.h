@@ -14,6 +14,7 @@ enum class ShearLaw {
   kSeparate,           ///< base: along x and y apart, eqs. (7)(10)
   kAlongDisplacement,  ///< one Mohr-Coulomb limit, along the displacement
   kAlongSlipVelocity,  ///< one limit, along the velocity of the rim through the soil
+  kWithinLimit,        ///< along x and y apart, cut back softly where the resultant nears the limit
   kHump,               ///< peak, then residual (Wong)
 };
 
@@ -52,11 +53,13 @@ struct Effects {
   double limit = 1;       ///< factor on cohesion and tan(phi)
   ShearLaw shear = ShearLaw::kSeparate;
   double residual = 1;        ///< shear hump: residual over peak
+  double coupling = 1;        ///< kWithinLimit: how far shares are cut back, 1 at the limit
   double sinkage_factor = 1;  ///< h = h0 factor + added
   double sinkage_added_m = 0;
   double dug_resistance = 0;    ///< share of the work of compacting a dug rut that Fx pays
   double rut_tilt_rad = 0;      ///< psi, the inner side deeper
   bool rut_in_balance = false;  ///< the strips of a tilted rut find the depth that carries the load
+  double wall_share = 0;        ///< edges of the rut at h (1 +- share), the inner wall felt
   double bulldoze_height = 1;   ///< h_b/h beside the wheel
   double surcharge_pa = 0;      ///< on the soil beside the wheel
   double front_bulldozing = 0;  ///< eta

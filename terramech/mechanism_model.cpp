@@ -49,6 +49,7 @@ struct Law {
 Law law_of(const Effects& effects) {
   return {.stress = {.shear = effects.shear,
                      .residual = effects.residual,
+                     .coupling = effects.coupling,
                      .layering = effects.layering},
           .own = effects.shear != ShearLaw::kSeparate ||
                  effects.layering.kind != Layering::Kind::kNone};
@@ -94,6 +95,16 @@ Additions additions(const Effects& effects, const Ground& ground, const WheelSta
   }
   sum.torque_nm += effects.drag_torque_nm;
   return sum;
+}
+
+/// What bulldozing at the inner edge's depth adds to that at the wheel's middle.
+double wall_n(const Effects& effects, const Ground& ground, const Ratios& ratios,
+              const Contact& contact, double sinkage_m) {
+  const double r = ground.wheel.radius_m;
+  const double inner_m = std::min(sinkage_m * (1 + effects.wall_share), r);
+  const Contact inner = wheel_contact::contact_at(ground, theta_of(inner_m, r), ratios.slip);
+  return wheel_contact::bulldozing_force_n(ground, inner, ratios) -
+         wheel_contact::bulldozing_force_n(ground, contact, ratios);
 }
 
 }  // namespace
@@ -170,9 +181,12 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
     roll_nm = -forward.y_sign * sideways.roll_nm;
   }
 
+  if (effects.wall_share != 0) side_n += wall_n(effects, ground, ratios, contact, h);
+
   Additions added = additions(effects, ground, state, contact, h, spec.gravity_mps2);
   added.fx_n -= effects.dug_resistance * compaction_n(ground, undug, h);
-  const double rut_m = ground.wheel.width_m / 2 * std::tan(effects.rut_tilt_rad);
+  const double rut_m =
+      ground.wheel.width_m / 2 * std::tan(effects.rut_tilt_rad) + h * effects.wall_share;
   return {.forces = {.fx_n = forward.x_sign * (resultant.fx_n + added.fx_n) +
                              effects.tilt_x * effects.load_n,
                      .fy_n = forward.y_sign * side_n - effects.tilt_y * effects.load_n,

@@ -40,6 +40,16 @@ std::vector<Definition> of_shear() {
          e.shear = ShearLaw::kAlongSlipVelocity;
          return e;
        }},
+      {{"coupled_shear",
+        "within_limit",
+        "shares ex, ey of eqs. (7)(10) over (1 + k (|e|^4 - max(ex, ey)^4))^(1/4)",
+        "proxy; one Mohr-Coulomb limit on the resultant, felt only near it",
+        {{"coupling", .5, 1.5, 1}}},
+       [](E e, P p, S) {
+         e.shear = ShearLaw::kWithinLimit;
+         e.coupling = p[0];
+         return e;
+       }},
       {{"shear_hump",
         "wong",
         "tau/tau_max = Kr {1 + [1/(Kr (1 - 1/e)) - 1] exp(1 - j/Kw)} (1 - exp(-j/Kw))",

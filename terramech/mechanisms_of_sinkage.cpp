@@ -11,6 +11,11 @@
 #include "terramech/mechanism_catalogue.h"
 
 namespace regoplan::mechanism_catalogue {
+namespace {
+
+constexpr double kSteepest_rad = 1;  // slip angle up to which a rut's inner wall grows
+
+}  // namespace
 
 // NOLINTBEGIN(bugprone-easily-swappable-parameters, readability-function-size)
 std::vector<Definition> of_sinkage() {
@@ -93,6 +98,15 @@ std::vector<Definition> of_sinkage() {
        [](E e, P p, S at) {
          e.rut_tilt_rad += p[0] * std::max(at.beta_abs_rad - p[1], 0.0);
          e.rut_in_balance = true;
+         return e;
+       }},
+      {{"rut_asymmetry",
+        "inner_wall",
+        "edges at h (1 +- q tan|beta|), Rb at the depth of the inner one",
+        "proxy; Yoshida & Ishigami 2004, section V.B: soil reaction on the deeper side",
+        {{"q", .5, 3, 1.5}}},
+       [](E e, P p, S at) {
+         e.wall_share += p[0] * std::tan(std::min(at.beta_abs_rad, kSteepest_rad));
          return e;
        }},
       {{"skid_branch",

@@ -3,16 +3,13 @@
 #include <numbers>
 
 #include "benchmarks/diagnosis/truth_effect.h"
+#include "benchmarks/diagnosis/truth_motion.h"
 
 namespace regoplan::challenge {
 namespace {
 
 using P = TruthPhysics;
 using C = TruthChannels;
-
-double driving(const P& p) {
-  return std::max(p.at.slip_ratio, 0.0);
-}
 
 /// Bekker 1969, general shear failure ahead of the wheel, with Terzaghi's N factors.
 double bulldozing_n(const P& p, double z) {

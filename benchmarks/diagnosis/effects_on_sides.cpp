@@ -1,19 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "benchmarks/diagnosis/truth_effect.h"
+#include "benchmarks/diagnosis/truth_motion.h"
 
 namespace regoplan::challenge {
 namespace {
 
 using P = TruthPhysics;
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-double beta_rad(const P& p) {
-  return std::abs(p.at.slip_angle_rad);
-}
 
 /// A rut whose edges differ by twice `share` of the sinkage at 16 deg and beyond.
 P tilted(P p, double share, RutProfile profile) {

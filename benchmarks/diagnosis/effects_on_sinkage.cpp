@@ -1,25 +1,13 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "benchmarks/diagnosis/truth_effect.h"
+#include "benchmarks/diagnosis/truth_motion.h"
 
 namespace regoplan::challenge {
 namespace {
 
 using P = TruthPhysics;
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-double driving(const P& p) {
-  return std::max(p.at.slip_ratio, 0.0);
-}
-double braking(const P& p) {
-  return std::max(-p.at.slip_ratio, 0.0);
-}
-double beta_rad(const P& p) {
-  return std::abs(p.at.slip_angle_rad);
-}
 
 }  // namespace
 

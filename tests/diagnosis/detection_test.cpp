@@ -50,6 +50,44 @@ TEST(LackOfFit, SeesSinkageThatGrowsWithSlip) {
   EXPECT_LT(found.p_value, 0.005);
 }
 
+/// What slip sinkage of a usual size would add to the calibrated model.
+Direction along_slip(const Calibrated& made) {
+  Direction direction{.values = Eigen::VectorXd(made.recording.bed.size())};
+  const TestBed& bed = made.recording.bed;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
+      const double s = bed.conditions[bed.channels[c].conditions[i]].slip_ratio;
+      direction.values[bed.offset(c) + static_cast<Eigen::Index>(i)] =
+          bed.channels[c].channel == Channel::kSinkage ? 0.006 * std::max(s, 0.0) : 0.0;
+    }
+  }
+  return direction;
+}
+
+TEST(Detection, AlongAnEffectNoiseStaysSilent) {
+  int rejected = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Calibrated made = calibrated({}, 50 + seed);
+    rejected += p_value_along(made.recording, made.remainder, {along_slip(made)}, seed) < 0.01;
+  }
+  EXPECT_LE(rejected, 1);
+}
+
+TEST(Detection, AlongAnEffectAThirdOfItIsSeenThatTheWholeMisfitHides) {
+  TrueWheel shallow;
+  shallow.sinkage = [](const WheelRun& run, double h) {
+    return h + 0.002 * std::max(run.slip_ratio, 0.0);
+  };
+  int along = 0, whole = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Calibrated made = calibrated(shallow, seed);
+    along += p_value_along(made.recording, made.remainder, {along_slip(made)}, seed) < 0.005;
+    whole += lack_of_fit(made.recording, made.remainder, seed).p_value < 0.005;
+  }
+  EXPECT_GE(along, 5);
+  EXPECT_LT(whole, along);
+}
+
 TEST(LackOfFit, IsTheSameForTheSameSeed) {
   const Calibrated made = calibrated({}, 4);
   EXPECT_EQ(lack_of_fit(made.recording, made.remainder, 9).critical,

@@ -2,33 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/calibration.h"
-#include "synthetic_bed.h"
+#include <algorithm>
+
+#include "calibrated_bed.h"
 
 namespace regoplan {
 namespace {
 
-struct Base {
-  CondensedRecording recording;
-  std::vector<SoilCoordinate> soil;
-  CandidateFit fit;
-};
-
-Base base(const TrueWheel& truth) {
+CalibratedBed base(const TrueWheel& truth) {
   const DiagnosisSetup setup = simulant_setup();
-  Base made{condense(record(truth, setup, setup.soil.mean, {}, 1), setup),
-            soil_coordinates(setup.soil),
-            {}};
-  const Calibration found = calibrate(made.recording.bed, made.soil);
-  made.fit.x = found.x;
-  made.fit.prediction = found.prediction;
-  made.fit.jacobian = found.jacobian;
-  made.fit.evidence.settings.assign(made.recording.bed.channels.size(), 0);
-  return made;
+  return CalibratedBed(record(truth, setup, setup.soil.mean, {}, 1));
 }
 
 TEST(HeldOut, AConditionsOwnFamilyHasNoPartInItsPrediction) {
-  Base made = base({});
+  CalibratedBed made = base({});
   const Families families = families_of(made.recording.bed);
   const HeldOut before = hold_out(made.recording, made.soil, made.fit, {}, families, 1);
   ChannelData& fx = made.recording.bed.channels.front();
@@ -46,7 +33,7 @@ TEST(HeldOut, AConditionsOwnFamilyHasNoPartInItsPrediction) {
 }
 
 TEST(HeldOut, TheCalibratedModelReachesTheNoiseWhereNothingIsMissing) {
-  const Base made = base({});
+  const CalibratedBed made = base({});
   const HeldOut out =
       hold_out(made.recording, made.soil, made.fit, {}, families_of(made.recording.bed), 2);
   for (const ChannelFit& fit : out.fit) {
@@ -55,10 +42,43 @@ TEST(HeldOut, TheCalibratedModelReachesTheNoiseWhereNothingIsMissing) {
 }
 
 TEST(HeldOut, FamiliesAreSlipAnglesWhereThereAreFour) {
-  const Base made = base({});
+  const CalibratedBed made = base({});
   const Families families = families_of(made.recording.bed);
   EXPECT_EQ(families.by, "slip angle");
   EXPECT_EQ(families.count, 4);
+}
+
+TEST(HeldOut, DaysAreFamiliesWhereEveryConditionHasADayOfItsOwn) {
+  CalibratedBed made = base({});
+  const auto by_day = [&] {
+    return std::ranges::any_of(all_families(made.recording.bed),
+                               [](const Families& families) { return families.by == "day"; });
+  };
+  EXPECT_FALSE(by_day()) << "replicates on other days tell of the day that is held out";
+  for (std::size_t k = 0; k < made.recording.bed.conditions.size(); ++k) {
+    made.recording.bed.conditions[k].one_day = true;
+    made.recording.bed.conditions[k].day = static_cast<double>(k % 4);
+  }
+  EXPECT_TRUE(by_day());
+}
+
+TEST(HeldOut, AModelThatIsNoBetterOrWorseInOneChannelIsNotHandedOut) {
+  const CalibratedBed made = base({});
+  const TestBed& bed = made.recording.bed;
+  const Eigen::VectorXd measured = bed.measured();
+  HeldOut proof{.families = {.by = "slip angle"}, .calibrated = measured, .corrected = measured};
+  proof.calibrated.array() += 0.1;
+  proof.corrected = proof.calibrated;
+  EXPECT_NE(no_better_than_calibrated(bed, proof).find("gains 0.0"), std::string::npos);
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    proof.calibrated.segment(bed.offset(c), bed.channels[c].mean.size()) =
+        (bed.channels[c].mean.array() + 2 * bed.channels[c].scale).matrix();
+  }
+  proof.corrected = measured;
+  EXPECT_EQ(no_better_than_calibrated(bed, proof), "");
+  auto torque = proof.corrected.segment(bed.offset(2), bed.channels[2].mean.size());
+  torque.array() += 4 * bed.channels[2].scale;
+  EXPECT_NE(no_better_than_calibrated(bed, proof).find("torque_nm worse"), std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,53 @@
+#include "diagnosis/instrument_checks.h"
+
+#include <gtest/gtest.h>
+
+#include "synthetic_bed.h"
+
+namespace regoplan {
+namespace {
+
+std::vector<std::string> checks(const std::function<void(WheelRun&)>& instruments) {
+  const DiagnosisSetup setup = simulant_setup();
+  const BedPlan plan{.angles_deg = {-16, -8, 0, 8, 16},
+                     .loads_n = {64.7},
+                     .noise = 0.3,
+                     .day = 0,
+                     .outliers = 0,
+                     .instruments = instruments};
+  return instrument_checks(condense(record({}, setup, setup.soil.mean, plan, 1), setup));
+}
+
+bool says(const std::vector<std::string>& findings, const std::string& words) {
+  return std::ranges::any_of(findings, [&](const std::string& finding) {
+    return finding.find(words) != std::string::npos;
+  });
+}
+
+TEST(InstrumentChecks, AreSilentOnSoundInstruments) {
+  EXPECT_TRUE(checks([](WheelRun&) {}).empty());
+}
+
+TEST(InstrumentChecks, SeeSideForceThatLeaksIntoPull) {
+  const auto found = checks([](WheelRun& run) { run.measured[0] += 0.1 * run.measured[1]; });
+  EXPECT_TRUE(says(found, "fx_n is not mirror-symmetric"));
+}
+
+TEST(InstrumentChecks, SeeABiasedSideForce) {
+  const auto found = checks([](WheelRun& run) { run.measured[1] += 2; });
+  EXPECT_TRUE(says(found, "fy_n is not mirror-symmetric"));
+  EXPECT_TRUE(says(found, "fy_n straight ahead is +"));
+}
+
+TEST(InstrumentChecks, SeeATiltedSinkageGauge) {
+  const auto found = checks([](WheelRun& run) { run.measured[3] += 0.01 * run.slip_angle_rad; });
+  EXPECT_TRUE(says(found, "sinkage_m is not mirror-symmetric"));
+}
+
+TEST(InstrumentChecks, SeeMorePowerThanTheAxleGives) {
+  const auto found = checks([](WheelRun& run) { run.measured[2] *= 0.2; });
+  EXPECT_TRUE(says(found, "more power than its axle"));
+}
+
+}  // namespace
+}  // namespace regoplan

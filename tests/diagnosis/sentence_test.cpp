@@ -1,0 +1,63 @@
+#include "diagnosis/sentence.h"
+
+#include <gtest/gtest.h>
+
+namespace regoplan {
+namespace {
+
+Diagnosis named() {
+  Diagnosis diagnosis{.verdict = Verdict::kNamed, .share_explained = 0.7};
+  diagnosis.claims = {{.id = "slip_sinkage", .probability = 0.96}};
+  diagnosis.where = {{.channel = Channel::kSinkage,
+                      .region = {{"slip_ratio", {0.3, 0.8}}},
+                      .effect = 0.0042,
+                      .ci95 = {0.0035, 0.0049}}};
+  return diagnosis;
+}
+
+void expect_says(const std::string& sentence, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    EXPECT_NE(sentence.find(word), std::string::npos) << word << " in: " << sentence;
+  }
+}
+
+TEST(Sentence, NamesChannelSizeRegionMechanismAndProbability) {
+  expect_says(sentence_of(named()), {"sinkage_m", "+0.0042", "0.0035 to 0.0049",
+                                     "slip_ratio 0.3 to 0.8", "slip_sinkage, 96 %"});
+}
+
+TEST(Sentence, SaysWhatANameLeavesUnexplained) {
+  expect_says(sentence_of(named()), {"30 % of the excess misfit remains"});
+}
+
+TEST(Sentence, OfAClassNamesAllAndWhatWouldDecide) {
+  Diagnosis diagnosis = named();
+  diagnosis.verdict = Verdict::kClass;
+  diagnosis.claims.front().equivalent = {"grousers"};
+  diagnosis.next_experiments = {{.conditions = {{"slip_ratio", 0.9}, {"load_n", 30}}}};
+  expect_says(sentence_of(diagnosis), {"slip_sinkage or grousers", "cannot tell the names apart",
+                                       "load_n 30, slip_ratio 0.9"});
+  diagnosis.next_experiments = {{.further_sensor = Channel::kTorque}};
+  expect_says(sentence_of(diagnosis), {"Measure torque_nm to decide"});
+}
+
+TEST(Sentence, OfWrongSoilNumbersNamesTheFarthest) {
+  Diagnosis diagnosis{.verdict = Verdict::kParameters};
+  diagnosis.soil = {
+      {.parameter = "n", .prior = {1, 0.05}, .calibrated = {1.1, 0.02}, .pull = 2},
+      {.parameter = "kphi", .prior = {8e5, 1e5}, .calibrated = {4.5e5, 4e4}, .pull = -3.5}};
+  expect_says(sentence_of(diagnosis),
+              {"kphi", "-3.5 prior standard deviations", "no physics is missing"});
+}
+
+TEST(Sentence, OfTheUnexplainedInventsNoName) {
+  Diagnosis diagnosis = named();
+  diagnosis.verdict = Verdict::kUnexplained;
+  diagnosis.claims.clear();
+  const std::string sentence = sentence_of(diagnosis);
+  expect_says(sentence, {"sinkage_m", "no known name explains it"});
+  EXPECT_EQ(sentence.find("slip_sinkage"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace regoplan

@@ -1,0 +1,56 @@
+#include "diagnosis/stray_runs.h"
+
+#include <gtest/gtest.h>
+
+#include "calibrated_bed.h"
+
+namespace regoplan {
+namespace {
+
+DiagnosisSetup told_noise() {
+  DiagnosisSetup setup = simulant_setup();
+  setup.noise_standard_deviation = {
+      {Channel::kFx, 1}, {Channel::kFy, 1}, {Channel::kTorque, 0.09}, {Channel::kSinkage, 5e-4}};
+  return setup;
+}
+
+CondensedRecording weighed_down(const Recording& recording, const DiagnosisSetup& setup) {
+  const CalibratedBed bed(recording, setup);
+  return strays_weighed_down(recording, bed.recording, bed.fit.prediction);
+}
+
+TEST(StrayRuns, AnOutlierThatNoReplicateTellsIsWeighedDown) {
+  const DiagnosisSetup setup = told_noise();
+  Recording recording =
+      record({}, setup, setup.soil.mean, {.replicates = 1, .day = 0, .outliers = 0}, 1);
+  recording.runs[17].measured[0] += 8;
+  const CondensedRecording found = weighed_down(recording, setup);
+  EXPECT_EQ(found.noise[0].outliers, std::vector<std::size_t>{17});
+  EXPECT_LT(found.noise[0].weight[17], 0.5);
+  EXPECT_NE(found.notes.back().find(recording.runs[17].run_id), std::string::npos);
+}
+
+TEST(StrayRuns, AMismatchThatNeighboursShareIsNoStray) {
+  const DiagnosisSetup setup = told_noise();
+  TrueWheel wheel;
+  wheel.fx_n = [](const WheelRun& run, double) { return -12 * std::max(run.slip_ratio, 0.0); };
+  const Recording recording =
+      record(wheel, setup, setup.soil.mean, {.replicates = 1, .day = 0, .outliers = 0}, 2);
+  for (const ChannelNoise& noise : weighed_down(recording, setup).noise) {
+    EXPECT_TRUE(noise.outliers.empty()) << name(noise.channel);
+  }
+}
+
+TEST(StrayRuns, ThreeReplicatesSpeakForThemselves) {
+  const DiagnosisSetup setup = told_noise();
+  const Recording recording = record({}, setup, setup.soil.mean, {}, 3);
+  const CalibratedBed bed(recording, setup);
+  const CondensedRecording found =
+      strays_weighed_down(recording, bed.recording, bed.fit.prediction);
+  for (std::size_t c = 0; c < found.noise.size(); ++c) {
+    EXPECT_EQ(found.noise[c].weight, bed.recording.noise[c].weight);
+  }
+}
+
+}  // namespace
+}  // namespace regoplan
