@@ -182,7 +182,7 @@ std::string corrected_model_text(const DiagnosisRun& run) {
   }
   std::string sentence = diagnosis.sentence;
   std::ranges::replace(sentence, '\n', ' ');
-  const std::string text =
+  std::string text =
       fmt::format("# {}: {}\n", name(diagnosis.verdict), sentence) + model_text(settings);
   read_model(parse_settings(text, "corrected-model.yaml"));  // whoever is given it can read it
   return text;
