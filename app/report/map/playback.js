@@ -30,7 +30,6 @@ function playback(host) {
   function show() {
     view.playing = playing;
     button.textContent = playing ? '\u275a\u275a Pause' : '\u25b6 Play';
-    button.setAttribute('aria-pressed', String(playing));
   }
 
   function stop() {
