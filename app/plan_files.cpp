@@ -190,9 +190,10 @@ void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
               staged.path("margin.tif"));
   std::vector<RasterBand> supply;
   for (std::size_t i = 0; i < rasters.speeds_mps.size(); ++i) {
-    supply.push_back({.description = fmt::format("lateral supply for turns at {} m/s, newtons",
-                                                 rasters.speeds_mps[i]),
-                      .values = rasters.supply_n[i]});
+    supply.push_back(
+        {.description = fmt::format("lateral supply in the tightest safe turn at {} m/s, newtons",
+                                    rasters.speeds_mps[i]),
+         .values = rasters.supply_n[i]});
   }
   write_bands(rasters.frame, supply, staged.path("supply.tif"));
 }

@@ -97,6 +97,15 @@ double margin_of_any_heading(const Plane& plane, double slope_rad) {
   return least;
 }
 
+double smaller_supply_n(const Plane& plane, const SafeCurvature& at) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double side : {1.0, -1.0}) {
+    const auto supply = plane.margins(at.speed_mps, side * at.curvature_1pm, at.slope_rad).supply;
+    least = std::min(least, supply ? std::min(supply->left_n, -supply->right_n) : 0);
+  }
+  return least;
+}
+
 SafeCurvature largest_safe(const Plane& plane, const ChartSettings& settings, SafeCurvature at) {
   if (const auto reason = plane.forbidden(at.speed_mps, 0, at.slope_rad)) {
     at.limit = *reason;
@@ -148,7 +157,9 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings) {
   }
   parallel_for(chart.curvatures.size(), settings.threads, [&](std::size_t i) {
     SafeCurvature& at = chart.curvatures[i];
-    at = largest_safe(Plane(settings, static_cast<std::size_t>(at.soil)), settings, at);
+    const Plane plane(settings, static_cast<std::size_t>(at.soil));
+    at = largest_safe(plane, settings, at);
+    at.supply_n = smaller_supply_n(plane, at);
   });
   parallel_for(chart.side_slopes.size(), settings.threads, [&](std::size_t i) {
     SideSlope& at = chart.side_slopes[i];

@@ -32,6 +32,8 @@ struct SafeCurvature {
   double speed_mps = 0;
   double curvature_1pm = 0;  ///< 0 where not even straight on is safe
   std::string limit;  ///< what forbids more: cornering, tip_over, traction, slope or steering
+  /// The lateral supply in that turn to either side, the smaller end; 0 where there is none.
+  double supply_n = 0;
 };
 
 /// Margins of driving straight across a slope; what is missing counts as in `PathMargins`.

@@ -64,13 +64,13 @@ std::vector<OverSlope> margins_of(const FeasibilityChart& chart, std::size_t soi
 }
 
 std::vector<OverSlope> supplies_of(const FeasibilityChart& chart, std::size_t soils,
-                                   double speed_mps, double mass_kg) {
+                                   double speed_mps) {
   std::vector<OverSlope> supplies(soils);
   for (const SafeCurvature& at : chart.curvatures) {
     if (at.speed_mps != speed_mps) continue;
     OverSlope& supply = supplies[static_cast<std::size_t>(at.soil)];
     supply.slopes_rad.push_back(at.slope_rad);
-    supply.values.push_back(mass_kg * speed_mps * speed_mps * at.curvature_1pm);
+    supply.values.push_back(at.supply_n);
   }
   return supplies;
 }
@@ -135,8 +135,7 @@ TerrainRasters terrain_rasters(const PlanningProblem& problem) {
   const std::size_t soils = settings.soils.size();
   rasters.margin = raster_of(cells, margins_of(chart, soils));
   for (const double speed_mps : settings.speeds_mps) {
-    rasters.supply_n.push_back(
-        raster_of(cells, supplies_of(chart, soils, speed_mps, problem.vehicle.mass_kg)));
+    rasters.supply_n.push_back(raster_of(cells, supplies_of(chart, soils, speed_mps)));
   }
   return rasters;
 }

@@ -15,9 +15,8 @@ struct TerrainRasters {
   /// a steady pace, the smallest over the headings; -1 where no steady driving is found.
   std::vector<float> margin;
   std::vector<double> speeds_mps;
-  /// For each speed v the lateral supply that a turn may use, newtons: m v^2 k of the tightest turn
-  /// to either side that keeps every margin, the slope across the path. A turn of curvature k is
-  /// safe where m v^2 k is not above it. At low speeds the steering range ends it, not the soil.
+  /// For each speed the lateral supply, newtons: the smaller of its two ends, A+ and -A-, in the
+  /// tightest turn to either side that keeps every margin at that speed, the slope across the path.
   std::vector<std::vector<float>> supply_n;
 };
 

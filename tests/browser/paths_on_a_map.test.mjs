@@ -100,6 +100,24 @@ for (const kind of ['plan', 'evaluation'])
       });
     });
 
+    test('a zoomed map follows the vehicle that plays', async () => {
+      await withPage(kind, async page => {
+        await page.locator('#map').focus();
+        for (let i = 0; i < 9; ++i) await page.keyboard.press('+');
+        await page.locator('#position').fill('0');
+        await page.locator('#playback select').selectOption('100');
+        await page.locator('#playback .play').click();
+        await page.waitForTimeout(400);
+        const inside = await page.evaluate(() => {
+          const marker = document.querySelector('#map .vehicle').getBoundingClientRect();
+          const map = document.getElementById('map').getBoundingClientRect();
+          return marker.right > map.left && marker.left < map.right && marker.bottom > map.top &&
+              marker.top < map.bottom;
+        });
+        assert.ok(inside);
+      });
+    });
+
     test('the map plays, steps, zooms and moves by the keyboard', async () => {
       await withPage(kind, async page => {
         await page.locator('#position').fill('10');

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "planner/world.h"
 #include "tests/planner/flat_problem.h"
@@ -33,19 +33,23 @@ TEST(TerrainRasters, LieOnTheGridOfTheElevation) {
   }
 }
 
-TEST(TerrainRasters, ATurnIsSafeUpToTheSupplyAndNotBeyond) {
-  PlanningProblem problem = on_slope(0);
-  problem.speed_max_mps = 3;
+TEST(TerrainRasters, TheSupplyIsThatOfTheTightestSafeTurn) {
+  const PlanningProblem problem = on_slope(0);
   const TerrainRasters rasters = terrain_rasters(problem);
   const double supply_n = static_cast<double>(middle(rasters, rasters.supply_n.back()));
-  const double k = supply_n / (problem.vehicle.mass_kg * 9);
-  ASSERT_LT(k, 0.9 * problem.vehicle.curvature_max_1pm);
   const World world(problem, WorldUse::kVerdict, 1);
   const auto judged = [&](double curvature_1pm) {
-    return world.judge(world.dynamics().rolling_state(10, 10, 0, 3, curvature_1pm), {}, 0);
+    const double speed_mps = rasters.speeds_mps.back();
+    return world.judge(world.dynamics().rolling_state(10, 10, 0, speed_mps, curvature_1pm), {}, 0);
   };
-  EXPECT_FALSE(judged(0.98 * k).rejected);
-  EXPECT_TRUE(judged(1.03 * k).rejected);
+  double safe_1pm = 0, unsafe_1pm = problem.vehicle.curvature_max_1pm;
+  ASSERT_TRUE(judged(unsafe_1pm).rejected);
+  while (unsafe_1pm - safe_1pm > 1e-3 * unsafe_1pm) {
+    const double middle_1pm = (safe_1pm + unsafe_1pm) / 2;
+    (judged(middle_1pm).rejected ? unsafe_1pm : safe_1pm) = middle_1pm;
+  }
+  const TrajectoryPoint turn = judged(safe_1pm).point;
+  EXPECT_NEAR(supply_n, std::min(turn.supply_max_n, -turn.supply_min_n), 0.01 * supply_n);
 }
 
 TEST(TerrainRasters, TheMarginIsTheSmallestOfAllHeadings) {

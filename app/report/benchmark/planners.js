@@ -15,7 +15,7 @@ const shown = {
 const HEIGHT = 260, MARGIN = {
   left: 48,
   right: 14,
-  top: 20,
+  top: 26,
   bottom: 36
 };
 

@@ -4,7 +4,7 @@
 function stepFigure(title, label, perPlanner, said) {
   const all = [...perPlanner.values()].flatMap(p => p.values);
   if (!all.length) return null;
-  const [low, high] = d3.extent(all), domain = [low, Math.max(high, low * 1.05)];
+  const [low, high] = d3.extent(all), domain = [low, Math.max(1.02 * high, 1.05 * low)];
   const steps = new Map();
   for (const [name, {values, total}] of perPlanner)
     steps.set(

@@ -67,6 +67,14 @@ function mapView(host) {
     });
   }
 
+  function keepInView({path, index}) {
+    const x_m = path.points.x_m[index], y_m = path.points.y_m[index];
+    const [x, y] = frame.screen(x_m, y_m);
+    const inside = x > frame.left && x < frame.left + frame.plotWidth && y > frame.top &&
+        y < frame.top + frame.plotHeight;
+    if (!inside && isKnown(x) && isKnown(y)) svg.call(zoom.translateTo, ...frame.base(x_m, y_m));
+  }
+
   /// The point of a visible path nearest to a pixel, within reach.
   function nearestPoint(pixel, reach_px) {
     let best = null, nearest = reach_px;
@@ -197,7 +205,11 @@ function mapView(host) {
   });
   view.events.on('selected.map', overlay.drawPaths)
       .on('visible.map', overlay.drawPaths)
-      .on('cursor.map', overlay.drawMarker)
+      .on('cursor.map',
+          () => {
+            if (view.playing) keepInView(view.cursor);
+            overlay.drawMarker();
+          })
       .on('marks.map', redraw)
       .on('layers.map', redraw)
       .on('goto.map', place => {

@@ -18,6 +18,7 @@ const view = {
   axis: 'distance_m',  // of the charts
   reasons: new Set(),  // of rejection, shown on the map
   mark: null,          // a rejected state
+  playing: false,
   events:
       d3.dispatch('selected', 'visible', 'cursor', 'axis', 'marks', 'layers', 'goto', 'playback'),
 };

@@ -1,15 +1,20 @@
 // Playback: the marker moves along the selected path as the vehicle would, faster or slower.
-const PLAYBACK_SPEEDS = [0.5, 1, 2, 5, 10, 20];
+const PLAYBACK_SPEEDS = [0.5, 1, 2, 5, 10, 20, 50, 100];
+/// The slowest that shows a whole path in half a minute.
+const usualSpeed = path =>
+    PLAYBACK_SPEEDS.find(speed => speed >= 1 && path.duration_s <= 30 * speed) || 100;
 
 function playback(host) {
   if (!view.selected) {
     host.hidden = true;
     return;
   }
+  const usual = usualSpeed(view.selected);
   const button = element('button', {type: 'button', class: 'play'});
   const speed = element(
       'select', {},
-      ...PLAYBACK_SPEEDS.map(s => element('option', {value: s, selected: s === 5}, `${s}\u00d7`)));
+      ...PLAYBACK_SPEEDS.map(
+          s => element('option', {value: s, selected: s === usual}, `${s}\u00d7`)));
   const clock = element('span', {class: 'clock'});
   host.append(
       button, element('label', {}, 'Speed ', speed), stepButton('Step back', '\u25c2', -1),
@@ -23,8 +28,8 @@ function playback(host) {
   }
 
   function show() {
+    view.playing = playing;
     button.textContent = playing ? '\u275a\u275a Pause' : '\u25b6 Play';
-    button.setAttribute('aria-pressed', String(playing));
   }
 
   function stop() {

@@ -82,10 +82,14 @@ function vehicleFigure(host) {
 /// Body, wheels with their loads, and across the centre of gravity supply and demand.
 function drawFromAbove(svg, box, at) {
   const {body} = VEHICLE, middle = (box.left + box.right) / 2;
-  const k = (box.bottom - box.top - 40) / (body.x_max_m - body.x_min_m);
-  const centre_y = box.top + 26 + body.x_max_m * k;
+  // As large as fits with the loads beside the wheels.
+  const half_m = d3.max(VEHICLE.wheels, w => Math.abs(w.y_m)) + VEHICLE.wheel_radius_m;
+  const k =
+      Math.min((box.bottom - box.top - 40) / (body.x_max_m - body.x_min_m), (middle - 54) / half_m);
+  const centre_y = (box.top + box.bottom) / 2 + 6 + (body.x_max_m + body.x_min_m) * k / 2;
   const top = svg.append('g').attr('transform', `translate(${middle},${centre_y})`);
   drawVehicle(top.append('g').attr('transform', 'rotate(-90)'), k, at('curvature_1pm'));
+  drawLateral(top, (box.right - box.left) / 2 - 6, at);
   for (const wheel of VEHICLE.wheels) {
     const load_n = at(`load_${wheel.name}_n`), side = wheel.y_m > 0 ? -1 : 1;
     top.append('text')
@@ -102,7 +106,6 @@ function drawFromAbove(svg, box, at) {
       .attr('text-anchor', 'middle')
       .attr('y', -body.x_max_m * k - 16)
       .text(fixed(at('speed_mps'), 2, 'm/s'));
-  drawLateral(top, (box.right - box.left) / 2 - 6, at);
 }
 
 /// Supply as a bar and demand as an arrow across the vehicle, on one scale for the whole path.

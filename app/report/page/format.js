@@ -1,4 +1,6 @@
 // Numbers and names as text. What is not known is a dash, never a zero.
+d3.formatDefaultLocale(
+    {decimal: '.', thousands: '\u202f', grouping: [3], currency: ['', ''], minus: '\u2212'});
 const UNKNOWN = '\u2014';
 const isKnown = value => typeof value === 'number' && Number.isFinite(value);
 
@@ -10,7 +12,7 @@ function fixed(value, decimals, unit = '') {
 
 const percent = (share, decimals = 0) => fixed(isKnown(share) ? 100 * share : null, decimals, '%');
 const integer = value =>
-    (isKnown(value) ? d3.format(',d')(value).replace(/,/g, '\u202f') : UNKNOWN);
+    (isKnown(value) ? d3.format(',d')(value) : UNKNOWN);
 const millimetres = value_m => fixed(isKnown(value_m) ? 1000 * value_m : null, 1, 'mm');
 
 /// As many digits as say something, whatever the size: 1600, 0.036, 8.14e+5.
