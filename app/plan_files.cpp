@@ -34,7 +34,22 @@ Json limits_json(const Limits& limits) {
           {"slip_max", limits.slip_max},
           {"slip_angle_max_deg", degrees(limits.slip_angle_max_rad)},
           {"slope_max_deg", degrees(limits.slope_max_rad)},
-          {"sinkage_max_m", limits.sinkage_max_m}};
+          {"sinkage_max_m", limits.sinkage_max_m},
+          {"probability_min", limits.probability_min}};
+}
+
+Json objective_json(const Objective& objective) {
+  return {{"per_s", objective.per_s},
+          {"per_m", objective.per_m},
+          {"per_j", objective.per_j},
+          {"per_exposed_s", objective.per_exposed_s},
+          {"exposed_below", objective.exposed_below}};
+}
+
+/// Null where a path is as the search found it.
+Json improved_json(const std::optional<Improvement>& improvement) {
+  if (!improvement) return nullptr;
+  return {{"cost_before", improvement->cost_before}, {"cost_after", improvement->cost_after}};
 }
 
 Json limiting_json(const LimitingPlace& place) {
@@ -57,6 +72,7 @@ Json candidate_json(const Candidate& candidate) {
           {"margin_worst_tenth", candidate.margin_worst_tenth},
           {"limiting", limiting_json(candidate.limiting)},
           {"probability_feasible", candidate.probability_feasible},
+          {"improved", improved_json(candidate.improvement)},
           {"verified",
            {{"margin_min", candidate.verified.margin_min},
             {"max_deviation_m", candidate.verified.deviation_max_m}}}};
@@ -138,6 +154,7 @@ std::string plan_json(const PlanningProblem& problem, const PlanResult& result) 
             {"gravity_mps2", problem.gravity_mps2},
             {"speed_max_mps", problem.speed_max_mps},
             {"limits", limits_json(problem.limits)},
+            {"objective", objective_json(problem.search.objective)},
             {"overturned", list_json(result.overturned, overturned_json)},
             {"what_ifs", list_json(result.what_ifs, what_if_json)}};
   return json.dump(2) + "\n";

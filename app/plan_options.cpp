@@ -28,6 +28,8 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
   parser.add_option("--candidates", overrides.candidates, "how many paths to look for")
       ->type_name("N")
       ->check(in_range({.min = 1, .max = 100}));
+  parser.add_flag("--improve,!--no-improve", overrides.improve,
+                  "optimise the controls of what is found; default: yes");
   parser.add_option("--threads", overrides.threads, "default: all cores; changes no result")
       ->type_name("N")
       ->check(in_range({.min = 1, .max = kThreadsMax}));

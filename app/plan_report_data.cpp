@@ -97,6 +97,12 @@ json points_json(const PlanningProblem& problem, const std::vector<TrajectoryPoi
   return columns;
 }
 
+/// Null where a path is as the search found it.
+json improved_json(const std::optional<Improvement>& improvement) {
+  if (!improvement) return nullptr;
+  return {{"cost_before", improvement->cost_before}, {"cost_after", improvement->cost_after}};
+}
+
 json candidate_json(const PlanningProblem& problem, const Candidate& candidate,
                     std::size_t points_max) {
   return {{"rank", candidate.rank},
@@ -109,6 +115,7 @@ json candidate_json(const PlanningProblem& problem, const Candidate& candidate,
           {"margin_p05", candidate.margin_p05},
           {"margin_worst_tenth", candidate.margin_worst_tenth},
           {"probability_feasible", candidate.probability_feasible},
+          {"improved", improved_json(candidate.improvement)},
           {"limiting",
            {{"margin", name(candidate.limiting.margin)},
             {"x_m", candidate.limiting.x_m},
@@ -227,7 +234,15 @@ json vehicle_json(const Vehicle& vehicle) {
 }
 
 json search_json(const Search& search) {
+  const Objective& objective = search.objective;
   json row = {{"planner", search.planner},
+              {"objective",
+               {{"per_s", objective.per_s},
+                {"per_m", objective.per_m},
+                {"per_j", objective.per_j},
+                {"per_exposed_s", objective.per_exposed_s},
+                {"exposed_below", objective.exposed_below}}},
+              {"improve", search.improve},
               {"seed", search.seed},
               {"candidates", search.candidates},
               {"soil_draws", search.soil_draws},
@@ -254,6 +269,7 @@ json problem_json(const PlanningProblem& problem) {
         {"slip_angle_max_deg", degrees(limits.slip_angle_max_rad)},
         {"slope_max_deg", degrees(limits.slope_max_rad)},
         {"sinkage_max_m", limits.sinkage_max_m},
+        {"probability_min", limits.probability_min},
         {"speed_max_mps", problem.speed_max_mps}}},
       {"vehicle", vehicle_json(problem.vehicle)},
       {"wheel_variant",

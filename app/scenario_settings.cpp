@@ -104,6 +104,8 @@ Search read_search(const SettingsNode& node) {
     };
     search.candidates = count("candidates", search.candidates);
     search.soil_draws = count("soil_draws", search.soil_draws);
+    if (const SettingsNode* improve = mapping.optional("improve"))
+      search.improve = improve->truth();
     return search;
   });
 }
@@ -153,6 +155,7 @@ Search overridden(Search search, const ScenarioOverrides& overrides) {
   constexpr double kDefaultTime_s = 20;
   if (overrides.planner) search.planner = *overrides.planner;
   if (overrides.seed) search.seed = *overrides.seed;
+  if (overrides.improve) search.improve = *overrides.improve;
   if (overrides.candidates) search.candidates = *overrides.candidates;
   if (overrides.time_s || overrides.iterations) {
     search.time_s = overrides.time_s;

@@ -22,6 +22,7 @@ struct ScenarioOverrides {
   std::optional<double> time_s{};            ///< takes the place of an iteration budget
   std::optional<std::int64_t> iterations{};  ///< takes the place of a time
   std::optional<int> candidates{};
+  std::optional<bool> improve{};
   std::optional<int> threads{};  ///< else as many as the machine has
 };
 

@@ -16,7 +16,7 @@ regoplan_tests(terramech regoplan_terramech)
 regoplan_tests(diagnosis regoplan_diagnosis)
 regoplan_tests(diagnosis_challenge regoplan_challenge)
 regoplan_tests(maps regoplan_maps GDAL::GDAL)
-regoplan_tests(planner regoplan_planner ompl::ompl)
+regoplan_tests(planner regoplan_planner regoplan_random_problem ompl::ompl)
 regoplan_tests(benchmarking regoplan_benchmarking nlohmann_json::nlohmann_json SQLite::SQLite3)
 # Whole journeys over large maps: too long for a build with sanitizers.
 regoplan_tests(journeys regoplan_app)

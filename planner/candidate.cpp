@@ -9,6 +9,7 @@
 #include <thread>
 #include <tuple>
 
+#include "planner/path_improvement.h"
 #include "planner/path_margins.h"
 #include "planner/soil_uncertainty.h"
 #include "planner/steer_back.h"
@@ -75,6 +76,12 @@ double stray_m(const Candidate& path, const Candidate& other) {
   return farthest;
 }
 
+bool differ(const Candidate& path, const Candidate& other) {
+  constexpr double kLeast_m = 2, kShareOfWay = 0.04;
+  const double apart = std::max(stray_m(path, other), stray_m(other, path));
+  return apart >= std::max(kLeast_m, kShareOfWay * other.length_m);
+}
+
 }  // namespace
 
 VerifiedPaths verify_all(const World& verdict, const World& searched,
@@ -102,6 +109,29 @@ VerifiedPaths verify_all(const World& verdict, const World& searched,
   return paths;
 }
 
+void improve(const World& verdict, const World& searched, std::vector<VerifiedPath>& paths) {
+  std::vector<std::optional<VerifiedPath>> better(paths.size());
+  parallel_for(paths.size(), verdict.problem().search.threads, [&](std::size_t i) {
+    const Candidate& before = paths[i].candidate;
+    const std::optional<ImprovedPath> found = improved(searched, before.controls);
+    if (!found) return;
+    VerifiedPath path =
+        verify(verdict, searched,
+               {.planner = before.planner, .seed = before.seed, .controls = found->controls});
+    if (!path.candidate.verified.passed || path.candidate.margin_min < before.margin_min) return;
+    path.candidate.improvement = found->improvement;
+    better[i] = std::move(path);
+  });
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (!better[i]) continue;
+    bool alone = true;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      alone = alone && (k == i || differ(better[i]->candidate, paths[k].candidate));
+    }
+    if (alone) paths[i] = std::move(*better[i]);
+  }
+}
+
 std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most) {
   std::stable_sort(paths.begin(), paths.end(), [](const VerifiedPath& a, const VerifiedPath& b) {
     return a.candidate.margin_min > b.candidate.margin_min;
@@ -110,10 +140,7 @@ std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int m
   for (VerifiedPath& path : paths) {
     if (static_cast<int>(chosen.size()) == most) break;
     const auto differs = [&](const VerifiedPath& other) {
-      constexpr double kLeast_m = 2, kShareOfWay = 0.04;
-      const double apart = std::max(stray_m(path.candidate, other.candidate),
-                                    stray_m(other.candidate, path.candidate));
-      return apart >= std::max(kLeast_m, kShareOfWay * other.candidate.length_m);
+      return differ(path.candidate, other.candidate);
     };
     if (std::all_of(chosen.begin(), chosen.end(), differs)) chosen.push_back(std::move(path));
   }

@@ -41,6 +41,10 @@ VerifiedPaths verify_all(const World& verdict, const World& searched,
 /// 2 m and 4 % of the way somewhere.
 std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most);
 
+/// Puts an improved path (`improved`) in the place of each that has one, where it passes
+/// verification with no smaller margin and still differs from all others.
+void improve(const World& verdict, const World& searched, std::vector<VerifiedPath>& paths);
+
 /// Fills in what depends on the soils' uncertainty.
 void add_spread(const PlanningProblem& problem, VerifiedPath& path);
 

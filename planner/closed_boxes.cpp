@@ -170,6 +170,12 @@ bool ClosedBoxes::on_rock(const PoseBox& box) const {
       });
 }
 
+bool ClosedBoxes::far_from_rocks(const PoseBox& box) const {
+  return !problem_.map.any_rock(box.x_m - body_reach_m_, box.x_m + body_reach_m_,
+                                box.y_m - body_reach_m_, box.y_m + body_reach_m_,
+                                [](const Rock&) { return true; });
+}
+
 ClosedBoxes::Reason ClosedBoxes::reason(const PoseBox& box) const {
   if (wheel_off_ground(box)) return Reason::kUnknownGround;
   return on_rock(box) ? Reason::kRock : Reason::kOpen;

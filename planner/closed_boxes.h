@@ -27,6 +27,11 @@ class ClosedBoxes {
   /// Whether every pose of the box is forbidden by ground or rocks.
   Reason reason(const PoseBox& box) const;
 
+  /// Whether no rock is near enough to close a box there, whatever its heading.
+  bool far_from_rocks(const PoseBox& box) const;
+  /// Farthest contact from the vehicle's origin.
+  double wheel_reach_m() const { return wheel_reach_m_; }
+
  private:
   bool wheel_off_ground(const PoseBox& box) const;
   bool on_rock(const PoseBox& box) const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/tracked_drive.h"
+
 namespace regoplan {
 namespace {
 
@@ -31,128 +33,96 @@ double offset_m(const CurvePlace& place, double x_m, double y_m) {
          std::sin(place.heading_rad) * (x_m - place.x_m);
 }
 
+/// Steps of a twentieth of a metre at top speed.
+double tracking_step_s(const ReferencePath& path) {
+  constexpr double kTravel_m = 0.05, kLongest_s = 0.25;
+  return std::min(kTravel_m / path.speed.speed_max_mps(), kLongest_s);
+}
+
 class Tracker {
  public:
   Tracker(const World& world, const ReferencePath& path, const SteeringLaw& law,
           double deviation_max_m)
-      : world_(world),
-        vehicle_(world.problem().vehicle),
+      : vehicle_(world.problem().vehicle),
         path_(path),
         law_(law),
-        deviation_max_m_(deviation_max_m),
         speed_top_mps_(path.speed.speed_max_mps()),
-        direction_(path.reverse ? -1 : 1) {
-    constexpr double kTravel_m = 0.05, kLongest_s = 0.25;
-    run_.step_s = std::min(kTravel_m / speed_top_mps_, kLongest_s);
-    now_.state = path.recorded.empty() ? path.state_at(vehicle_, 0) : path.recorded.front().state;
-  }
+        direction_(path.reverse ? -1 : 1),
+        drive_(world,
+               path.recorded.empty() ? path.state_at(world.problem().vehicle, 0)
+                                     : path.recorded.front().state,
+               tracking_step_s(path), deviation_max_m) {}
 
   TrackingRun drive() {
     const double patience_s =
-        2 * path_.speed.duration_s(path_.curve.length_m()) + 20 + 200 * run_.step_s;
-    record(true);
-    if (!allowed()) return finish(TrackingEnd::kRejected);
+        2 * path_.speed.duration_s(path_.curve.length_m()) + 20 + 200 * drive_.step_s();
+    if (const auto end = drive_.begin()) return drive_.finish(*end);
     while (!arrived()) {
-      if (now_.time_s > patience_s) return finish(TrackingEnd::kStalled);
-      const StepResult step = world_.dynamics().step(now_.state, control(), run_.step_s);
-      now_.time_s += run_.step_s;
-      if (!step.converged) {
-        if (step.on_known_ground) return finish(TrackingEnd::kDynamics);
-        now_.state = step.state;
-        run_.rejected = RejectedState{
-            .reason = Rejection::kUnknownTerrain, .x_m = now_.state.x_m, .y_m = now_.state.y_m};
-        return finish(TrackingEnd::kRejected);
-      }
-      now_.state = step.state;
-      now_.strain = step.strain;
-      run_.energy_j += step.drive_energy_j;
-      locate();
-      record(false);
-      if (!allowed()) return finish(TrackingEnd::kRejected);
-      if (std::abs(now_.offset_m) > deviation_max_m_) return finish(TrackingEnd::kStrayed);
+      if (drive_.now().time_s > patience_s) return drive_.finish(TrackingEnd::kStalled);
+      const auto end = drive_.step(
+          control(),
+          [this](const VehicleState&, const VehicleState& state) { return located(state); });
+      if (end) return drive_.finish(*end);
     }
-    return finish(TrackingEnd::kArrived);
+    return drive_.finish(TrackingEnd::kArrived);
   }
 
  private:
-  double speed() const { return std::hypot(now_.state.motion.vx_mps, now_.state.motion.vy_mps); }
+  static double speed(const VehicleState& state) {
+    return std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+  }
 
   bool arrived() const {
-    const double near_m = std::max(0.02, 2 * speed() * run_.step_s);
-    return now_.s_m >= path_.curve.length_m() - near_m;
+    const double near_m = std::max(0.02, 2 * speed(drive_.now().state) * drive_.step_s());
+    return drive_.now().s_m >= path_.curve.length_m() - near_m;
   }
 
-  bool allowed() {
-    run_.rejected = world_.rejected(now_.state, now_.strain, std::nullopt);
-    return !run_.rejected;
-  }
-
-  void locate() {
-    const VehicleState& state = now_.state;
-    now_.s_m = nearest_m(path_.curve, state.x_m, state.y_m, now_.s_m);
-    now_.offset_m = offset_m(path_.curve.at(now_.s_m), state.x_m, state.y_m);
-    if (std::abs(now_.offset_m) > run_.deviation_max_m) {
-      run_.deviation_max_m = std::abs(now_.offset_m);
-      run_.deviation_at = {state.x_m, state.y_m};
-    }
+  TrackedDrive::Place located(const VehicleState& state) {
+    const double s_m = nearest_m(path_.curve, state.x_m, state.y_m, drive_.now().s_m);
     const double rim = direction_ * state.rim_speed_mps;
     if (std::abs(rim) > 0.05 * speed_top_mps_) {
-      const double share = run_.step_s / (run_.step_s + law_.slip_memory_s);
-      const double ratio = std::clamp(speed() / rim, 0.5, 1.5);
+      const double share = drive_.step_s() / (drive_.step_s() + law_.slip_memory_s);
+      const double ratio = std::clamp(speed(state) / rim, 0.5, 1.5);
       speed_per_rim_ += share * (ratio - speed_per_rim_);
     }
+    return {.s_m = s_m, .offset_m = offset_m(path_.curve.at(s_m), state.x_m, state.y_m)};
   }
 
   VehicleControl control() const {
-    const double v = speed();
-    const CurvePlace place = path_.curve.at(now_.s_m);
-    const double ahead_m = now_.s_m + v * law_.reaction_s;
+    const TrackingRun::Moment& now = drive_.now();
+    const double v = speed(now.state);
+    const CurvePlace place = path_.curve.at(now.s_m);
+    const double ahead_m = now.s_m + v * law_.reaction_s;
     const double length =
         std::max(law_.lookahead_wheelbases * wheelbase_m(vehicle_), law_.lookahead_s * v);
     // At rest there is no course; the heading tells where it will go.
-    const BodyMotion& motion = now_.state.motion;
+    const BodyMotion& motion = now.state.motion;
     const double slip_angle =
         v > 0.01 * speed_top_mps_
             ? std::atan2(direction_ * motion.vy_mps, direction_ * motion.vx_mps)
-            : kinematic_body_slip_angle_rad(vehicle_, now_.state.curvature_1pm);
-    const double heading = now_.state.yaw_rad + (path_.reverse ? std::numbers::pi : 0);
+            : kinematic_body_slip_angle_rad(vehicle_, now.state.curvature_1pm);
+    const double heading = now.state.yaw_rad + (path_.reverse ? std::numbers::pi : 0);
     const double course = angle_between(heading + slip_angle, place.heading_rad);
     const double curvature =
         path_.curvature_1pm(ahead_m) -
-        direction_ * (now_.offset_m / (length * length) + 2 * law_.damping * course / length);
+        direction_ * (now.offset_m / (length * length) + 2 * law_.damping * course / length);
     // From rest, the speed a little farther on: at rest itself the path says to stay.
-    const double a = vehicle_.acceleration_max_mps2, dt = run_.step_s;
+    const double a = vehicle_.acceleration_max_mps2, dt = drive_.step_s();
     const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * dt);
     const double target =
-        std::max(creep_mps, path_.speed.at(now_.s_m + v * dt + a * dt * dt / 2).speed_mps);
+        std::max(creep_mps, path_.speed.at(now.s_m + v * dt + a * dt * dt / 2).speed_mps);
     return {.speed_target_mps = direction_ * target / speed_per_rim_,
             .curvature_target_1pm =
                 std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm)};
   }
 
-  void record(bool always) {
-    run_.strain_max = largest_of(run_.strain_max, now_.strain);
-    if (!always && now_.s_m < run_.moments.back().s_m + TrackingRun::kRecordEvery_m) return;
-    run_.moments.push_back(now_);
-  }
-
-  TrackingRun finish(TrackingEnd end) {
-    run_.end = end;
-    run_.last = now_;
-    run_.duration_s = now_.time_s;
-    return std::move(run_);
-  }
-
-  const World& world_;
   const Vehicle& vehicle_;
   const ReferencePath& path_;
   SteeringLaw law_;
-  double deviation_max_m_;
   double speed_top_mps_;
   double direction_;  ///< 1 ahead, -1 in reverse
-  TrackingRun::Moment now_;
+  TrackedDrive drive_;
   double speed_per_rim_ = 1;
-  TrackingRun run_;
 };
 
 }  // namespace

@@ -198,6 +198,10 @@ PlanResult plan(const PlanningProblem& problem,
   result.overturned = std::move(verified.overturned);
   std::vector<VerifiedPath> chosen =
       different_paths(std::move(verified.passed), problem.search.candidates);
+  if (problem.search.improve && !stop.stop_requested()) {
+    on_progress({.stage = "improving", .found = static_cast<int>(chosen.size())});
+    improve(verdict, world, chosen);
+  }
   for (std::size_t i = 0; i < chosen.size() && !stop.stop_requested(); ++i) {
     on_progress({.stage = "drawing soils",
                  .share = static_cast<double>(i) / static_cast<double>(chosen.size()),

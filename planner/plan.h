@@ -10,7 +10,7 @@ namespace regoplan {
 
 /// What a search is doing, for whoever watches.
 struct PlanProgress {
-  std::string_view stage;  ///< "searching", "verifying", "drawing soils"
+  std::string_view stage;  ///< "searching", "verifying", "improving", "drawing soils"
   double share = 0;        ///< of this stage, 0 to 1
   int found = 0;           ///< paths found so far
 };

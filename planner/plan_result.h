@@ -65,6 +65,12 @@ struct Verification {
   double deviation_max_m = 0;  ///< between the searched and the replayed path, at equal times
 };
 
+/// What optimising its controls did to a path, in the units of the objective.
+struct Improvement {
+  double cost_before = 0;
+  double cost_after = 0;
+};
+
 struct Candidate {
   static constexpr double kNotDrawn = std::numeric_limits<double>::quiet_NaN();
 
@@ -72,7 +78,8 @@ struct Candidate {
   std::string planner;
   std::uint64_t seed = 0;
   std::vector<ControlSegment> controls;
-  std::vector<TrajectoryPoint> points;  ///< of the replay
+  std::optional<Improvement> improvement;  ///< where it is not as the search found it
+  std::vector<TrajectoryPoint> points;     ///< of the replay
   double length_m = 0;
   double duration_s = 0;
   double energy_j = 0;

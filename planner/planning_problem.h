@@ -64,6 +64,7 @@ struct Search {
   std::optional<std::int64_t> iterations;
   std::uint64_t seed = 1;
   int candidates = 5;
+  bool improve = true;   ///< optimise the controls of what is found (`improved`)
   int soil_draws = 100;  ///< for the quantiles and the probability of each candidate
   int threads = 2;       ///< changes the time taken, never the result under an iteration budget
 };

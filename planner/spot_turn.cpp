@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/tracked_drive.h"
+
 namespace regoplan {
 namespace {
 
@@ -34,95 +36,59 @@ std::vector<Station> stations_of(const SpotTurn& turn, const Vehicle& vehicle) {
   return stations;
 }
 
+/// At the start of a turn, at rest.
+VehicleState before_turning(const SpotTurn& turn, const Vehicle& vehicle) {
+  VehicleState state = state_at(turn, vehicle, std::copysign(0.0, turn.angle_rad));
+  state.motion = {};
+  state.turn_rate_rad_s = 0;
+  return state;
+}
+
 class Turner {
  public:
   Turner(const World& world, const SpotTurn& turn, double deviation_max_m)
-      : world_(world),
-        vehicle_(world.problem().vehicle),
+      : vehicle_(world.problem().vehicle),
         turn_(turn),
-        deviation_max_m_(deviation_max_m),
         arm_m_(longest_arm_m(vehicle_)),
-        side_(turn.angle_rad < 0 ? -1 : 1) {
-    run_.step_s = std::clamp(0.05 / (turn.rate_rad_s * arm_m_), 0.02, 0.25);
-    now_.state = state_at(turn, vehicle_, std::copysign(0.0, side_));
-    now_.state.motion = {};
-    now_.state.turn_rate_rad_s = 0;
-  }
+        side_(turn.angle_rad < 0 ? -1 : 1),
+        drive_(world, before_turning(turn, vehicle_),
+               std::clamp(0.05 / (turn.rate_rad_s * arm_m_), 0.02, 0.25), deviation_max_m) {}
 
   TrackingRun drive() {
     const double angle = std::abs(turn_.angle_rad);
     const double patience_s =
         5 * angle / turn_.rate_rad_s + 20 + 2 * turn_.rate_rad_s * arm_m_ / acceleration();
-    record(true);
-    if (!allowed()) return finish(TrackingEnd::kRejected);
+    if (const auto end = drive_.begin()) return drive_.finish(*end);
     bool slows = false;
-    while (!slows || now_.state.turn_rate_rad_s != 0) {
-      if (now_.time_s > patience_s) return finish(TrackingEnd::kStalled);
-      const double rate = std::abs(now_.state.motion.yaw_rate_rad_s);
+    while (!slows || drive_.now().state.turn_rate_rad_s != 0) {
+      if (drive_.now().time_s > patience_s) return drive_.finish(TrackingEnd::kStalled);
+      const double rate = std::abs(drive_.now().state.motion.yaw_rate_rad_s);
       slows = slows || turned_rad_ + rate * rate * arm_m_ / (2 * acceleration()) >= angle;
-      const StepResult step = world_.dynamics().step(
-          now_.state, {.turn_rate_target_rad_s = slows ? 0 : side_ * turn_.rate_rad_s},
-          run_.step_s);
-      now_.time_s += run_.step_s;
-      if (!step.converged) {
-        if (step.on_known_ground) return finish(TrackingEnd::kDynamics);
-        run_.rejected = RejectedState{
-            .reason = Rejection::kUnknownTerrain, .x_m = now_.state.x_m, .y_m = now_.state.y_m};
-        return finish(TrackingEnd::kRejected);
-      }
-      turned_rad_ +=
-          side_ * std::remainder(step.state.yaw_rad - now_.state.yaw_rad, 2 * std::numbers::pi);
-      now_.state = step.state;
-      now_.strain = step.strain;
-      run_.energy_j += step.drive_energy_j;
-      locate();
-      record(false);
-      if (!allowed()) return finish(TrackingEnd::kRejected);
-      if (now_.offset_m > deviation_max_m_) return finish(TrackingEnd::kStrayed);
+      const auto end = drive_.step({.turn_rate_target_rad_s = slows ? 0 : side_ * turn_.rate_rad_s},
+                                   [this](const VehicleState& before, const VehicleState& now) {
+                                     return located(before, now);
+                                   });
+      if (end) return drive_.finish(*end);
     }
-    return finish(TrackingEnd::kArrived);
+    return drive_.finish(TrackingEnd::kArrived);
   }
 
  private:
   double acceleration() const { return vehicle_.acceleration_max_mps2; }
 
-  bool allowed() {
-    run_.rejected = world_.rejected(now_.state, now_.strain, std::nullopt);
-    return !run_.rejected;
-  }
-
-  void locate() {
-    const VehicleState& state = now_.state;
+  TrackedDrive::Place located(const VehicleState& before, const VehicleState& now) {
+    turned_rad_ += side_ * std::remainder(now.yaw_rad - before.yaw_rad, 2 * std::numbers::pi);
     const double ahead_m = vehicle_.turn_centre_x_m;
-    now_.s_m = std::max(turned_rad_, 0.0) * arm_m_;
-    now_.offset_m = std::hypot(state.x_m + ahead_m * std::cos(state.yaw_rad) - turn_.centre_x_m,
-                               state.y_m + ahead_m * std::sin(state.yaw_rad) - turn_.centre_y_m);
-    if (now_.offset_m > run_.deviation_max_m) {
-      run_.deviation_max_m = now_.offset_m;
-      run_.deviation_at = {state.x_m, state.y_m};
-    }
+    return {.s_m = std::max(turned_rad_, 0.0) * arm_m_,
+            .offset_m = std::hypot(now.x_m + ahead_m * std::cos(now.yaw_rad) - turn_.centre_x_m,
+                                   now.y_m + ahead_m * std::sin(now.yaw_rad) - turn_.centre_y_m)};
   }
 
-  void record(bool always) {
-    run_.strain_max = largest_of(run_.strain_max, now_.strain);
-    if (!always && now_.s_m < run_.moments.back().s_m + TrackingRun::kRecordEvery_m) return;
-    run_.moments.push_back(now_);
-  }
-
-  TrackingRun finish(TrackingEnd end) {
-    run_.end = end;
-    run_.last = now_;
-    run_.duration_s = now_.time_s;
-    return std::move(run_);
-  }
-
-  const World& world_;
   const Vehicle& vehicle_;
   SpotTurn turn_;
-  double deviation_max_m_, arm_m_, side_;
+  double arm_m_, side_;
   double turned_rad_ = 0;
-  TrackingRun::Moment now_;
-  TrackingRun run_;
+  TrackedDrive drive_;
 };
 
 }  // namespace

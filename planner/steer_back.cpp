@@ -24,7 +24,7 @@ void append(std::vector<ControlSegment>& segments, const VehicleControl& control
 
 VehicleControl steered_back(const PlanningProblem& problem, const VehicleControl& commanded,
                             const VehicleState& due, const VehicleState& actual) {
-  constexpr double kNear_m = 0.02, kNear_rad = 0.01, kCatchUp_s = 2, kLengthsOfArm = 3;
+  constexpr double kNear_m = 0.02, kNear_rad = 0.01, kCatchUp_s = 1, kLengthsOfArm = 2;
   const double direction = (due.rim_speed_mps > 0) - (due.rim_speed_mps < 0);
   const double c = std::cos(due.yaw_rad), s = std::sin(due.yaw_rad);
   const double dx = actual.x_m - due.x_m, dy = actual.y_m - due.y_m;

@@ -8,8 +8,8 @@ namespace regoplan {
 
 /// The control that brings a vehicle back to where it should be at this moment:
 ///   curvature = commanded curvature - offset / L^2 - 2 (heading error) / L
-///   speed     = commanded speed - (distance ahead) / 2 s
-/// with the offset to the left, L three times the longest arm of a wheel, both in the
+///   speed     = commanded speed - (distance ahead) / 1 s
+/// with the offset to the left, L twice the longest arm of a wheel, both in the
 /// frame of where it should be; in reverse the heading's term has the other sign. Errors below
 /// 2 cm and .01 rad are left alone. Within the vehicle's curvature and the speed limit; at rest
 /// nothing is corrected.

@@ -80,6 +80,22 @@ TEST(PlanFiles, PlanJsonHasTheKeysThatOthersRead) {
   EXPECT_TRUE(second["verified"].contains("max_deviation_m"));
 }
 
+TEST(PlanFiles, PlanJsonSaysWhatWasAskedForAndWhatWasImproved) {
+  PlanningProblem problem = flat_problem();
+  problem.limits.probability_min = 0.9;
+  problem.search.objective = {.per_s = 0.5, .per_j = 2};
+  PlanResult result = result_with(2);
+  result.candidates[1].improvement = {.cost_before = 30, .cost_after = 20};
+  const auto json = nlohmann::json::parse(plan_json(problem, result));
+  EXPECT_EQ(json["limits"]["probability_min"], 0.9);
+  EXPECT_EQ(json["objective"]["per_s"], 0.5);
+  EXPECT_EQ(json["objective"]["per_j"], 2);
+  EXPECT_EQ(json["objective"]["exposed_below"], 0.2);
+  EXPECT_TRUE(json["candidates"][0]["improved"].is_null());
+  EXPECT_EQ(json["candidates"][1]["improved"]["cost_before"], 30);
+  EXPECT_EQ(json["candidates"][1]["improved"]["cost_after"], 20);
+}
+
 TEST(PlanFiles, RejectionsStandInTheOrderInWhichTheyAreTested) {
   const auto json = nlohmann::ordered_json::parse(plan_json(flat_problem(), result_with(0)));
   std::string order;

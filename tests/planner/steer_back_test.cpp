@@ -17,17 +17,19 @@ VehicleState driving(double speed_mps) {
 }
 
 PlanningProblem open_ground() {
-  return lrv_problem(one_soil_map(120, firm_regolith(), [](double x, double y) {
+  return lrv_problem(one_soil_map(200, firm_regolith(), [](double x, double y) {
     return 0.5 * std::sin(x / 5) * std::cos(y / 6);
   }));
 }
 
-/// A long slalom.
+/// 150 m of slalom.
 std::vector<ControlSegment> slalom() {
-  std::vector<ControlSegment> controls{{.duration_s = 6, .speed_target_mps = 2.5}};
-  for (int i = 0; i < 4; ++i) {
+  std::vector<ControlSegment> controls{
+      {.duration_s = 8, .speed_target_mps = 2.5},
+      {.duration_s = 3, .speed_target_mps = 2.5, .curvature_target_1pm = -0.06}};
+  for (int i = 0; i < 8; ++i) {
     controls.push_back(
-        {.duration_s = 6, .speed_target_mps = 2.5, .curvature_target_1pm = i % 2 ? 0.06 : -0.06});
+        {.duration_s = 6, .speed_target_mps = 2.5, .curvature_target_1pm = i % 2 ? -0.06 : 0.06});
   }
   return controls;
 }
