@@ -193,10 +193,15 @@ class Diagnosing {
       return;
     }
     const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
-    const std::vector<NameClass> claimed = proven_one_by_one();
+    std::vector<NameClass> claimed = proven_one_by_one();
     const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
     if (best != nullptr) {
-      const std::string doubt = objection(problem, best->fit);
+      std::string doubt = objection(problem, best->fit);
+      if (!doubt.empty() && with_a_fellow(problem, best->id)) {
+        claimed = proven_one_by_one();
+        best = best_of(scored_, claimed);
+        doubt.clear();
+      }
       const std::vector<std::size_t> left = remainder_settings(problem, best->fit);
       const HeldOut proof = best_hold_out(condensed_, soil_, base_,
                                           {.fit = &best->fit, .remainder = left}, options_.threads);
@@ -256,6 +261,27 @@ class Diagnosing {
       });
       rank(false);
     }
+  }
+
+  /// An effect that alone would have to act against what is known of it may have a second effect
+  /// beside it. Gives up the single where a pair is claimed then and nothing speaks against it.
+  bool with_a_fellow(const FitProblem& problem, const std::string& id) {
+    const auto single = std::ranges::find_if(scored_, [&](const auto& s) { return s.id == id; });
+    if (single->fit.candidate.effects.size() != 1) return false;
+    const std::vector<ScoredId> before = scored_;
+    const std::size_t notes = found_.notes.size();
+    scored_.erase(single);
+    rank(false);
+    const std::vector<NameClass> claimed = proven_one_by_one();
+    const ScoredId* pair = claimed.size() < 2 ? nullptr : best_of(scored_, claimed);
+    const bool has_it =
+        pair != nullptr && std::ranges::any_of(pair->fit.candidate.effects,
+                                               [&](const Effect& e) { return e.id == id; });
+    if (has_it && objection(problem, pair->fit).empty()) return true;
+    scored_ = before;
+    found_.notes.resize(notes);
+    rank(false);
+    return false;
   }
 
   struct IdleEffect {
