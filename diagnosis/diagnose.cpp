@@ -197,7 +197,7 @@ class Diagnosing {
     const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
     if (best != nullptr) {
       std::string doubt = objection(problem, best->fit);
-      if (!doubt.empty() && with_a_fellow(problem, best->id)) {
+      if (!doubt.empty() && another_holds(problem, claimed, std::string(best->id))) {
         claimed = proven_one_by_one();
         best = best_of(scored_, claimed);
         doubt.clear();
@@ -263,21 +263,26 @@ class Diagnosing {
     }
   }
 
-  /// An effect that alone would have to act against what is known of it may have a second effect
-  /// beside it. Gives up the single where a pair is claimed then and nothing speaks against it.
-  bool with_a_fellow(const FitProblem& problem, const std::string& id) {
-    const auto single = std::ranges::find_if(scored_, [&](const auto& s) { return s.id == id; });
-    if (single->fit.candidate.effects.size() != 1) return false;
+  /// What speaks against the best of a class need not speak against its other names, nor against
+  /// it with a second effect beside it. Gives up the best where a claim that shares a name with the
+  /// one before is made then and nothing speaks against it.
+  bool another_holds(const FitProblem& problem, const std::vector<NameClass>& refuted,
+                     const std::string& best) {
     const std::vector<ScoredId> before = scored_;
     const std::size_t notes = found_.notes.size();
-    scored_.erase(single);
+    std::erase_if(scored_, [&](const ScoredId& s) { return s.id == best; });
     rank(false);
     const std::vector<NameClass> claimed = proven_one_by_one();
-    const ScoredId* pair = claimed.size() < 2 ? nullptr : best_of(scored_, claimed);
-    const bool has_it =
-        pair != nullptr && std::ranges::any_of(pair->fit.candidate.effects,
-                                               [&](const Effect& e) { return e.id == id; });
-    if (has_it && objection(problem, pair->fit).empty()) return true;
+    const ScoredId* other = claimed.empty() ? nullptr : best_of(scored_, claimed);
+    const auto was_named = [&](const Effect& effect) {
+      return std::ranges::any_of(refuted, [&](const NameClass& names) {
+        return std::ranges::count(names.ids, effect.id) > 0;
+      });
+    };
+    if (other != nullptr && std::ranges::any_of(other->fit.candidate.effects, was_named) &&
+        objection(problem, other->fit).empty()) {
+      return true;
+    }
     scored_ = before;
     found_.notes.resize(notes);
     rank(false);
