@@ -136,11 +136,12 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
           {"sentence", diagnosis.sentence},
           {"notes", notes(run)},
           {"mechanisms", list_json(diagnosis.claims, claim_json)},
-          {"ranking",
-           list_json(diagnosis.ranking,
-                     [](const ScoredCandidate& candidate) {
-                       return Json{{"id", candidate.id}, {"probability", candidate.probability}};
-                     })},
+          {"ranking", list_json(diagnosis.ranking,
+                                [](const ScoredCandidate& candidate) {
+                                  return Json{{"id", candidate.id},
+                                              {"probability", candidate.probability},
+                                              {"evidence_nats", candidate.evidence_nats}};
+                                })},
           {"where", list_json(diagnosis.where, region_json)},
           {"fit", fit_json(diagnosis)},
           {"held_out_by", diagnosis.held_out_by},

@@ -105,6 +105,7 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
       return fmt::format("{} would need {} = {:.3g}, far from what is usual", effect.id,
                          effect.coordinates[i].name, effect.coordinates[i].value(x));
     }
+    if (effect.id == "skid_branch") continue;  // named by where it is, whatever it does there
     const auto part = part_of(problem.bed, problem.soil, fit, e);
     if (!part) continue;
     for (const Channel channel : channels_of(problem, fit, e)) {

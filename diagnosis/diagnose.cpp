@@ -193,10 +193,15 @@ class Diagnosing {
       return;
     }
     const FitProblem problem{bed_, soil_, discrepancy_, soil_free_};
-    const std::vector<NameClass> claimed = proven_one_by_one();
+    std::vector<NameClass> claimed = proven_one_by_one();
     const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
     if (best != nullptr) {
-      const std::string doubt = objection(problem, best->fit);
+      std::string doubt = objection(problem, best->fit);
+      if (!doubt.empty() && another_holds(problem, claimed, std::string(best->id))) {
+        claimed = proven_one_by_one();
+        best = best_of(scored_, claimed);
+        doubt.clear();
+      }
       const std::vector<std::size_t> left = remainder_settings(problem, best->fit);
       const HeldOut proof = best_hold_out(condensed_, soil_, base_,
                                           {.fit = &best->fit, .remainder = left}, options_.threads);
@@ -256,6 +261,32 @@ class Diagnosing {
       });
       rank(false);
     }
+  }
+
+  /// What speaks against the best of a class need not speak against its other names, nor against
+  /// it with a second effect beside it. Gives up the best where a claim that shares a name with the
+  /// one before is made then and nothing speaks against it.
+  bool another_holds(const FitProblem& problem, const std::vector<NameClass>& refuted,
+                     const std::string& best) {
+    const std::vector<ScoredId> before = scored_;
+    const std::size_t notes = found_.notes.size();
+    std::erase_if(scored_, [&](const ScoredId& s) { return s.id == best; });
+    rank(false);
+    const std::vector<NameClass> claimed = proven_one_by_one();
+    const ScoredId* other = claimed.empty() ? nullptr : best_of(scored_, claimed);
+    const auto was_named = [&](const Effect& effect) {
+      return std::ranges::any_of(refuted, [&](const NameClass& names) {
+        return std::ranges::count(names.ids, effect.id) > 0;
+      });
+    };
+    if (other != nullptr && std::ranges::any_of(other->fit.candidate.effects, was_named) &&
+        objection(problem, other->fit).empty()) {
+      return true;
+    }
+    scored_ = before;
+    found_.notes.resize(notes);
+    rank(false);
+    return false;
   }
 
   struct IdleEffect {

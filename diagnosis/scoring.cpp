@@ -13,12 +13,12 @@ namespace {
 /// Scores are tempered: forms are only proxies of what acts, so that their scores are sharper than
 /// they deserve. These three were fitted to the log likelihood of the true names of 84 generated
 /// challenges (benchmarks/diagnosis, one effect, two, an instrument's fault, none of the list).
-constexpr double kTemperature = 1.8;
+constexpr double kTemperature = 2;
 constexpr double kPairLogPrior = -4.5;      // each
-constexpr double kUnexplainedLogPrior = 1;  // of things on no list there are many
+constexpr double kUnexplainedLogPrior = 2;  // of things on no list there are many
 constexpr double kNoLackOfFitLogPrior = 12;
 constexpr std::size_t kBestSingles = 7;
-constexpr std::size_t kPartnersOfBest = 6;
+constexpr std::size_t kPartnersOfBest = 5;
 
 double log_sum(const std::vector<double>& terms) {
   const double top = std::ranges::max(terms);
@@ -53,7 +53,8 @@ ScoredId base(const std::string& id, const FitProblem& problem, const SettingWei
 }
 
 /// Score of a fit with another effect added, to first order from its starting point.
-double quick_score(const FitProblem& problem, const CandidateFit& single, const Effect& effect) {
+double quick_score(const FitProblem& problem, const CandidateFit& single, const Effect& effect,
+                   const std::vector<std::size_t>& settings) {
   Hypothesis pair = single.candidate;
   pair.effects.push_back(effect);
   const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
@@ -72,13 +73,40 @@ double quick_score(const FitProblem& problem, const CandidateFit& single, const 
   model.jacobian.resize(single.jacobian.rows(), single.jacobian.cols() + 1);
   model.jacobian.leftCols(single.jacobian.cols()) = single.jacobian;
   model.jacobian.rightCols(1) = (linear ? 2 : 1) * (*prediction - single.prediction);
-  const Posterior with =
-      posterior_of(problem.bed, problem.discrepancy, model, single.evidence.settings);
+  const Posterior with = posterior_of(problem.bed, problem.discrepancy, model, settings);
   const double amount = with.x[with.x.size() - 1];
   const Eigen::MatrixXd covariance =
       with.precision.llt().solve(Eigen::MatrixXd::Identity(with.x.size(), with.x.size()));
   const double gain = amount * amount / covariance(with.x.size() - 1, with.x.size() - 1);
   return !linear && amount < 0 ? -gain : gain;
+}
+
+/// The discrepancy of half a run's noise over middling scales.
+std::size_t smallest_setting() {
+  const auto& all = discrepancy_settings();
+  return static_cast<std::size_t>(
+      std::ranges::find_if(
+          all, [](const DiscrepancySetting& s) { return s.amplitude > 0 && s.scales == 1; }) -
+      all.begin());
+}
+
+/// The effects that add most to a single, at most two of one id: channels and zones are many.
+std::vector<std::size_t> partners(const FitProblem& problem, const ScoredId& single,
+                                  const std::vector<Effect>& effects,
+                                  const std::vector<std::size_t>& settings) {
+  std::vector<std::pair<double, std::size_t>> gains;
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    if (effects[k].id == single.id) continue;
+    gains.emplace_back(-quick_score(problem, single.fit, effects[k], settings), k);
+  }
+  std::ranges::sort(gains);
+  std::vector<std::size_t> taken;
+  std::map<std::string, int> of_id;
+  for (const auto& [gain, k] : gains) {
+    if (taken.size() == kPartnersOfBest) break;
+    if (++of_id[effects[k].id] <= 2) taken.push_back(k);
+  }
+  return taken;
 }
 
 std::vector<Hypothesis> promising_pairs(const FitProblem& problem,
@@ -111,18 +139,13 @@ std::vector<Hypothesis> promising_pairs(const FitProblem& problem,
       add({{settled(singles[i])}}, singles[k].fit.candidate.effects.front());
     }
   }
+  // a discrepancy as large as the single needed may hide its fellow: partners under a small one too
+  const std::vector<std::size_t> small(problem.bed.channels.size(), smallest_setting());
   for (std::size_t i = 0; i < std::min<std::size_t>(4, best); ++i) {
-    std::vector<std::pair<double, std::size_t>> gains;
-    for (std::size_t k = 0; k < effects.size(); ++k) {
-      gains.emplace_back(-quick_score(problem, singles[i].fit, effects[k]), k);
-    }
-    std::ranges::sort(gains);
-    std::size_t taken = 0;
-    for (const auto& [gain, k] : gains) {
-      if (taken == kPartnersOfBest) break;
-      if (effects[k].id == singles[i].id) continue;
-      add({{settled(singles[i])}}, effects[k]);
-      ++taken;
+    for (const auto& settings : {singles[i].fit.evidence.settings, small}) {
+      for (const std::size_t k : partners(problem, singles[i], effects, settings)) {
+        add({{settled(singles[i])}}, effects[k]);
+      }
     }
   }
   return pairs;

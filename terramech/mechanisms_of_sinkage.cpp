@@ -133,7 +133,7 @@ std::vector<Definition> of_sinkage() {
         "linear",
         "theta_m/theta_f = a0 + a1 s + a2 |beta|",
         "Wong & Reece 1967, extended in beta (proxy)",
-        {{"a2_per_rad", -.3, .3, .15}}},
+        {{"a2_per_rad", -.6, .6, .15}}},
        [](E e, P p, S at) {
          const double edge = std::abs(e.soil.a1) + 1e-3;
          e.soil.a0 = std::clamp(e.soil.a0 + p[0] * at.beta_abs_rad, edge, 1 - edge);

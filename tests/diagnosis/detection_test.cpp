@@ -73,7 +73,7 @@ TEST(Detection, AlongAnEffectNoiseStaysSilent) {
   EXPECT_LE(rejected, 1);
 }
 
-TEST(Detection, AlongAnEffectAThirdOfItIsSeenThatTheWholeMisfitHides) {
+TEST(Detection, AlongAnEffectMoreIsSeenThanInTheWholeMisfit) {
   TrueWheel shallow;
   shallow.sinkage = [](const WheelRun& run, double h) {
     return h + 0.002 * std::max(run.slip_ratio, 0.0);
@@ -84,8 +84,8 @@ TEST(Detection, AlongAnEffectAThirdOfItIsSeenThatTheWholeMisfitHides) {
     along += p_value_along(made.recording, made.remainder, {along_slip(made)}, seed) < 0.005;
     whole += lack_of_fit(made.recording, made.remainder, seed).p_value < 0.005;
   }
-  EXPECT_GE(along, 5);
-  EXPECT_LT(whole, along);
+  EXPECT_GE(along, 3);
+  EXPECT_GT(along, whole);
 }
 
 TEST(LackOfFit, IsTheSameForTheSameSeed) {

@@ -93,7 +93,7 @@ const std::vector<Case> kBundles{
     {"rut_asymmetry", "tilt", 0.2, 4, 60, "0", "0", "0", "0"},
     {"rut_asymmetry", "tilt_in_balance", 0.2, 20, 60, "?", "?", "?", "?"},
     {"rut_asymmetry", "inner_wall", 0.2, 20, 60, "0", "+", "0", "0"},
-    {"rut_asymmetry", "inner_wall", 0.2, 2, 60, "0", "0", "0", "0"},
+    {"rut_asymmetry", "inner_wall", 0.2, 0, 60, "0", "0", "0", "0"},
     {"rut_asymmetry", "tilt_in_balance", 0.2, 4, 60, "0", "0", "0", "0"},
     {"shear_modulus_slip_angle", "linear", 0.4, 30, 60, "-", "-", "-", "?"},
     {"shear_modulus_slip_angle", "linear", 0.4, 0, 60, "0", "0", "0", "0"},
