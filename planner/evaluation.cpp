@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "terramech/parallel_for.h"
 #include "planner/path_margins.h"
+#include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {

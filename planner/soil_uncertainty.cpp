@@ -7,8 +7,8 @@
 #include <random>
 #include <set>
 
-#include "terramech/parallel_for.h"
 #include "planner/soil_surrogate.h"
+#include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {

@@ -113,9 +113,10 @@ TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
             "s.yaml:7: goal: heading_deg and heading_tolerance_deg go together");
   EXPECT_EQ(error_of("planner:", "planer:").substr(0, 54),
             "s.yaml:8: planer: unknown key (did you mean planner?)");
-  EXPECT_EQ(error_of("iterations: 200", "name: A*"),
-            "s.yaml:8: planner.name: A* is not valid (allowed: auto | Lattice | StableSparse | StateCost "
-            "| SST | RRT | KPIECE1 | EST | PDST | SyclopRRT | SyclopEST)");
+  EXPECT_EQ(
+      error_of("iterations: 200", "name: A*"),
+      "s.yaml:8: planner.name: A* is not valid (allowed: auto | Lattice | StableSparse | StateCost "
+      "| SST | RRT | KPIECE1 | EST | PDST | SyclopRRT | SyclopEST)");
 }
 
 TEST_F(ScenarioSettings, AFileThatIsNotThereIsAnErrorThatNamesWhoWantsIt) {
