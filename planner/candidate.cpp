@@ -109,8 +109,9 @@ VerifiedPaths verify_all(const World& verdict, const World& searched,
   return paths;
 }
 
-void improve(const World& verdict, const World& searched, std::vector<VerifiedPath>& paths) {
-  std::vector<std::optional<VerifiedPath>> better(paths.size());
+std::vector<VerifiedPath> improved_paths(const World& verdict, const World& searched,
+                                         const std::vector<VerifiedPath>& paths) {
+  std::vector<std::optional<VerifiedPath>> all(paths.size());
   parallel_for(paths.size(), verdict.problem().search.threads, [&](std::size_t i) {
     const Candidate& before = paths[i].candidate;
     const std::optional<ImprovedPath> found = improved(searched, before.controls);
@@ -120,16 +121,13 @@ void improve(const World& verdict, const World& searched, std::vector<VerifiedPa
                {.planner = before.planner, .seed = before.seed, .controls = found->controls});
     if (!path.candidate.verified.passed || path.candidate.margin_min < before.margin_min) return;
     path.candidate.improvement = found->improvement;
-    better[i] = std::move(path);
+    all[i] = std::move(path);
   });
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    if (!better[i]) continue;
-    bool alone = true;
-    for (std::size_t k = 0; k < paths.size(); ++k) {
-      alone = alone && (k == i || differ(better[i]->candidate, paths[k].candidate));
-    }
-    if (alone) paths[i] = std::move(*better[i]);
+  std::vector<VerifiedPath> better;
+  for (std::optional<VerifiedPath>& path : all) {
+    if (path) better.push_back(std::move(*path));
   }
+  return better;
 }
 
 std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most) {

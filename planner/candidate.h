@@ -41,9 +41,10 @@ VerifiedPaths verify_all(const World& verdict, const World& searched,
 /// 2 m and 4 % of the way somewhere.
 std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most);
 
-/// Puts an improved path (`improved`) in the place of each that has one, where it passes
-/// verification with no smaller margin and still differs from all others.
-void improve(const World& verdict, const World& searched, std::vector<VerifiedPath>& paths);
+/// Of paths that passed, the improved ones (`improved`): those that pass verification in their
+/// turn, with no smaller margin.
+std::vector<VerifiedPath> improved_paths(const World& verdict, const World& searched,
+                                         const std::vector<VerifiedPath>& paths);
 
 /// Fills in what depends on the soils' uncertainty.
 void add_spread(const PlanningProblem& problem, VerifiedPath& path);

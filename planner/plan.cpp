@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "planner/candidate.h"
 #include "planner/relaxation.h"
@@ -196,11 +197,13 @@ PlanResult plan(const PlanningProblem& problem,
   const Clock::time_point verification_start = Clock::now();
   VerifiedPaths verified = verify_all(verdict, world, found, on_progress);
   result.overturned = std::move(verified.overturned);
-  std::vector<VerifiedPath> chosen =
-      different_paths(std::move(verified.passed), problem.search.candidates);
+  std::vector<VerifiedPath> chosen = different_paths(verified.passed, problem.search.candidates);
   if (problem.search.improve && !stop.stop_requested()) {
     on_progress({.stage = "improving", .found = static_cast<int>(chosen.size())});
-    improve(verdict, world, chosen);
+    // The improved stand first among equals; the others fill in where they differ.
+    std::vector<VerifiedPath> all = improved_paths(verdict, world, chosen);
+    std::move(verified.passed.begin(), verified.passed.end(), std::back_inserter(all));
+    chosen = different_paths(std::move(all), problem.search.candidates);
   }
   for (std::size_t i = 0; i < chosen.size() && !stop.stop_requested(); ++i) {
     on_progress({.stage = "drawing soils",

@@ -43,8 +43,11 @@ VehicleControl steered_back(const PlanningProblem& problem, const VehicleControl
       std::clamp(curvature, -vehicle.curvature_max_1pm, vehicle.curvature_max_1pm);
   // Never across standstill: that would change where the path turns round.
   if (commanded.speed_target_mps * direction > 0) {
-    control.speed_target_mps =
-        direction * std::clamp(direction * speed, 0.0, problem.speed_max_mps);
+    // To catch up it keeps as far below the limit as searches do: a replay may be a little faster.
+    constexpr double kCatchUpShare = 0.95;
+    const double most =
+        std::max(std::abs(commanded.speed_target_mps), kCatchUpShare * problem.speed_max_mps);
+    control.speed_target_mps = direction * std::clamp(direction * speed, 0.0, most);
   }
   return control;
 }

@@ -11,8 +11,8 @@ namespace regoplan {
 ///   speed     = commanded speed - (distance ahead) / 1 s
 /// with the offset to the left, L twice the longest arm of a wheel, both in the
 /// frame of where it should be; in reverse the heading's term has the other sign. Errors below
-/// 2 cm and .01 rad are left alone. Within the vehicle's curvature and the speed limit; at rest
-/// nothing is corrected.
+/// 2 cm and .01 rad are left alone. Within the vehicle's curvature; no faster than commanded or 95
+/// % of the speed limit; at rest nothing is corrected.
 VehicleControl steered_back(const PlanningProblem& problem, const VehicleControl& commanded,
                             const VehicleState& due, const VehicleState& actual);
 
