@@ -55,9 +55,9 @@ std::string_view name(PlanStatus status) {
 }
 
 const std::vector<std::string>& planner_names() {
-  static const std::vector<std::string> names{"auto",      "Lattice",  "StableSparse", "SST",
-                                              "RRT",       "KPIECE1",  "EST",          "PDST",
-                                              "SyclopRRT", "SyclopEST"};
+  static const std::vector<std::string> names{"auto", "Lattice",   "StableSparse", "StateCost",
+                                              "SST",  "RRT",       "KPIECE1",      "EST",
+                                              "PDST", "SyclopRRT", "SyclopEST"};
   return names;
 }
 

@@ -47,7 +47,7 @@ std::vector<TruthEffect> effects_on_sides() {
        {.side = true},
        [](P p, double a, double) { return tilted(p, a, RutProfile::kStep); }},
       {"rut_asymmetry",
-       "inner_wall",
+       "strips_with_inner_wall",
        kRutSource,
        .3,
        .8,
