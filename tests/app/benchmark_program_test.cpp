@@ -160,10 +160,7 @@ TEST(BenchmarkProgram, ASweepIsAnExperimentForEachValue) {
 
 void expect_refused(const ScratchFolder& folder, const std::string& arguments,
                     const std::string& words) {
-  const ProgramRun run = run_program(folder, arguments);
-  EXPECT_EQ(run.status, 1) << words;
-  EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
-  EXPECT_NE(run.errors.find(words), std::string::npos) << run.errors;
+  expect_refusal(run_program(folder, arguments), {words});
 }
 
 TEST(BenchmarkProgram, RefusesBadInputInOneLine) {

@@ -28,12 +28,7 @@ class Diagnose : public testing::Test {
 
   /// Expects one line that holds all of `words`, status 1 and nothing written.
   void expect_refused(const ProgramRun& run, const std::vector<std::string>& words) const {
-    EXPECT_EQ(run.status, 1);
-    EXPECT_EQ(run.output, "");
-    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
-    for (const std::string& word : words) {
-      EXPECT_NE(run.errors.find(word), std::string::npos) << word << " in: " << run.errors;
-    }
+    expect_refusal(run, words);
     EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
   }
 

@@ -1,4 +1,5 @@
 // `evaluate` as a person meets it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,13 +30,7 @@ class Evaluate : public testing::Test {
 
   /// Expects one line that holds all of `words`, status 1 and nothing written.
   void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    const ProgramRun run = evaluate(arguments);
-    EXPECT_EQ(run.status, 1);
-    EXPECT_EQ(run.output, "");
-    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
-    for (const std::string& word : words) {
-      EXPECT_NE(run.errors.find(word), std::string::npos) << word << " in: " << run.errors;
-    }
+    expect_refusal(evaluate(arguments), words);
     EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
   }
 
@@ -158,7 +153,7 @@ TEST_F(Evaluate, BadPathsAreRefusedWithFileAndLine) {
   expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,-1\n20,20,1\n30,20,0\n"),
                  {"p.csv:3: speed_mps: 1 is not valid", "one direction"});
   expect_refused(file("p.csv", ""), {"p.csv: empty"});
-  expect_refused("'" + folder_.path("none.csv") + "'", {"none.csv: no such file"});
+  expect_refused(fmt::format("'{}'", folder_.path("none.csv")), {"none.csv: no such file"});
   expect_refused(file("p.csv", "x_m,y_m\n10,20\n20,20\n") + " --speed 50", {"--speed: 50"});
   expect_refused("", {"nothing to evaluate"});
 }

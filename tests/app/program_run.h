@@ -1,9 +1,12 @@
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "tests/app/scratch_folder.h"
 
@@ -26,6 +29,17 @@ inline ProgramRun run_program(const ScratchFolder& folder, const std::string& ar
   std::filesystem::remove(folder.path(".output"));
   std::filesystem::remove(folder.path(".errors"));
   return run;
+}
+
+/// Expects bad input to be refused: one line that holds all of `words`, status 1, no output.
+inline void expect_refusal(const ProgramRun& run, const std::vector<std::string>& words) {
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.output, "");
+  EXPECT_TRUE(run.errors.starts_with("regoplan: ")) << run.errors;
+  EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
+  for (const std::string& word : words) {
+    EXPECT_NE(run.errors.find(word), std::string::npos) << word << " in: " << run.errors;
+  }
 }
 
 }  // namespace regoplan

@@ -33,16 +33,9 @@ class BadScenario : public testing::Test {
   /// Plans; expects one line that holds all of `words`, status 1 and nothing written.
   void expect_refused(const std::vector<std::string>& words, const std::string& more = "") const {
     const long files = folder_.count();
-    const ProgramRun run =
-        run_program(folder_, "plan '" + folder_.path("scenario.yaml") + "' --out '" +
-                                 folder_.path("out") + "' " + more);
-    EXPECT_EQ(run.status, 1);
-    EXPECT_EQ(run.output, "");
-    EXPECT_TRUE(run.errors.starts_with("regoplan: ")) << run.errors;
-    EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
-    for (const std::string& word : words) {
-      EXPECT_NE(run.errors.find(word), std::string::npos) << word << " in: " << run.errors;
-    }
+    expect_refusal(run_program(folder_, "plan '" + folder_.path("scenario.yaml") + "' --out '" +
+                                            folder_.path("out") + "' " + more),
+                   words);
     EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
     EXPECT_EQ(folder_.count(), files);
   }
