@@ -68,7 +68,7 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
       posterior_of(bed, problem.discrepancy, linearised(bed, fit), settings);
   const Eigen::VectorXd goal = posterior.x.head(fit.x.size());
   const double before = cost(fit.prediction, fit.x);
-  for (double share = 1; share > 0.02; share *= 0.4) {
+  for (const double share : {1.0, 0.4, 0.16, 0.064, 0.0256}) {
     const Eigen::VectorXd x =
         (fit.x + share * (goal - fit.x)).cwiseMin(kFarthest).cwiseMax(-kFarthest);
     const auto prediction = predict(bed, problem.soil, fit.candidate, x);

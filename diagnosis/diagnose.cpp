@@ -247,7 +247,7 @@ class Diagnosing {
   std::vector<NameClass> proven_one_by_one() {
     constexpr int kMostPairs = 3;
     for (int tried = 0;; ++tried) {
-      const std::vector<NameClass> claimed = claimed_names(scored_);
+      std::vector<NameClass> claimed = claimed_names(scored_);
       if (claimed.size() < 2) return claimed;
       const auto idle = idle_effect(claimed);
       if (!idle) return claimed;
