@@ -52,7 +52,7 @@ int SparseTree::grow(DriveNode node) {
   const int number = free_.back();
   free_.pop_back();
   std::vector<int>& there = buckets_[static_cast<std::size_t>(bucket)];
-  nodes_[static_cast<std::size_t>(number)] = std::move(node);
+  nodes_[static_cast<std::size_t>(number)] = node;
   status_[static_cast<std::size_t>(number)] = {
       .cell = cell, .bucket = bucket, .place = there.size(), .in_use = true};
   there.push_back(number);
@@ -116,7 +116,8 @@ int SparseTree::select(const VehicleState& near) const {
   double least = std::numeric_limits<double>::infinity(), shortest = least;
   const auto consider = [&](int c, int r) {
     if (c < 0 || c >= columns_ || r < 0 || r >= rows_) return;
-    for (const int node : buckets_[static_cast<std::size_t>(r * columns_ + c)]) {
+    const int bucket = r * columns_ + c;
+    for (const int node : buckets_[static_cast<std::size_t>(bucket)]) {
       const DriveNode& known = nodes_[static_cast<std::size_t>(node)];
       const double away = distance_m(known.values.vehicle, near);
       if (away < shortest) {

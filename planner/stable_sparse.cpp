@@ -109,7 +109,7 @@ bool StableSparse::extend(int parent, const Drive& drive) {
     drives.push_back(node.drive);
     return best_.offer(node.cost, std::move(drives));
   }
-  if (tree_.welcome(node.values.vehicle, node.cost)) tree_.grow(std::move(node));
+  if (tree_.welcome(node.values.vehicle, node.cost)) tree_.grow(node);
   return false;
 }
 
