@@ -37,9 +37,22 @@ std::vector<std::string> planner_order(const JournalContents& contents) {
   return order;
 }
 
+/// OMPL gives progress in the order of the names; its readers expect the time first.
+void put_time_first(BenchmarkRecord& record) {
+  std::vector<std::string>& names = record.progress_names;
+  const auto time = std::find(names.begin(), names.end(), "time REAL");
+  if (time == names.end()) return;
+  const auto place = time - names.begin();
+  std::rotate(names.begin(), time, time + 1);
+  for (std::vector<std::string>& sample : record.progress) {
+    std::rotate(sample.begin(), sample.begin() + place, sample.begin() + place + 1);
+  }
+}
+
 void describe(PlannerRuns& planner) {
   std::set<std::string> names;
-  for (const RunRecord& run : planner.runs) {
+  for (RunRecord& run : planner.runs) {
+    put_time_first(run.outcome);
     for (const auto& [name, value] : run.outcome.properties) names.insert(name);
     if (planner.settings.empty()) planner.settings = run.outcome.settings;
     if (planner.progress_properties.empty()) {

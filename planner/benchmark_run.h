@@ -30,7 +30,7 @@ struct BenchmarkRun {
 struct BenchmarkRecord {
   std::map<std::string, std::string> settings;     ///< of the planner
   std::map<std::string, std::string> properties;   ///< of the run
-  std::vector<std::string> progress_names;         ///< `time REAL` first, where there is progress
+  std::vector<std::string> progress_names;         ///< in the order of OMPL: by name
   std::vector<std::vector<std::string>> progress;  ///< by sample
   std::vector<std::array<double, 3>> path;         ///< x_m, y_m, margin of the verified replay
 };
