@@ -81,7 +81,7 @@ const ScoredId* best_of(const std::vector<ScoredId>& scored,
                         const std::vector<NameClass>& claimed) {
   const ScoredId* best = nullptr;
   for (const ScoredId& s : scored) {
-    if (!is_of(s, claimed)) continue;
+    if (s.given_up || !is_of(s, claimed)) continue;
     if (best == nullptr || s.probability > best->probability) best = &s;
   }
   return best;
@@ -172,6 +172,7 @@ std::vector<Claim> claims_of(const FitProblem& problem, const std::vector<Scored
       }
       double with = -INFINITY, without = -INFINITY;
       for (const ScoredId& s : scored) {
+        if (s.given_up) continue;
         const std::set<std::string> ids = parts_of(s.id);
         const bool named =
             std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "terramech/input_error.h"
 
@@ -68,6 +69,12 @@ bool side_is_turned(const Recording& recording, const std::vector<std::size_t>& 
     (fy * run.slip_angle_rad > 0 ? against : along) += std::abs(fy);
   }
   return along > 3 * against;
+}
+
+std::size_t days_of(const Recording& recording) {
+  std::set<double> days;
+  for (const WheelRun& run : recording.runs) days.insert(run.day);
+  return days.size();
 }
 
 std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
@@ -212,11 +219,15 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup) {
     if (measured == 0) continue;
     result.noise.push_back(
         estimate_noise(recording, bed.conditions, channel, adjusted, modelled, setup));
-    result.notes.push_back(noise_note(recording, result.noise.back()));
-    bed.channels.push_back(means_of(recording, bed.conditions, result.noise.back(), adjusted));
     result.adjusted.push_back(std::move(adjusted));
   }
-  if (bed.channels.empty()) throw InputError("recording: no channel is measured");
+  if (result.noise.empty()) throw InputError("recording: no channel is measured");
+  share_day_offsets(result.noise, days_of(recording));
+  for (std::size_t c = 0; c < result.noise.size(); ++c) {
+    result.notes.push_back(noise_note(recording, result.noise[c]));
+    bed.channels.push_back(
+        means_of(recording, bed.conditions, result.noise[c], result.adjusted[c]));
+  }
   bed.accuracy = sufficient_accuracy(bed);
   result.correlation = noise_correlation(result.noise, bed.conditions, result.adjusted);
   return result;

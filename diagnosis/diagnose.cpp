@@ -77,8 +77,10 @@ class Diagnosing {
     found_.before = lack_of_fit(recording, remainder, options_.seed);
     found_.after = found_.before;
     unfit_ = found_.before.f > found_.before.critical;
-    for (Eigen::Index i = 0; i < base.x.size() && loose; ++i) {
-      if (std::abs(kWide * loose->x[i]) > kWorstPull) unfit_ = true;
+    if (loose && !unfit_ && kWide * loose->x.lpNorm<Eigen::Infinity>() > kWorstPull) {
+      // too far, unless numbers nearer to their tests fit as well
+      const LackOfFit near = lack_of_fit(recording, calibrated_.remainder_of(base), options_.seed);
+      unfit_ = near.f > near.critical;
     }
     stands_out_ = p_value_along(recording, remainder, directions(), options_.seed) < 0.005;
     rejected_ = unfit_ || stands_out_;
@@ -123,7 +125,12 @@ class Diagnosing {
       }
     }
     rejected_ = unfit_ || stands_out_ || named > parameters + kClearEvidence;
-    weigh(scored_, !rejected_);
+    weigh(scored_, plain_model());
+  }
+
+  PlainModel plain_model() const {
+    if (unfit_) return PlainModel::kRefuted;
+    return rejected_ ? PlainModel::kDoubted : PlainModel::kHolds;
   }
 
   void decide() {
@@ -131,7 +138,7 @@ class Diagnosing {
       nothing_is_missing();
       return;
     }
-    NameContest contest(calibrated_, scored_, options_.threads);
+    NameContest contest(calibrated_, scored_, plain_model(), options_.threads);
     const auto claim = contest.decide();
     scored_ = contest.scored();
     add_notes(contest.notes());
@@ -148,7 +155,7 @@ class Diagnosing {
     } else {
       // only a name's evidence spoke against the calibrated model, and the name does not hold
       nothing_is_missing();
-      weigh(scored_, true);
+      weigh(scored_, PlainModel::kHolds);
     }
   }
 

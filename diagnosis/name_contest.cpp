@@ -11,8 +11,8 @@
 namespace regoplan {
 namespace {
 
-constexpr double kClearGain = 2;      // standard errors of the held-out gain
-constexpr double kWorthNaming = 0.5;  // share of the excess misfit that a claim explains
+constexpr double kClearGain = 2;            // standard errors of the held-out gain
+constexpr double kWorthNaming = 1.0 / 3.0;  // share of the excess misfit that a claim explains
 
 /// What a claim explains on held-out conditions, and of the pulls on the soil numbers.
 struct Worth {
@@ -79,10 +79,11 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
         "errors only: the pair is given up",
         claimed[0].ids.front(), claimed[1].ids.front(), claimed[idle->effect].ids.front(),
         idle->gain));
-    std::erase_if(scored_, [&](const ScoredId& s) {
-      return is_of(s, claimed) || (tried + 1 == kMostPairs && s.id.find('+') != s.id.npos);
-    });
-    weigh(scored_, false);
+    for (ScoredId& s : scored_) {
+      const bool pair_too_many = tried + 1 == kMostPairs && s.id.find('+') != s.id.npos;
+      s.given_up = s.given_up || pair_too_many || is_of(s, claimed);
+    }
+    weigh(scored_, plain_);
   }
 }
 
@@ -92,8 +93,8 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
 bool NameContest::another_holds(const std::vector<NameClass>& refuted, const std::string& best) {
   const std::vector<ScoredId> before = scored_;
   const std::size_t notes = notes_.size();
-  std::erase_if(scored_, [&](const ScoredId& s) { return s.id == best; });
-  weigh(scored_, false);
+  for (ScoredId& s : scored_) s.given_up = s.given_up || s.id == best;
+  weigh(scored_, plain_);
   const std::vector<NameClass> claimed = proven_one_by_one();
   const ScoredId* other = claimed.empty() ? nullptr : best_of(scored_, claimed);
   const auto was_named = [&](const Effect& effect) {
@@ -107,7 +108,7 @@ bool NameContest::another_holds(const std::vector<NameClass>& refuted, const std
   }
   scored_ = before;
   notes_.resize(notes);
-  weigh(scored_, false);
+  weigh(scored_, plain_);
   return false;
 }
 

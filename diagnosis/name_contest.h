@@ -22,13 +22,15 @@ struct ProvenClaim {
 /// name. What does not hold is given up, and the rest is weighed anew.
 class NameContest {
  public:
-  NameContest(const CalibratedRecording& calibrated, std::vector<ScoredId> scored, int threads)
-      : calibrated_(calibrated), scored_(std::move(scored)), threads_(threads) {}
+  /// \param scored weighed
+  NameContest(const CalibratedRecording& calibrated, std::vector<ScoredId> scored, PlainModel plain,
+              int threads)
+      : calibrated_(calibrated), scored_(std::move(scored)), plain_(plain), threads_(threads) {}
 
   /// The claim that holds, if any does.
   std::optional<ProvenClaim> decide();
 
-  /// What is left of the candidates, weighed.
+  /// The candidates, weighed as far as they are not given up.
   const std::vector<ScoredId>& scored() const { return scored_; }
   /// What was given up, and why.
   const std::vector<std::string>& notes() const { return notes_; }
@@ -45,6 +47,7 @@ class NameContest {
 
   const CalibratedRecording& calibrated_;
   std::vector<ScoredId> scored_;
+  PlainModel plain_;
   int threads_;
   std::vector<std::string> notes_;
 };

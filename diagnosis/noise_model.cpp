@@ -273,6 +273,25 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   return noise;
 }
 
+void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days) {
+  constexpr double kSharedDegrees = 2;
+  double sum = 0, channels = 0;
+  for (const ChannelNoise& one : noise) {
+    if (one.source != NoiseSource::kReplicates || one.day_assumed) continue;
+    sum += std::pow(one.day_offset / one.constant, 2);
+    ++channels;
+  }
+  if (days < 2 || channels < 2) return;
+  const auto own_degrees = static_cast<double>(days - 1);
+  for (ChannelNoise& one : noise) {
+    if (one.source != NoiseSource::kReplicates || one.day_assumed) continue;
+    const double own = std::pow(one.day_offset / one.constant, 2);
+    one.day_offset =
+        one.constant * std::sqrt((own_degrees * own + kSharedDegrees * sum / channels) /
+                                 (own_degrees + kSharedDegrees));
+  }
+}
+
 Eigen::MatrixXd noise_correlation(const std::vector<ChannelNoise>& noise,
                                   const std::vector<Condition>& conditions,
                                   const std::vector<std::vector<double>>& adjusted) {

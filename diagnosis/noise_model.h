@@ -36,6 +36,11 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
                             Channel channel, const std::vector<double>& adjusted,
                             const std::vector<double>& model, const DiagnosisSetup& setup);
 
+/// Days are few, so that a channel may by chance not show what the bed did to all of them: moves
+/// each channel's day offset, over its scatter, toward the mean square of all, as if that were
+/// known from three days.
+void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days);
+
 /// Standard deviation of one run that measures y, without its day's part.
 double run_deviation(const ChannelNoise& noise, double y);
 

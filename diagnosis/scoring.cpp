@@ -10,14 +10,16 @@
 namespace regoplan {
 namespace {
 
-/// Scores are tempered: forms are only proxies of what acts, so that their scores are sharper than
-/// they deserve. Chosen near the best of a coarse grid of the log likelihood of the true names of
-/// 84 generated challenges (temperature 2 to 2.5, pairs -6 to -5, unexplained 2, the grid's edge),
-/// with pairs a little likelier. `unexplained` was scored more strictly then: not yet refitted.
-constexpr double kTemperature = 2;
-constexpr double kPairLogPrior = -4.5;      // each
-constexpr double kUnexplainedLogPrior = 2;  // of things on no list there are many
-constexpr double kNoLackOfFitLogPrior = 12;
+/// Forms are only proxies of what acts: what a name loses by that grows with the signal, and so
+/// does the temperature that scores are divided by. A weak signal's scores are worth what they say.
+/// Temperature and priors were fitted to the log likelihood of the true names of 420 generated
+/// challenges; pairs were made a little likelier, as each of two effects must prove itself anyway.
+double temperature_of(double gain_nats) {
+  return 1.2 + 0.2 * std::log1p(std::max(0.0, gain_nats) / 10);
+}
+constexpr double kPairLogPrior = -5.3;        // each
+constexpr double kUnexplainedLogPrior = 3.3;  // of things on no list there are many
+constexpr double kHoldsLogPrior = 12;
 constexpr std::size_t kBestSingles = 7;
 constexpr std::size_t kPartnersOfBest = 5;
 
@@ -221,14 +223,21 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
   return all;
 }
 
-void weigh(std::vector<ScoredId>& scored, bool no_lack_of_fit) {
+void weigh(std::vector<ScoredId>& scored, PlainModel plain) {
+  double best = -INFINITY, parameters = 0;
+  for (const ScoredId& s : scored) {
+    best = std::max(best, s.score);
+    if (s.id == "parameters") parameters = s.score;
+  }
+  const double temperature = temperature_of(best - parameters);
   std::vector<double> terms;
   for (const ScoredId& s : scored) {
-    const bool pair = s.id.find('+') != std::string::npos;
-    double prior = pair ? kPairLogPrior : 0;
+    const bool is_plain = s.id == "none" || s.id == "parameters";
+    double prior = s.id.find('+') != std::string::npos ? kPairLogPrior : 0;
     if (s.id == "unexplained") prior = kUnexplainedLogPrior;
-    if (no_lack_of_fit && (s.id == "none" || s.id == "parameters")) prior = kNoLackOfFitLogPrior;
-    terms.push_back(s.score / kTemperature + prior);
+    if (is_plain && plain == PlainModel::kHolds) prior = kHoldsLogPrior;
+    const bool out = s.given_up || (is_plain && plain == PlainModel::kRefuted);
+    terms.push_back(out ? -INFINITY : s.score / temperature + prior);
   }
   const double whole = log_sum(terms);
   for (std::size_t i = 0; i < scored.size(); ++i) {

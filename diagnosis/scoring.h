@@ -13,7 +13,8 @@ struct ScoredId {
   std::string id;
   double score = 0;  ///< log marginal likelihood, forms marginalised
   double probability = 0;
-  CandidateFit fit;  ///< of the likeliest form
+  CandidateFit fit;       ///< of the likeliest form
+  bool given_up = false;  ///< held-out conditions or its own numbers speak against it
 };
 
 struct ScoringOptions {
@@ -28,8 +29,15 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
                                        const std::vector<Effect>& effects,
                                        const ScoringOptions& options);
 
-/// Fills in the probabilities.
-/// \param no_lack_of_fit whether the test for lack of fit stays silent
-void weigh(std::vector<ScoredId>& scored, bool no_lack_of_fit);
+/// What the tests say of the calibrated model without any effect.
+enum class PlainModel {
+  kHolds,    ///< nothing speaks against it
+  kDoubted,  ///< no lack of fit, but the misfit lies along some effect
+  kRefuted,  ///< lack of fit, or soil numbers farther from their tests than can be
+};
+
+/// Fills in the probabilities, the likeliest first; 0 for what is given up and for what the tests
+/// refute.
+void weigh(std::vector<ScoredId>& scored, PlainModel plain);
 
 }  // namespace regoplan

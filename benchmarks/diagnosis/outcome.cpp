@@ -24,7 +24,8 @@ Outcome outcome_of(const Diagnosis& diagnosis, std::size_t rows, double seconds)
                   .p_before = diagnosis.before.p_value,
                   .p_after = diagnosis.after.p_value,
                   .seconds = seconds,
-                  .sentence = diagnosis.sentence};
+                  .sentence = diagnosis.sentence,
+                  .notes = diagnosis.notes};
   for (const Claim& claim : diagnosis.claims) {
     OutcomeClaim said{.ids = {claim.id}, .probability = claim.probability};
     for (const std::string& id : claim.equivalent) {
@@ -37,11 +38,13 @@ Outcome outcome_of(const Diagnosis& diagnosis, std::size_t rows, double seconds)
         {std::string(name(fit.channel)), fit.noise_floor, fit.calibrated_rmse, fit.corrected_rmse});
   }
   for (const MismatchRegion& region : diagnosis.where) {
-    const auto angles = region.region.find("slip_angle_deg");
-    if (angles == region.region.end()) continue;
-    const auto [low, high] = angles->second;
-    const double from = low > 0 ? low : (high < 0 ? -high : 0);
-    outcome.largest_angle_from_deg = std::max(outcome.largest_angle_from_deg, from);
+    for (const char* column : {"slip_angle_deg", "abs_slip_angle_deg"}) {
+      const auto angles = region.region.find(column);
+      if (angles == region.region.end()) continue;
+      const auto [low, high] = angles->second;
+      const double from = low > 0 ? low : (high < 0 ? -high : 0);
+      outcome.largest_angle_from_deg = std::max(outcome.largest_angle_from_deg, from);
+    }
   }
   for (const Experiment& experiment : diagnosis.next_experiments) {
     if (experiment.further_sensor) {
@@ -73,7 +76,8 @@ nlohmann::json outcome_json(const Outcome& o) {
           {"p_before", number(o.p_before)},
           {"p_after", number(o.p_after)},
           {"seconds", o.seconds},
-          {"sentence", o.sentence}};
+          {"sentence", o.sentence},
+          {"notes", o.notes}};
 }
 
 Outcome outcome_from(const nlohmann::json& json) {
@@ -86,7 +90,8 @@ Outcome outcome_from(const nlohmann::json& json) {
             .p_before = number_from(json.at("p_before")),
             .p_after = number_from(json.at("p_after")),
             .seconds = json.at("seconds").get<double>(),
-            .sentence = json.at("sentence").get<std::string>()};
+            .sentence = json.at("sentence").get<std::string>(),
+            .notes = json.at("notes").get<std::vector<std::string>>()};
   for (const auto& claim : json.at("claims")) {
     o.claims.push_back({.ids = claim.at("ids").get<std::vector<std::string>>(),
                         .probability = number_from(claim.at("probability"))});

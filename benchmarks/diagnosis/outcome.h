@@ -31,6 +31,7 @@ struct Outcome {
   double p_before = 1, p_after = 1;
   double seconds = 0;  ///< of the processor
   std::string sentence;
+  std::vector<std::string> notes;
 };
 
 Outcome outcome_of(const Diagnosis& diagnosis, std::size_t rows, double seconds);

@@ -65,6 +65,21 @@ TEST(NoiseModel, TellsDaysFromScatter) {
   EXPECT_GT(noise.day_offset, 0.5);
 }
 
+TEST(NoiseModel, WhatDaysDoToOtherChannelsIsHeldPossibleForAChannelThatDoesNotShowIt) {
+  std::vector<ChannelNoise> noise{{.constant = 2, .day_offset = 0},
+                                  {.constant = 0.1, .day_offset = 0.1},
+                                  {.constant = 5, .day_offset = 5}};
+  share_day_offsets(noise, 3);
+  EXPECT_NEAR(noise[0].day_offset, 2 * std::sqrt(1.0 / 3), 1e-12);
+  EXPECT_NEAR(noise[1].day_offset, 0.1 * std::sqrt(5.0 / 6), 1e-12);
+
+  std::vector<ChannelNoise> many = noise;
+  share_day_offsets(many, 1000);  // then every channel speaks for itself
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    EXPECT_NEAR(many[c].day_offset, noise[c].day_offset, 0.01 * noise[c].constant);
+  }
+}
+
 TEST(NoiseModel, AnOutlierIsNamedAndDoesNotSpoilTheScatter) {
   Bed made = bed(40, 3, 0.5, 0, 0, 4);
   made.value[31] += 8;

@@ -52,5 +52,19 @@ TEST(StrayRuns, ThreeReplicatesSpeakForThemselves) {
   }
 }
 
+TEST(StrayRuns, TwoStraysOfThreeAreNoMajority) {
+  const DiagnosisSetup setup = told_noise();
+  Recording recording = record({}, setup, setup.soil.mean, {.day = 0, .outliers = 0}, 4);
+  const CondensedRecording plain = condense(recording, setup);
+  const std::vector<std::size_t> runs = plain.bed.conditions[plain.condition[17]].runs;
+  ASSERT_EQ(runs.size(), 3);
+  recording.runs[runs[1]].measured[0] += 9;
+  recording.runs[runs[2]].measured[0] += 8;
+  const std::vector<double> weight = weighed_down(recording, setup).noise[0].weight;
+  EXPECT_EQ(weight[runs[0]], 1);
+  EXPECT_LT(weight[runs[1]], 0.1);
+  EXPECT_LT(weight[runs[2]], 0.1);
+}
+
 }  // namespace
 }  // namespace regoplan
