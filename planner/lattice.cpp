@@ -161,9 +161,15 @@ Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminati
 void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
   const std::vector<LatticeResolution> resolutions =
       lattice_resolutions(problem_.world().problem());
-  // A careful look first; where that does not lead there soon, greedier ones.
+  // A careful look first; where that does not lead there soon, slower ones, for a vehicle that may
+  // go faster than the ground lets it turn, and greedier ones.
   constexpr double kCareful = 2.5, kGreedy = 4;
-  std::vector<Round> rounds{{.resolution = resolutions.front(), .weight = kCareful}};
+  std::vector<Round> rounds;
+  for (const double share : {1.0, 0.5, 0.25}) {
+    Round& round =
+        rounds.emplace_back(Round{.resolution = resolutions.front(), .weight = kCareful});
+    round.resolution.speed_max_mps *= share;
+  }
   for (const LatticeResolution& resolution : resolutions) {
     rounds.push_back({.resolution = resolution, .weight = kGreedy});
   }

@@ -77,7 +77,8 @@ std::vector<LatticeResolution> lattice_resolutions(const PlanningProblem& proble
                              .speeds = 4 << level,
                              .travel_m = scale * radius_m * 1.5,
                              .curvatures = 2 + level,
-                             .reverse = reverse});
+                             .reverse = reverse,
+                             .speed_max_mps = problem.speed_max_mps});
     }
   }
   std::stable_sort(resolutions.begin(), resolutions.end(),
@@ -91,7 +92,7 @@ std::uint64_t lattice_cell(const LatticeResolution& resolution, const PlanningPr
   const auto part = [](double value) { return static_cast<std::uint64_t>(std::max(0.0, value)); };
   const double turn = state.yaw_rad / (2 * std::numbers::pi);
   const auto heading = part((turn - std::floor(turn)) * resolution.headings);
-  const double speed = 1 + state.motion.vx_mps / problem.speed_max_mps;  // in reverse too
+  const double speed = 1 + state.motion.vx_mps / resolution.speed_max_mps;  // in reverse too
   return part((state.x_m - frame.west_m) / resolution.cell_m) << 40 |
          part((state.y_m - frame.south_m()) / resolution.cell_m) << 16 | heading << 6 |
          part(speed * resolution.speeds);
@@ -109,10 +110,10 @@ std::vector<Drive> lattice_drives(const LatticeResolution& resolution, const Omp
                       .steps = steps});
   };
   // To hold the speed takes no traction: a way on where the ground gives none to spare.
-  const double held = std::min(speed_now / problem.speed_max_mps, kFast);
+  const double held = std::min(speed_now / resolution.speed_max_mps, kFast);
   for (const double share : {kFast, kMedium, kSlow, held}) {
     if (share < kSlowest) continue;
-    const double target = share * problem.speed_max_mps;
+    const double target = share * resolution.speed_max_mps;
     const double end =
         speed_after_mps(vehicle, std::max(0.0, speed_now), target, resolution.travel_m);
     const double reach = curvature_reach_1pm(problem, std::max(speed_now, end));
@@ -126,8 +127,8 @@ std::vector<Drive> lattice_drives(const LatticeResolution& resolution, const Omp
     const CostToGo::Place place = lattice.way().ahead(from.x_m, from.y_m, ahead_m);
     add(target, pursuit_curvature_1pm(from, place.x_m, place.y_m, reach), steps);
   }
-  if (!resolution.reverse || speed_now > kSlow * problem.speed_max_mps) return drives;
-  const double target = -kSlow * problem.speed_max_mps;
+  if (!resolution.reverse || speed_now > kSlow * resolution.speed_max_mps) return drives;
+  const double target = -kSlow * resolution.speed_max_mps;
   const double reach = curvature_reach_1pm(problem, target);
   const int steps =
       steps_of(vehicle, resolution.travel_m, std::max(0.0, -speed_now), -target, step_s);
@@ -166,9 +167,9 @@ double rough_cost_to_go(const LatticeResolution& resolution, const OmplProblem& 
   const double radius_m = 1 / problem.vehicle.curvature_max_1pm;
   const double away_m = std::hypot(state.x_m - problem.goal.x_m, state.y_m - problem.goal.y_m);
   // Turns are driven at the speed that turns fastest; what they add counts at that speed.
-  const double top = kFast * problem.speed_max_mps;
+  const double top = kFast * resolution.speed_max_mps;
   const double turning =
-      std::clamp(fastest_turning_mps(problem), kSlow * problem.speed_max_mps, top);
+      std::clamp(fastest_turning_mps(problem), kSlow * resolution.speed_max_mps, top);
   double excess_m = 0;
   if (problem.goal.heading_rad) {
     const double around_m = tightest_way_m(problem, resolution.reverse, state);
@@ -186,7 +187,7 @@ double rough_cost_to_go(const LatticeResolution& resolution, const OmplProblem& 
   const double short_of = std::max(0.0, wanted - state.motion.vx_mps);
   const double acceleration_s =
       short_of * short_of / (2 * wanted * problem.vehicle.acceleration_max_mps2);
-  return rough_cost(problem, way_m, way_m / problem.speed_max_mps) +
+  return rough_cost(problem, way_m, way_m / resolution.speed_max_mps) +
          problem.search.objective.per_s * acceleration_s;
 }
 

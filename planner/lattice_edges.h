@@ -15,6 +15,7 @@ struct LatticeResolution {
   double travel_m = 0;  ///< of a drive
   int curvatures = 0;   ///< to either side
   bool reverse = false;
+  double speed_max_mps = 0;  ///< of its drives, at most the problem's
 };
 
 /// The resolutions that a lattice goes through, the coarsest first: forward, then in reverse too.

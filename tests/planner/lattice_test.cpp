@@ -36,6 +36,15 @@ TEST(Lattice, AFewThousandStepsLeadThroughStaggeredGaps) {
   EXPECT_FALSE(driven.rejection);
 }
 
+TEST(Lattice, AllowingMoreSpeedThanTurnsBearTakesNoWayAway) {
+  PlanningProblem problem =
+      lrv_problem(one_soil_map(50, firm_regolith(), flat, two_rows_of_rocks()));
+  problem.speed_max_mps = 10;
+  const World world(problem, WorldUse::kSearch, 2);
+  PlannerRun run(world, "Lattice");
+  EXPECT_EQ(run.solve(20000), ob::PlannerStatus::EXACT_SOLUTION);
+}
+
 TEST(Lattice, WhatItFindsIsWhatTheDynamicsDo) {
   const PlanningProblem problem = lrv_problem(one_soil_map(
       50, firm_regolith(), [](double x, double y) { return 0.5 * std::sin(x / 5 + y / 7); }));
