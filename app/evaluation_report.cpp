@@ -35,6 +35,7 @@ std::string limiting_text(const PathEvaluation& e) {
 }
 
 std::string influence_text(const SoilSpread& spread) {
+  if (spread.draws > 0 && spread.influences.empty()) return "too few draws to tell";
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, spread.influences.size()); ++i) {
     const SoilInfluence& influence = spread.influences[i];

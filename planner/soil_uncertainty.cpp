@@ -100,6 +100,7 @@ void summarize(SoilSpread& spread, const PlanningProblem& problem, const SoilNum
     return m.smallest() >= problem.limits.margin_min;
   });
   spread.feasible = probability_of(static_cast<int>(allowed), static_cast<int>(margins.size()));
+  if (margins.size() < kDrawsANumber * numbers.size()) return;
   Eigen::VectorXd smallest(static_cast<Eigen::Index>(margins.size()));
   for (std::size_t i = 0; i < margins.size(); ++i) {
     smallest[static_cast<Eigen::Index>(i)] = margins[i].smallest();

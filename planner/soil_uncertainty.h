@@ -75,8 +75,10 @@ struct SoilSpread {
   PathMargins surrogate_error{.cornering = 0, .tip_over = 0, .traction = 0};
   int places = 0;  ///< of the path that were judged in each draw
   Quantiles cornering, tip_over, traction, margin;
-  Probability feasible;                   ///< that the smallest margin is allowed
-  std::vector<SoilInfluence> influences;  ///< the largest first
+  Probability feasible;  ///< that the smallest margin is allowed
+  /// The largest first; empty where the draws are fewer than `kDrawsANumber` for each uncertain
+  /// number: a regression on so few says nothing.
+  std::vector<SoilInfluence> influences;
   double explained = 0;  ///< of the margin's variance, by the regression behind `influences`
 };
 
@@ -91,5 +93,6 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
                        int threads);
 
 inline constexpr int kDirectDrawsMax = 200;
+inline constexpr std::size_t kDrawsANumber = 3;
 
 }  // namespace regoplan

@@ -112,5 +112,11 @@ TEST(SoilUncertainty, TheNumberThatAloneIsUncertainDecidesAlone) {
   EXPECT_GT(spread.influences[0].margin_per_std, 0);  // stronger soil holds better
 }
 
+TEST(SoilUncertainty, AFewDrawsDoNotTellWhatDecides) {
+  const Judged j = judged(uncertain_regolith());  // four uncertain numbers
+  EXPECT_TRUE(soil_spread(j.problem, j.states, j.at_mean, 11, 1, 2).influences.empty());
+  EXPECT_EQ(soil_spread(j.problem, j.states, j.at_mean, 12, 1, 2).influences.size(), 4);
+}
+
 }  // namespace
 }  // namespace regoplan
