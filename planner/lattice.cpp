@@ -6,6 +6,7 @@
 
 #include "planner/goal_connection.h"
 #include "planner/path_cost.h"
+#include "planner/path_improvement.h"
 #include "planner/steer_back.h"
 
 namespace regoplan {
@@ -25,6 +26,8 @@ void Lattice::clear() {
   nodes_.clear();
   cells_.clear();
   open_ = {};
+  bound_ = kNoBound;
+  found_.clear();
   best_.clear();
 }
 
@@ -32,6 +35,10 @@ void Lattice::push(const Round& round, double cost, const VehicleState& state, i
                    const std::optional<Drive>& drive) {
   const double rest = rough_cost_to_go(round.resolution, problem_, state);
   if (!std::isfinite(rest)) return;
+  // Steps of a grid along and across come to 8 % more than the way at most.
+  constexpr double kGrid = 0.92;
+  const double way_m = kGrid * problem_.way().cost_m(state.x_m, state.y_m);
+  if (cost + least_cost(problem_.world().problem(), way_m) >= bound_) return;
   open_.push({.priority = cost + round.weight * rest,
               .order = pushed_++,
               .node = node,
@@ -84,11 +91,10 @@ bool Lattice::connect(int index) {
     cost += step_cost(world, values, step, problem_.step_s());
     values = step.values;
     drives.push_back({.control = control, .steps = 1});
-    if (problem_.hopeless(cost, values.vehicle, best_.cost()) ||
-        !problem_.steps().allowed(values)) {
+    if (hopeless(cost, values.vehicle) || !problem_.steps().allowed(values)) {
       return false;
     }
-    if (world.at_goal(values.vehicle)) return best_.offer(cost, std::move(drives));
+    if (world.at_goal(values.vehicle)) return arrive(cost, std::move(drives));
   }
   return false;
 }
@@ -108,15 +114,14 @@ bool Lattice::try_drive(const Round& round, int parent, const Drive& drive) {
     if (!problem_.steps().allowed(node.values)) return false;
     if (!world.at_goal(node.values.vehicle)) continue;
     nodes_.push_back(node);
-    return best_.offer(node.cost, drives_to(nodes_, static_cast<int>(nodes_.size()) - 1));
+    return arrive(node.cost, drives_to(nodes_, static_cast<int>(nodes_.size()) - 1));
   }
   Cell& cell =
       cells_
           .try_emplace(lattice_cell(round.resolution, world.problem(), node.values.vehicle),
                        Cell{.cost = std::numeric_limits<double>::infinity()})
           .first->second;
-  if (cell.closed || node.cost >= cell.cost ||
-      problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) {
+  if (cell.closed || node.cost >= cell.cost || hopeless(node.cost, node.values.vehicle)) {
     return false;
   }
   cell.cost = node.cost;
@@ -140,7 +145,7 @@ Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminati
     const Entry entry = open_.top();
     open_.pop();
     const DriveNode& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) continue;
+    if (hopeless(node.cost, node.values.vehicle)) continue;
     if (!entry.drive) {
       Cell& cell =
           cells_[lattice_cell(round.resolution, problem_.world().problem(), node.values.vehicle)];
@@ -178,17 +183,57 @@ void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
   }
 }
 
+bool Lattice::arrive(double cost, std::vector<Drive> drives) {
+  if (!(cost < bound_)) return false;
+  bound_ = cost;
+  found_ = drives;
+  if (best_.offer(cost, std::move(drives))) announce(*this, problem_, starts_.front(), best_);
+  return true;
+}
+
+void Lattice::optimise() {
+  std::vector<ControlSegment> controls;
+  for (const Drive& drive : found_) {
+    controls.push_back({.duration_s = drive.steps * problem_.step_s(),
+                        .speed_target_mps = drive.control.speed_target_mps,
+                        .curvature_target_1pm = drive.control.curvature_target_1pm});
+  }
+  const std::optional<ImprovedPath> path = improved(problem_.steps(), controls);
+  if (!path) return;
+  std::vector<Drive> drives;
+  for (const ControlSegment& control : path->controls) {
+    drives.push_back(
+        {.control = {.speed_target_mps = control.speed_target_mps,
+                     .curvature_target_1pm = control.curvature_target_1pm},
+         .steps = static_cast<int>(std::lround(control.duration_s / problem_.step_s()))});
+  }
+  if (best_.offer(path->improvement.cost_after, std::move(drives))) {
+    announce(*this, problem_, starts_.front(), best_);
+  }
+}
+
 void Lattice::improve(const ob::PlannerTerminationCondition& stop) {
-  const std::vector<LatticeResolution> resolutions =
-      lattice_resolutions(problem_.world().problem());
-  for (const LatticeResolution& resolution : resolutions) {
-    for (const double weight : {2.5, 1.8, 1.4, 1.15, 1.0}) {
-      constexpr int kBound = 1 << 28;
-      for (RoundEnd end = RoundEnd::kFound; end == RoundEnd::kFound;) {
-        end = search({.resolution = resolution, .weight = weight, .drives_most = kBound}, stop);
-        if (end == RoundEnd::kStopped) return;
-        if (end == RoundEnd::kFound) announce(*this, problem_, starts_.front(), best_);
-        if (weight > 1) break;
+  std::vector<Round> rounds;
+  // Driving in reverse is slow: it saves nothing but where there is no other way.
+  const bool reverses = std::any_of(found_.begin(), found_.end(), [](const Drive& drive) {
+    return drive.control.speed_target_mps < 0;
+  });
+  for (const LatticeResolution& resolution : lattice_resolutions(problem_.world().problem())) {
+    if (resolution.reverse && !reverses) continue;
+    for (const double weight : {1.8, 1.3, 1.0}) {
+      rounds.push_back({.resolution = resolution, .weight = weight});
+    }
+  }
+  constexpr int kFirstBound = 4000, kLargestBound = 1 << 28;
+  for (int bound = kFirstBound; bound < kLargestBound && !rounds.empty(); bound *= 2) {
+    for (auto round = rounds.begin(); round != rounds.end();) {
+      round->drives_most = bound;
+      const RoundEnd end = search(*round, stop);
+      if (end == RoundEnd::kStopped) return;
+      if (end == RoundEnd::kFound) {
+        optimise();
+      } else {
+        round = end == RoundEnd::kExhausted ? rounds.erase(round) : round + 1;
       }
     }
   }
@@ -203,7 +248,7 @@ ob::PlannerStatus Lattice::solve(const ob::PlannerTerminationCondition& stop) {
   if (!best_.found()) {
     search_for_first(stop);
     if (!best_.found()) return ob::PlannerStatus::TIMEOUT;
-    announce(*this, problem_, starts_.front(), best_);
+    if (problem_.improves()) optimise();
   }
   if (problem_.improves()) improve(stop);
   enter_solution(*this, problem_, starts_.front(), best_);

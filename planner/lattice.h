@@ -3,6 +3,7 @@
 #include <ompl/base/Planner.h>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <unordered_map>
@@ -74,6 +75,15 @@ class Lattice : public ompl::base::Planner {
             const std::optional<Drive>& drive);
   /// Whether a cell has been reached for no more.
   bool covered(std::uint64_t cell, double cost) const;
+  bool hopeless(double cost, const VehicleState& state) const {
+    return problem_.hopeless(cost, state, bound_);
+  }
+  /// A round's path. \returns whether it is cheaper than all of them so far
+  bool arrive(double cost, std::vector<Drive> drives);
+  /// Optimises the best path of a round.
+  void optimise();
+
+  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
   OmplProblem& problem_;
   std::vector<VehicleSpace::Values> starts_;
@@ -81,8 +91,10 @@ class Lattice : public ompl::base::Planner {
   std::unordered_map<std::uint64_t, Cell> cells_;
   std::priority_queue<Entry, std::vector<Entry>, Later> open_;
   std::uint32_t pushed_ = 0;
-  int near_goal_ = 0;  ///< nodes from which the goal's pose might have been tried
-  BestPath best_;
+  int near_goal_ = 0;         ///< nodes from which the goal's pose might have been tried
+  double bound_ = kNoBound;   ///< the cost of the cheapest path of a round
+  std::vector<Drive> found_;  ///< that path
+  BestPath best_;             ///< of all, the optimised too
 };
 
 }  // namespace regoplan
