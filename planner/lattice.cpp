@@ -6,6 +6,7 @@
 
 #include "planner/goal_connection.h"
 #include "planner/path_cost.h"
+#include "planner/path_improvement.h"
 #include "planner/steer_back.h"
 
 namespace regoplan {
@@ -22,31 +23,35 @@ Lattice::Lattice(OmplProblem& problem)
 void Lattice::clear() {
   Planner::clear();
   starts_.clear();
-  nodes_.clear();
-  cells_.clear();
-  open_ = {};
+  bound_ = kNoBound;
+  found_.clear();
   best_.clear();
 }
 
-void Lattice::push(const Round& round, double cost, const VehicleState& state, int node,
+void Lattice::push(Round& round, double cost, const VehicleState& state, int node,
                    const std::optional<Drive>& drive) {
   const double rest = rough_cost_to_go(round.resolution, problem_, state);
   if (!std::isfinite(rest)) return;
-  open_.push({.priority = cost + round.weight * rest,
-              .order = pushed_++,
-              .node = node,
-              .drive = drive,
-              .cost = cost,
-              .cell = lattice_cell(round.resolution, problem_.world().problem(), state)});
+  // Steps of a grid along and across come to 8 % more than the way at most.
+  constexpr double kGrid = 0.92;
+  const double way_m = kGrid * problem_.way().cost_m(state.x_m, state.y_m);
+  if (cost + least_cost(problem_.world().problem(), way_m) >= bound_) return;
+  if (!drive) round.nearest = std::min(round.nearest, rest);
+  round.open.push({.priority = cost + round.weight * rest,
+                   .order = round.pushed++,
+                   .node = node,
+                   .drive = drive,
+                   .cost = cost,
+                   .cell = lattice_cell(round.resolution, problem_.world().problem(), state)});
 }
 
-bool Lattice::covered(std::uint64_t cell, double cost) const {
-  const auto known = cells_.find(cell);
-  return known != cells_.end() && (known->second.closed || known->second.cost <= cost);
+bool Lattice::covered(const Round& round, std::uint64_t cell, double cost) {
+  const auto known = round.cells.find(cell);
+  return known != round.cells.end() && (known->second.closed || known->second.cost <= cost);
 }
 
-void Lattice::expand(const Round& round, int index) {
-  const DriveNode node = nodes_[static_cast<std::size_t>(index)];
+void Lattice::expand(Round& round, int index) {
+  const DriveNode node = round.nodes[static_cast<std::size_t>(index)];
   const VehicleState& from = node.values.vehicle;
   const PlanningProblem& problem = problem_.world().problem();
   const double step_s = problem_.step_s();
@@ -59,10 +64,10 @@ void Lattice::expand(const Round& round, int index) {
   }
 }
 
-bool Lattice::connect(int index) {
+bool Lattice::connect(Round& round, int index) {
   const World& world = problem_.world();
   const PlanningProblem& asked = world.problem();
-  const DriveNode& from = nodes_[static_cast<std::size_t>(index)];
+  const DriveNode& from = round.nodes[static_cast<std::size_t>(index)];
   const VehicleState& state = from.values.vehicle;
   constexpr double kSlowShare = 0.35, kRadii = 12, kEvery_radii = 2;
   const double radius_m = 1 / asked.vehicle.curvature_max_1pm;
@@ -73,31 +78,30 @@ bool Lattice::connect(int index) {
     return false;
   }
   // The nearer, the oftener.
-  if (near_goal_++ % (1 + static_cast<int>(away_radii / kEvery_radii)) != 0) return false;
+  if (round.near_goal++ % (1 + static_cast<int>(away_radii / kEvery_radii)) != 0) return false;
   const GoalConnection way = connection_to_goal(problem_, state, 2 * kRadii * radius_m);
   VehicleSpace::Values values = from.values;
   double cost = from.cost;
-  std::vector<Drive> drives = drives_to(nodes_, index);
+  std::vector<Drive> drives = drives_to(round.nodes, index);
   for (const GoalConnection::Step& due : way.steps) {
     const VehicleControl control = steered_back(asked, due.control, due.due, values.vehicle);
     const SearchStep step = problem_.steps().next(values, control, problem_.step_s());
     cost += step_cost(world, values, step, problem_.step_s());
     values = step.values;
     drives.push_back({.control = control, .steps = 1});
-    if (problem_.hopeless(cost, values.vehicle, best_.cost()) ||
-        !problem_.steps().allowed(values)) {
+    if (hopeless(cost, values.vehicle) || !problem_.steps().allowed(values)) {
       return false;
     }
-    if (world.at_goal(values.vehicle)) return best_.offer(cost, std::move(drives));
+    if (world.at_goal(values.vehicle)) return arrive(cost, std::move(drives));
   }
   return false;
 }
 
-bool Lattice::try_drive(const Round& round, int parent, const Drive& drive) {
+bool Lattice::try_drive(Round& round, int parent, const Drive& drive) {
   const World& world = problem_.world();
   const double step_s = problem_.step_s();
-  DriveNode node{.values = nodes_[static_cast<std::size_t>(parent)].values,
-                 .cost = nodes_[static_cast<std::size_t>(parent)].cost,
+  DriveNode node{.values = round.nodes[static_cast<std::size_t>(parent)].values,
+                 .cost = round.nodes[static_cast<std::size_t>(parent)].cost,
                  .parent = parent,
                  .drive = {.control = drive.control}};
   while (node.drive.steps < drive.steps) {
@@ -107,58 +111,57 @@ bool Lattice::try_drive(const Round& round, int parent, const Drive& drive) {
     ++node.drive.steps;
     if (!problem_.steps().allowed(node.values)) return false;
     if (!world.at_goal(node.values.vehicle)) continue;
-    nodes_.push_back(node);
-    return best_.offer(node.cost, drives_to(nodes_, static_cast<int>(nodes_.size()) - 1));
+    round.nodes.push_back(node);
+    return arrive(node.cost, drives_to(round.nodes, static_cast<int>(round.nodes.size()) - 1));
   }
   Cell& cell =
-      cells_
+      round.cells
           .try_emplace(lattice_cell(round.resolution, world.problem(), node.values.vehicle),
                        Cell{.cost = std::numeric_limits<double>::infinity()})
           .first->second;
-  if (cell.closed || node.cost >= cell.cost ||
-      problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) {
+  if (cell.closed || node.cost >= cell.cost || hopeless(node.cost, node.values.vehicle)) {
     return false;
   }
   cell.cost = node.cost;
-  nodes_.push_back(node);
-  push(round, node.cost, node.values.vehicle, static_cast<int>(nodes_.size()) - 1, std::nullopt);
+  round.nodes.push_back(node);
+  push(round, node.cost, node.values.vehicle, static_cast<int>(round.nodes.size()) - 1,
+       std::nullopt);
   return false;
 }
 
-Lattice::RoundEnd Lattice::search(const Round& round, const ob::PlannerTerminationCondition& stop) {
-  nodes_.clear();
-  cells_.clear();
-  open_ = {};
-  pushed_ = 0;
-  near_goal_ = 0;
-  for (const VehicleSpace::Values& start : starts_) {
-    nodes_.push_back({.values = start});
-    push(round, 0, start.vehicle, static_cast<int>(nodes_.size()) - 1, std::nullopt);
+Lattice::RoundEnd Lattice::search(Round& round, int drives,
+                                  const ob::PlannerTerminationCondition& stop) {
+  if (round.nodes.empty()) {
+    for (const VehicleSpace::Values& start : starts_) {
+      round.nodes.push_back({.values = start});
+      push(round, 0, start.vehicle, static_cast<int>(round.nodes.size()) - 1, std::nullopt);
+    }
   }
-  int drives = 0;
-  while (!open_.empty()) {
-    const Entry entry = open_.top();
-    open_.pop();
-    const DriveNode& node = nodes_[static_cast<std::size_t>(entry.node)];
-    if (problem_.hopeless(node.cost, node.values.vehicle, best_.cost())) continue;
+  while (!round.open.empty()) {
+    const Entry entry = round.open.top();
+    if (entry.drive && drives == 0) return RoundEnd::kBoundReached;
+    round.open.pop();
+    const DriveNode& node = round.nodes[static_cast<std::size_t>(entry.node)];
+    if (hopeless(node.cost, node.values.vehicle)) continue;
     if (!entry.drive) {
-      Cell& cell =
-          cells_[lattice_cell(round.resolution, problem_.world().problem(), node.values.vehicle)];
+      Cell& cell = round.cells[lattice_cell(round.resolution, problem_.world().problem(),
+                                            node.values.vehicle)];
       if (cell.closed) continue;
       cell.closed = true;
-      if (round.resolution.reverse && connect(entry.node)) return RoundEnd::kFound;
+      if (round.resolution.reverse && connect(round, entry.node)) return RoundEnd::kFound;
       expand(round, entry.node);
       continue;
     }
-    if (covered(entry.cell, entry.cost)) continue;
+    if (covered(round, entry.cell, entry.cost)) continue;
     if (stop) return RoundEnd::kStopped;
-    if (++drives > round.drives_most) return RoundEnd::kBoundReached;
+    --drives;
     if (try_drive(round, entry.node, *entry.drive)) return RoundEnd::kFound;
   }
   return RoundEnd::kExhausted;
 }
 
 void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
+  const Goal& goal = problem_.world().problem().goal;
   const std::vector<LatticeResolution> resolutions =
       lattice_resolutions(problem_.world().problem());
   // A careful look first; where that does not lead there soon, slower ones, for a vehicle that may
@@ -173,28 +176,77 @@ void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
   for (const LatticeResolution& resolution : resolutions) {
     rounds.push_back({.resolution = resolution, .weight = kGreedy});
   }
-  constexpr int kFirstBound = 2000, kLargestBound = 1 << 28;
-  for (int bound = kFirstBound; bound < kLargestBound && !rounds.empty(); bound *= 2) {
+  constexpr int kFirstTurn = 2000, kLongestTurn = 1 << 28;
+  constexpr double kNearer = 0.95;
+  for (int turn = kFirstTurn; turn < kLongestTurn && !rounds.empty(); turn *= 2) {
     for (auto round = rounds.begin(); round != rounds.end();) {
-      round->drives_most = bound;
-      const RoundEnd end = search(*round, stop);
+      // Reverse seldom helps where no heading is asked for, and looks at the same ground again.
+      const bool seldom = round->resolution.reverse && !goal.heading_rad;
+      const int drives = seldom ? turn / 4 : turn;
+      RoundEnd end;
+      double before;
+      do {  // who comes nearer goes on
+        before = round->nearest;
+        end = search(*round, drives, stop);
+      } while (end == RoundEnd::kBoundReached && round->nearest < kNearer * before);
       if (end == RoundEnd::kFound || end == RoundEnd::kStopped) return;
       round = end == RoundEnd::kExhausted ? rounds.erase(round) : round + 1;
     }
   }
 }
 
+bool Lattice::arrive(double cost, std::vector<Drive> drives) {
+  if (!(cost < bound_)) return false;
+  bound_ = cost;
+  found_ = drives;
+  if (best_.offer(cost, std::move(drives))) announce(*this, problem_, starts_.front(), best_);
+  return true;
+}
+
+void Lattice::optimise() {
+  std::vector<ControlSegment> controls;
+  for (const Drive& drive : found_) {
+    controls.push_back({.duration_s = drive.steps * problem_.step_s(),
+                        .speed_target_mps = drive.control.speed_target_mps,
+                        .curvature_target_1pm = drive.control.curvature_target_1pm});
+  }
+  const std::optional<ImprovedPath> path = improved(problem_.steps(), controls);
+  if (!path) return;
+  std::vector<Drive> drives;
+  for (const ControlSegment& control : path->controls) {
+    drives.push_back(
+        {.control = {.speed_target_mps = control.speed_target_mps,
+                     .curvature_target_1pm = control.curvature_target_1pm},
+         .steps = static_cast<int>(std::lround(control.duration_s / problem_.step_s()))});
+  }
+  if (best_.offer(path->improvement.cost_after, std::move(drives))) {
+    announce(*this, problem_, starts_.front(), best_);
+  }
+}
+
 void Lattice::improve(const ob::PlannerTerminationCondition& stop) {
-  const std::vector<LatticeResolution> resolutions =
-      lattice_resolutions(problem_.world().problem());
-  for (const LatticeResolution& resolution : resolutions) {
-    for (const double weight : {2.5, 1.8, 1.4, 1.15, 1.0}) {
-      constexpr int kBound = 1 << 28;
-      for (RoundEnd end = RoundEnd::kFound; end == RoundEnd::kFound;) {
-        end = search({.resolution = resolution, .weight = weight, .drives_most = kBound}, stop);
-        if (end == RoundEnd::kStopped) return;
-        if (end == RoundEnd::kFound) announce(*this, problem_, starts_.front(), best_);
-        if (weight > 1) break;
+  std::vector<Round> rounds;
+  // Driving in reverse is slow: it saves nothing but where there is no other way.
+  const bool reverses = std::any_of(found_.begin(), found_.end(), [](const Drive& drive) {
+    return drive.control.speed_target_mps < 0;
+  });
+  for (const LatticeResolution& resolution : lattice_resolutions(problem_.world().problem())) {
+    if (resolution.reverse && !reverses) continue;
+    for (const double weight : {1.8, 1.3, 1.0}) {
+      rounds.push_back({.resolution = resolution, .weight = weight});
+    }
+  }
+  constexpr int kFirstTurn = 4000, kLongestTurn = 1 << 28;
+  for (int turn = kFirstTurn; turn < kLongestTurn && !rounds.empty(); turn *= 2) {
+    for (auto round = rounds.begin(); round != rounds.end();) {
+      const RoundEnd end = search(*round, turn, stop);
+      if (end == RoundEnd::kStopped) return;
+      if (end == RoundEnd::kFound) {
+        optimise();
+        // From the start again: what led here is closed.
+        *round = {.resolution = round->resolution, .weight = round->weight};
+      } else {
+        round = end == RoundEnd::kExhausted ? rounds.erase(round) : round + 1;
       }
     }
   }
@@ -209,7 +261,7 @@ ob::PlannerStatus Lattice::solve(const ob::PlannerTerminationCondition& stop) {
   if (!best_.found()) {
     search_for_first(stop);
     if (!best_.found()) return ob::PlannerStatus::TIMEOUT;
-    announce(*this, problem_, starts_.front(), best_);
+    if (problem_.improves()) optimise();
   }
   if (problem_.improves()) improve(stop);
   enter_solution(*this, problem_, starts_.front(), best_);

@@ -3,6 +3,7 @@
 #include <ompl/base/Planner.h>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <queue>
 #include <unordered_map>
@@ -34,12 +35,8 @@ class Lattice : public ompl::base::Planner {
   void clear() override;
 
  private:
-  /// Of one round: how it looks, how greedily, and how long.
-  struct Round {
-    LatticeResolution resolution;
-    double weight = 1;
-    int drives_most = 0;
-  };
+  static constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
   enum class RoundEnd { kFound, kExhausted, kBoundReached, kStopped };
 
   struct Entry {
@@ -61,28 +58,45 @@ class Lattice : public ompl::base::Planner {
     bool closed = false;
   };
 
-  RoundEnd search(const Round& round, const ompl::base::PlannerTerminationCondition& stop);
+  /// One round: how it looks, how greedily, and how far it has come. It can be gone on with.
+  struct Round {
+    LatticeResolution resolution;
+    double weight = 1;
+    std::vector<DriveNode> nodes{};
+    std::unordered_map<std::uint64_t, Cell> cells{};
+    std::priority_queue<Entry, std::vector<Entry>, Later> open{};
+    std::uint32_t pushed = 0;
+    int near_goal = 0;          ///< nodes from which the goal's pose might have been tried
+    double nearest = kNoBound;  ///< the smallest rough cost from a node to the goal
+  };
+
+  /// Begins a round, or goes on with it. \param drives that it may try
+  RoundEnd search(Round& round, int drives, const ompl::base::PlannerTerminationCondition& stop);
   void search_for_first(const ompl::base::PlannerTerminationCondition& stop);
   void improve(const ompl::base::PlannerTerminationCondition& stop);
-  void expand(const Round& round, int node);
+  void expand(Round& round, int node);
   /// Tries the way from a slow node straight to the pose of the goal. \returns whether it leads
   /// there for less
-  bool connect(int node);
+  bool connect(Round& round, int node);
   /// Drives it and keeps what it leads to. \returns whether that is the goal
-  bool try_drive(const Round& round, int node, const Drive& drive);
-  void push(const Round& round, double cost, const VehicleState& state, int node,
+  bool try_drive(Round& round, int node, const Drive& drive);
+  void push(Round& round, double cost, const VehicleState& state, int node,
             const std::optional<Drive>& drive);
   /// Whether a cell has been reached for no more.
-  bool covered(std::uint64_t cell, double cost) const;
+  static bool covered(const Round& round, std::uint64_t cell, double cost);
+  bool hopeless(double cost, const VehicleState& state) const {
+    return problem_.hopeless(cost, state, bound_);
+  }
+  /// A round's path. \returns whether it is cheaper than all of them so far
+  bool arrive(double cost, std::vector<Drive> drives);
+  /// Optimises the best path of a round.
+  void optimise();
 
   OmplProblem& problem_;
   std::vector<VehicleSpace::Values> starts_;
-  std::vector<DriveNode> nodes_;  ///< of the last round
-  std::unordered_map<std::uint64_t, Cell> cells_;
-  std::priority_queue<Entry, std::vector<Entry>, Later> open_;
-  std::uint32_t pushed_ = 0;
-  int near_goal_ = 0;  ///< nodes from which the goal's pose might have been tried
-  BestPath best_;
+  double bound_ = kNoBound;   ///< the cost of the cheapest path of a round
+  std::vector<Drive> found_;  ///< that path
+  BestPath best_;             ///< of all, the optimised too
 };
 
 }  // namespace regoplan

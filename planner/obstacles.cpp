@@ -54,8 +54,11 @@ struct Obstacles::Shapes {
   Shapes(const TerrainMap& map_, const Vehicle& vehicle, double clearance)
       : map(map_), step_max_m(vehicle.step_max_m) {
     const BodyBox& b = vehicle.body;
+    constexpr double kMostOfHeight = 0.1;
     body = part(b.x_min_m - clearance, b.x_max_m + clearance, b.y_min_m - clearance,
-                b.y_max_m + clearance, b.clearance_m, b.clearance_m + b.height_m);
+                b.y_max_m + clearance,
+                b.clearance_m - std::min(clearance, kMostOfHeight * b.clearance_m),
+                b.clearance_m + b.height_m);
     const double r = vehicle.wheel.radius_m, half_width = vehicle.wheel.width_m / 2;
     for (const WheelMount& wheel : vehicle.wheels) {
       // Steered or not, the box holds the wheel at any angle of its range.

@@ -13,8 +13,9 @@ namespace regoplan {
 /// vertical cylinders; terrain is the triangle mesh of the elevation cells. Safe from many threads.
 class Obstacles {
  public:
-  /// \param clearance_m every part of the vehicle is enlarged by this, sideways \note map and
-  /// vehicle must outlive it
+  /// \param clearance_m every part of the vehicle is enlarged by this, sideways; downwards its body
+  /// is by as much, but no more than a tenth of its height over the ground
+  /// \note map and vehicle must outlive it
   Obstacles(const TerrainMap& map, const Vehicle& vehicle, double clearance_m);
   ~Obstacles();
   Obstacles(const Obstacles&) = delete;

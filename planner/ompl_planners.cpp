@@ -6,6 +6,8 @@
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/control/planners/sst/SST.h>
 
+#include <algorithm>
+
 #include "planner/lattice.h"
 #include "planner/map_decomposition.h"
 #include "planner/stable_sparse.h"
@@ -15,6 +17,19 @@ namespace regoplan {
 
 namespace ob = ompl::base;
 namespace oc = ompl::control;
+
+namespace {
+
+/// How far the longest motion gets from standstill.
+double longest_first_motion_m(const OmplProblem& problem) {
+  const PlanningProblem& asked = problem.world().problem();
+  const double time_s = problem.space()->getMaxControlDuration() * problem.step_s();
+  const double a = asked.vehicle.acceleration_max_mps2;
+  const double rising_s = std::min(time_s, asked.speed_max_mps / a);
+  return a * rising_s * rising_s / 2 + asked.speed_max_mps * (time_s - rising_s);
+}
+
+}  // namespace
 
 ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
   const oc::SpaceInformationPtr& si = problem.space();
@@ -26,9 +41,11 @@ ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
   if (name == "SyclopEST") return make_syclop_est(problem);
   if (name == "SST") {
     auto sst = std::make_shared<oc::SST>(si);
-    sst->setSelectionRadius(0.04 * map_size_m);
-    sst->setPruningRadius(0.01 * map_size_m);
-    sst->setGoalBias(0.1);
+    // Where a whole motion ends within the pruning radius of its start, the tree never leaves it.
+    const double pruning_m = 0.3 * longest_first_motion_m(problem);
+    sst->setSelectionRadius(5 * pruning_m);
+    sst->setPruningRadius(pruning_m);
+    sst->setGoalBias(0.05);
     return sst;
   }
   if (name == "RRT") {

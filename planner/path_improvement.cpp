@@ -16,7 +16,8 @@
 namespace regoplan {
 namespace {
 
-constexpr double kTopShare = 0.94;  // downhill the vehicle is faster than its rims
+// Where the vehicle comes out faster than its rims, downhill, it is made slower.
+constexpr double kTopShare = 0.99;
 constexpr double kSlowestShare = 0.05;
 
 /// A path as the search drives it, from the start.
@@ -32,9 +33,9 @@ struct Driven {
 /// Drives step by step, as long as every state is allowed and below a cost.
 /// \param control of (step, state), nothing at the end
 template <class ControlAt>
-Driven drive(const World& world, double margin_min, double cost_below, ControlAt control_at) {
+Driven drive(SearchSteps& steps, double cost_below, ControlAt control_at) {
+  const World& world = steps.world();
   const double step_s = world.search_step_s();
-  SearchSteps steps(world, margin_min, 0);
   VehicleSpace::Values values{.vehicle = world.start(), .strain = {}};
   Driven path{.states = {values.vehicle}, .controls = {}};
   for (std::size_t i = 0; path.cost < cost_below; ++i) {
@@ -43,12 +44,8 @@ Driven drive(const World& world, double margin_min, double cost_below, ControlAt
     const SearchStep step = steps.next(values, *control, step_s);
     path.cost += step_cost(world, values, step, step_s);
     values = step.values;
-    if (!steps.allowed(values)) {
-      const auto& counts = steps.rejections().counts();
-      const auto first = std::find_if(counts.begin(), counts.end(), [](auto n) { return n > 0; });
-      path.rejected = static_cast<Rejection>(first - counts.begin());
-      return path;
-    }
+    path.rejected = steps.rejected(values);
+    if (path.rejected) return path;
     path.states.push_back(values.vehicle);
     path.controls.push_back({.duration_s = step_s,
                              .speed_target_mps = control->speed_target_mps,
@@ -59,16 +56,15 @@ Driven drive(const World& world, double margin_min, double cost_below, ControlAt
   return path;
 }
 
-/// As given, nothing judged but by the world's bare limits.
-Driven as_given(const World& world, const std::vector<ControlSegment>& controls) {
+Driven as_given(SearchSteps& steps, const std::vector<ControlSegment>& controls) {
   std::vector<VehicleControl> by_step;
   for (const ControlSegment& segment : controls) {
-    const long steps = std::lround(segment.duration_s / world.search_step_s());
-    by_step.insert(by_step.end(), static_cast<std::size_t>(std::max(0L, steps)),
+    const long count = std::lround(segment.duration_s / steps.world().search_step_s());
+    by_step.insert(by_step.end(), static_cast<std::size_t>(std::max(0L, count)),
                    {.speed_target_mps = segment.speed_target_mps,
                     .curvature_target_1pm = segment.curvature_target_1pm});
   }
-  return drive(world, 0, std::numeric_limits<double>::infinity(),
+  return drive(steps, std::numeric_limits<double>::infinity(),
                [&](std::size_t i, const VehicleState&) -> std::optional<VehicleControl> {
                  if (i >= by_step.size()) return std::nullopt;
                  return by_step[i];
@@ -129,36 +125,35 @@ SpeedProfile fastest(const PlanningProblem& problem, const std::vector<SpeedProf
                                  problem.vehicle.acceleration_max_mps2);
 }
 
-/// Along a curve in closed loop.
-Driven along(const World& world, const PathCurve& curve, const SpeedProfile& speed,
-             double margin_min, double cost_below) {
-  const PlanningProblem& problem = world.problem();
-  const double step_s = world.search_step_s();
-  double s = 0, rim_mps = problem.start.speed_mps;
-  const double a = problem.vehicle.acceleration_max_mps2;
+/// Along a curve in closed loop. What is due is where the vehicle is along the curve, not where the
+/// time says it should be: in soft soil it falls behind, and would not have arrived by the end.
+Driven along(SearchSteps& steps, const PathCurve& curve, const SpeedProfile& speed,
+             double cost_below) {
+  const PlanningProblem& problem = steps.world().problem();
+  double s = 0;
   Driven path =
-      drive(world, margin_min, cost_below,
+      drive(steps, cost_below,
             [&](std::size_t, const VehicleState& now) -> std::optional<VehicleControl> {
+              const CurvePlace before = curve.at(s);
+              s += std::cos(before.heading_rad) * (now.x_m - before.x_m) +
+                   std::sin(before.heading_rad) * (now.y_m - before.y_m);
               if (s >= curve.length_m()) return std::nullopt;
               const CurvePlace place = curve.at(s);
-              // Steering takes time: what is commanded is the curvature a little farther on.
-              constexpr double kReaction_s = 0.3;
               const VehicleState due{
                   .x_m = place.x_m,
                   .y_m = place.y_m,
-                  .yaw_rad = place.heading_rad +
-                             -kinematic_body_slip_angle_rad(problem.vehicle, now.curvature_1pm),
-                  .rim_speed_mps = std::max(rim_mps, 1e-3)};
-              const double target = speed.at(s + rim_mps * step_s).speed_mps;
-              const VehicleControl control = steered_back(
+                  .yaw_rad = place.heading_rad -
+                             kinematic_body_slip_angle_rad(problem.vehicle, now.curvature_1pm),
+                  .rim_speed_mps = std::max(now.rim_speed_mps, 1e-3)};
+              // Steering takes time: what is commanded is what is due a little farther on.
+              constexpr double kReaction_s = 0.3;
+              const double ahead_m = s + kReaction_s * due.rim_speed_mps;
+              return steered_back(
                   problem,
-                  {.speed_target_mps = target,
-                   .curvature_target_1pm = curve.at(s + kReaction_s * rim_mps).curvature_1pm},
+                  {.speed_target_mps =
+                       speed.at(s + steps.world().search_step_s() * due.rim_speed_mps).speed_mps,
+                   .curvature_target_1pm = curve.at(ahead_m).curvature_1pm},
                   due, now);
-              const double before = rim_mps;
-              rim_mps += std::clamp(target - rim_mps, -a * step_s, a * step_s);
-              s += (before + rim_mps) / 2 * step_s;
-              return control;
             });
   path.end_m = s;
   return path;
@@ -173,15 +168,14 @@ bool slower_may_help(Rejection rejection) {
 
 /// Along a curve as fast as the margin allows: slower where it was missed, until it is kept or
 /// there is nothing to gain. What it ends with may not have reached the goal.
-Driven fastest_along(const World& world, const PathCurve& curve, double margin_min,
-                     double cost_below) {
-  constexpr int kTries = 16;
-  constexpr double kSlower = 0.93, kBefore_m = 8, kAfter_m = 4;
-  const PlanningProblem& problem = world.problem();
+Driven fastest_along(SearchSteps& steps, const PathCurve& curve, double cost_below) {
+  constexpr int kTries = 40;
+  constexpr double kSlower = 0.96, kBefore_m = 8, kAfter_m = 4;
+  const PlanningProblem& problem = steps.world().problem();
   std::vector<SpeedProfile::Node> most = allowed_by_curvature(problem, curve);
   Driven path;
   for (int i = 0; i < kTries; ++i) {
-    path = along(world, curve, fastest(problem, most), margin_min, cost_below);
+    path = along(steps, curve, fastest(problem, most), cost_below);
     if (!path.rejected || !slower_may_help(*path.rejected)) return path;
     for (SpeedProfile::Node& node : most) {
       if (node.s_m < path.end_m - kBefore_m || node.s_m > path.end_m + kAfter_m) continue;
@@ -192,24 +186,14 @@ Driven fastest_along(const World& world, const PathCurve& curve, double margin_m
   return path;
 }
 
-}  // namespace
-
-std::optional<ImprovedPath> improved(const World& searched,
-                                     const std::vector<ControlSegment>& controls) {
-  const PlanningProblem& problem = searched.problem();
-  const Driven before = as_given(searched, controls);
-  const bool reverses =
-      std::any_of(before.states.begin(), before.states.end(),
-                  [](const VehicleState& state) { return state.rim_speed_mps < 0; });
-  const double spacing_m = 1 / problem.vehicle.curvature_max_1pm;
-  const std::vector<PathPoint> knots = knots_of(before.states, spacing_m);
-  if (!before.reached_goal || reverses || knots.size() < 4) return std::nullopt;
-  const double margin_min =
-      std::max(problem.limits.margin_min, smallest_margin(searched, before.states));
-
+/// What comes of a path by smoothing it; the path itself where nothing better does.
+Driven cheaper_beside(SearchSteps& steps, const Driven& path) {
+  const PlanningProblem& problem = steps.world().problem();
+  const std::vector<PathPoint> knots = knots_of(path.states, 1 / problem.vehicle.curvature_max_1pm);
+  if (knots.size() < 4) return path;
   const double at_speed = curvature_reach_1pm(problem, kTopShare * problem.speed_max_mps);
   const std::vector<PathPoint> proposed = smoothed(problem, knots, 0.8 * at_speed);
-  Driven best = before;
+  Driven best = path;
   for (const double share : {1.0, 0.6, 0.3, 0.0}) {
     std::vector<PathPoint> points;
     for (std::size_t i = 0; i < knots.size(); ++i) {
@@ -217,12 +201,44 @@ std::optional<ImprovedPath> improved(const World& searched,
                         std::lerp(knots[i].y_m, proposed[i].y_m, share)});
     }
     points.push_back(beyond(problem, points));
-    const Driven tried = fastest_along(searched, PathCurve(points), margin_min, best.cost);
-    if (tried.reached_goal && tried.cost < best.cost) best = tried;
+    Driven tried = fastest_along(steps, PathCurve(points), best.cost);
+    if (tried.reached_goal && tried.cost < best.cost) best = std::move(tried);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<ImprovedPath> improved(SearchSteps& steps,
+                                     const std::vector<ControlSegment>& controls) {
+  const Driven before = as_given(steps, controls);
+  const bool reverses =
+      std::any_of(before.states.begin(), before.states.end(),
+                  [](const VehicleState& state) { return state.rim_speed_mps < 0; });
+  if (!before.reached_goal || reverses) return std::nullopt;
+  constexpr int kRounds = 4;
+  constexpr double kWorthIt = 0.003;  // of the cost, for another round
+  Driven best = before;
+  for (int round = 0; round < kRounds; ++round) {
+    Driven next = cheaper_beside(steps, best);
+    if (!(next.cost < best.cost)) break;
+    const bool go_on = next.cost < (1 - kWorthIt) * best.cost;
+    best = std::move(next);
+    if (!go_on) break;
   }
   if (!(best.cost < before.cost)) return std::nullopt;
   return ImprovedPath{.controls = best.controls,
                       .improvement = {.cost_before = before.cost, .cost_after = best.cost}};
+}
+
+std::optional<ImprovedPath> improved(const World& searched,
+                                     const std::vector<ControlSegment>& controls) {
+  SearchSteps judged_by_bare_limits(searched, 0, 0);
+  const Driven before = as_given(judged_by_bare_limits, controls);
+  const double margin_min =
+      std::max(searched.problem().limits.margin_min, smallest_margin(searched, before.states));
+  SearchSteps steps(searched, margin_min, 0);
+  return improved(steps, controls);
 }
 
 }  // namespace regoplan

@@ -10,8 +10,7 @@ namespace regoplan {
 namespace {
 
 // Weights of residuals in units of the knots' spacing.
-constexpr double kLength = 1, kBending = 2, kSharpness = 20, kRock = 50, kSteepness = 10,
-                 kStay = 0.05;
+constexpr double kLength = 1, kBending = 2, kRock = 50, kSteepness = 10, kStay = 0.05;
 
 template <class T>
 T above_zero(const T& value) {
@@ -31,7 +30,7 @@ struct Length {
 
 /// Three knots: how much the way bends, and how much more than it may.
 struct Bending {
-  double spacing_m, curvature_max_1pm;
+  double spacing_m, curvature_max_1pm, sharpness;
 
   template <class T>
   bool operator()(const T* a, const T* b, const T* c, T* residual) const {
@@ -40,7 +39,7 @@ struct Bending {
     residual[0] = kBending * x;
     residual[1] = kBending * y;
     const T curvature = sqrt(x * x + y * y + 1e-12) / spacing_m;
-    residual[2] = kSharpness * above_zero(curvature / curvature_max_1pm - 1.0);
+    residual[2] = sharpness * above_zero(curvature / curvature_max_1pm - 1.0);
     return true;
   }
 };
@@ -96,14 +95,14 @@ struct Steepness {
   }
 };
 
-}  // namespace
-
-std::vector<PathPoint> smoothed(const PlanningProblem& problem, const std::vector<PathPoint>& knots,
-                                double curvature_max_1pm) {
+/// \param from where the knots are to begin with \param sharpness weight of the curvature's limit
+std::vector<PathPoint> settled(const PlanningProblem& problem, const std::vector<PathPoint>& knots,
+                               const std::vector<PathPoint>& from, double curvature_max_1pm,
+                               double sharpness) {
   std::vector<std::array<double, 2>> places;
   double length_m = 0;
   for (std::size_t i = 0; i < knots.size(); ++i) {
-    places.push_back({knots[i].x_m, knots[i].y_m});
+    places.push_back({from[i].x_m, from[i].y_m});
     if (i > 0) {
       length_m += std::hypot(knots[i].x_m - knots[i - 1].x_m, knots[i].y_m - knots[i - 1].y_m);
     }
@@ -126,7 +125,7 @@ std::vector<PathPoint> smoothed(const PlanningProblem& problem, const std::vecto
         nullptr, at);
     const double near_m = 4 * spacing_m;
     problem.map.any_rock(
-        knots[i].x_m - near_m, knots[i].x_m + near_m, knots[i].y_m - near_m, knots[i].y_m + near_m,
+        from[i].x_m - near_m, from[i].x_m + near_m, from[i].y_m - near_m, from[i].y_m + near_m,
         [&](const Rock& rock) {
           if (rock.height_m <= problem.vehicle.step_max_m) return false;
           squares.AddResidualBlock(
@@ -142,7 +141,7 @@ std::vector<PathPoint> smoothed(const PlanningProblem& problem, const std::vecto
     }
     if (i + 2 < count) {
       squares.AddResidualBlock(new ceres::AutoDiffCostFunction<Bending, 3, 2, 2, 2>(
-                                   new Bending{spacing_m, curvature_max_1pm}),
+                                   new Bending{spacing_m, curvature_max_1pm, sharpness}),
                                nullptr, at, places[i + 1].data(), places[i + 2].data());
     }
   }
@@ -160,7 +159,7 @@ std::vector<PathPoint> smoothed(const PlanningProblem& problem, const std::vecto
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-  options.max_num_iterations = 60;
+  options.max_num_iterations = 100;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -168,6 +167,16 @@ std::vector<PathPoint> smoothed(const PlanningProblem& problem, const std::vecto
   std::vector<PathPoint> moved;
   for (const auto& place : places) moved.push_back({place[0], place[1]});
   return moved;
+}
+
+}  // namespace
+
+std::vector<PathPoint> smoothed(const PlanningProblem& problem, const std::vector<PathPoint>& knots,
+                                double curvature_max_1pm) {
+  // From the start on the limit would hold the solver back wherever the path is sharper.
+  constexpr double kSharpness = 2;
+  const std::vector<PathPoint> free = settled(problem, knots, knots, curvature_max_1pm, 0);
+  return settled(problem, knots, free, curvature_max_1pm, kSharpness);
 }
 
 }  // namespace regoplan

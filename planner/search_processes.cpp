@@ -54,6 +54,7 @@ std::vector<char> packed(const SearchOutcome& outcome) {
   append(bytes, outcome.rejected);
   append_all(bytes, outcome.rejected_states);
   append(bytes, outcome.propagations);
+  append(bytes, outcome.time_s);
   return bytes;
 }
 
@@ -65,6 +66,7 @@ std::optional<SearchOutcome> unpacked(const std::vector<char>& bytes) {
     outcome.rejected = reader.take<decltype(outcome.rejected)>();
     outcome.rejected_states = reader.take_all<RejectedState>();
     outcome.propagations = reader.take<std::int64_t>();
+    outcome.time_s = reader.take<double>();
     return outcome;
   } catch (const std::length_error&) {
     return std::nullopt;  // the child died before it had said all

@@ -4,6 +4,7 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <chrono>
 #include <limits>
 
 #include "planner/ompl_planners.h"
@@ -14,6 +15,7 @@ namespace regoplan {
 namespace ob = ompl::base;
 
 SearchOutcome search(const World& world, const SearchRun& run) {
+  const auto start = std::chrono::steady_clock::now();
   ompl::msg::noOutputHandler();
   seed_ompl(run.guidance.seed);
   OmplProblem problem(world, run.guidance);
@@ -26,10 +28,12 @@ SearchOutcome search(const World& world, const SearchRun& run) {
       static_cast<unsigned int>(run.iterations.value_or(std::numeric_limits<int>::max())));
   planner->solve(run.iterations ? ob::PlannerTerminationCondition(iterations)
                                 : ob::timedPlannerTerminationCondition(*run.time_s));
-  return {.controls = exact_solution(*definition),
-          .rejected = problem.rejections().counts(),
-          .rejected_states = problem.rejections().sample(),
-          .propagations = problem.propagations()};
+  return {
+      .controls = exact_solution(*definition),
+      .rejected = problem.rejections().counts(),
+      .rejected_states = problem.rejections().sample(),
+      .propagations = problem.propagations(),
+      .time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
 void seed_ompl(std::uint64_t seed) {

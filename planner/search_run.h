@@ -33,6 +33,7 @@ struct SearchOutcome {
   std::array<std::int64_t, kRejectionCount> rejected{};
   std::vector<RejectedState> rejected_states;  ///< an even sample
   std::int64_t propagations = 0;
+  double time_s = 0;  ///< wall clock, the field that guides it included
 };
 
 /// Runs a planner of OMPL in this process, which must not have drawn from OMPL's random numbers

@@ -21,15 +21,16 @@ SearchStep SearchSteps::next(const VehicleSpace::Values& from, const VehicleCont
   return reached;
 }
 
-bool SearchSteps::allowed(const VehicleSpace::Values& values) {
+std::optional<Rejection> SearchSteps::rejected(const VehicleSpace::Values& values) {
   const VehicleState& state = values.vehicle;
   auto rejection = world_.rejected(state, values.strain, margin_min_);
   if (!rejection && !values.possible) {
     rejection = RejectedState{
         .reason = Rejection::kSlip, .x_m = state.x_m, .y_m = state.y_m, .yaw_rad = state.yaw_rad};
   }
-  if (rejection) rejections_.add(*rejection);
-  return !rejection;
+  if (!rejection) return std::nullopt;
+  rejections_.add(*rejection);
+  return rejection->reason;
 }
 
 }  // namespace regoplan

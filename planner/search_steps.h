@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "planner/rejection_log.h"
 #include "planner/vehicle_space.h"
@@ -27,9 +28,11 @@ class SearchSteps {
   SearchStep next(const VehicleSpace::Values& from, const VehicleControl& control,
                   double duration_s);
 
-  /// Whether a state keeps every limit.
-  bool allowed(const VehicleSpace::Values& values);
+  /// Why a state may not be; nothing where it keeps every limit.
+  std::optional<Rejection> rejected(const VehicleSpace::Values& values);
+  bool allowed(const VehicleSpace::Values& values) { return !rejected(values); }
 
+  const World& world() const { return world_; }
   double margin_min() const { return margin_min_; }
   std::int64_t count() const { return count_; }
   const RejectionLog& rejections() const { return rejections_; }

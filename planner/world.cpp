@@ -181,7 +181,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
     return because(Rejection::kBounds, speed, problem_.speed_max_mps);
   }
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
-  if (!patch.known) return because(Rejection::kUnknownTerrain, kNoNumber, kNoNumber);
+  if (!patch.known || (use_ == WorldUse::kSearch && beside_the_edge(state))) {
+    return because(Rejection::kUnknownTerrain, kNoNumber, kNoNumber);
+  }
   if (obstacles_.hit(state.x_m, state.y_m, state.yaw_rad, patch)) {
     return because(Rejection::kObstacle, kNoNumber, kNoNumber);
   }
@@ -201,6 +203,24 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   }
   if (!margin_min) return std::nullopt;
   return rejected_by(margins(state, patch), *margin_min, rejection);
+}
+
+bool World::beside_the_edge(const VehicleState& state) const {
+  const BodyBox& body = problem_.vehicle.body;
+  const GridFrame& frame = problem_.map.elevation().frame;
+  const double reach_m =
+      std::hypot(std::max(body.x_max_m, -body.x_min_m), std::max(body.y_max_m, -body.y_min_m)) +
+      std::max(frame.cell_width_m, frame.cell_height_m) + kSearchClearance_m;
+  const double x = state.x_m, y = state.y_m;
+  if (problem_.map.inside(x - reach_m, y - reach_m) &&
+      problem_.map.inside(x + reach_m, y + reach_m)) {
+    return false;
+  }
+  const auto ends = [&](double dx_m, double dy_m) {
+    return !ground_.at(x + dx_m, y + dy_m, state.yaw_rad).known;
+  };
+  constexpr double c = kSearchClearance_m;
+  return ends(c, c) || ends(c, -c) || ends(-c, c) || ends(-c, -c);
 }
 
 Judgement World::judge(const VehicleState& state, const WheelStrain& strain, double time_s) const {

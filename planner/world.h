@@ -70,12 +70,15 @@ class World {
   double search_step_s() const;
 
   /// What a search keeps in reserve, so that what it finds survives a finer replay: clearance to
-  /// obstacles, the share of the goal's radius and of each limit that it uses.
+  /// obstacles and to the edge of the map, the share of the goal's radius and of each limit that it
+  /// uses.
   static constexpr double kSearchClearance_m = 0.1;
   static constexpr double kSearchGoalShare = 0.9;
   static constexpr double kSearchLimitShare = 0.97;
 
  private:
+  /// Whether the ground ends within the clearance of a search.
+  bool beside_the_edge(const VehicleState& state) const;
   TrajectoryPoint point_of(const VehicleState& state, const WheelStrain& strain, double time_s,
                            const GroundPatch& patch, const StateMargins& margins) const;
 

@@ -2,35 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <functional>
 #include <random>
 
 #include "planner/candidate.h"
 #include "planner/search_processes.h"
 #include "terramech/input_error.h"
+#include "tests/planner/flat_problem.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kSize_m = 40, kCell_m = 0.5, kDegree = std::numbers::pi / 180;
-
-SoilCatalogue firm_soil() {
-  const UncertainSoil soil{.mean = {.cohesion_pa = 170,
-                                    .friction_angle_rad = 35 * kDegree,
-                                    .kc = 1400,
-                                    .kphi = 8.2e5,
-                                    .n = 1,
-                                    .a0 = 0.40,
-                                    .a1 = 0.15,
-                                    .lambda = 0.9,
-                                    .density_kgpm3 = 1600,
-                                    .kx0_m = 0.018,
-                                    .ky0_m = 0.013,
-                                    .ky1_m = 0.020}};
-  return {.soils = {{.name = "regolith", .source = "drawn", .soil = soil}},
-          .classes = {},
-          .unmapped = 0};
-}
+constexpr double kSize_m = 40;
 
 class Draw {
  public:
@@ -44,28 +27,15 @@ class Draw {
   std::mt19937_64 random_;
 };
 
-ElevationRaster drawn_ground(Draw& draw) {
-  const int cells = static_cast<int>(kSize_m / kCell_m);
-  ElevationRaster raster{.frame = {.columns = cells,
-                                   .rows = cells,
-                                   .west_m = 0,
-                                   .north_m = kSize_m,
-                                   .cell_width_m = kCell_m,
-                                   .cell_height_m = kCell_m,
-                                   .crs_wkt = {}},
-                         .height_m = {}};
+/// Height over a place.
+std::function<double(double x_m, double y_m)> drawn_ground(Draw& draw) {
   const double bump_m = draw.between(0, 0.4), wave_m = draw.between(4, 10);
   // A bank across the way, 1 to 5 m high over 5 m: up to 45 degrees.
   const double bank_m = draw.chance(0.5) ? draw.between(1, 5) : 0, bank_x_m = draw.between(16, 22);
-  for (int row = 0; row < cells; ++row) {
-    for (int column = 0; column < cells; ++column) {
-      const double x = (column + 0.5) * kCell_m, y = (row + 0.5) * kCell_m;
-      const double share = std::clamp((x - bank_x_m) / 5, 0.0, 1.0);
-      raster.height_m.push_back(static_cast<float>(
-          bump_m * std::sin(x / wave_m) * std::cos(y / wave_m) + bank_m * share));
-    }
-  }
-  return raster;
+  return [=](double x_m, double y_m) {
+    const double share = std::clamp((x_m - bank_x_m) / 5, 0.0, 1.0);
+    return bump_m * std::sin(x_m / wave_m) * std::cos(y_m / wave_m) + bank_m * share;
+  };
 }
 
 std::vector<Rock> drawn_rocks(Draw& draw) {
@@ -90,18 +60,14 @@ std::vector<Rock> drawn_rocks(Draw& draw) {
 PlanningProblem random_problem(std::uint64_t seed) {
   for (std::uint64_t attempt = 0;; ++attempt) {
     Draw draw(seed * 1000 + attempt);
-    ElevationRaster ground = drawn_ground(draw);
-    const Vehicle lrv = preset_vehicle("lrv");
-    PlanningProblem problem{
-        .map = {std::move(ground), std::nullopt, firm_soil(), drawn_rocks(draw)},
-        .vehicle = lrv,
-        .gravity_mps2 = 1.62,
-        .start = {.x_m = 5, .y_m = draw.between(10, 30)},
-        .goal = {.x_m = 35, .y_m = draw.between(10, 30), .radius_m = 2, .heading_rad = {}},
-        .speed_max_mps = 2,
-        .limits = default_limits(lrv),
-        .search = {.time_s = {}, .iterations = 1000, .seed = seed, .threads = 1}};
+    const auto ground = drawn_ground(draw);
+    PlanningProblem problem =
+        lrv_problem(one_soil_map(kSize_m, firm_regolith(), ground, drawn_rocks(draw)));
+    problem.start = {.x_m = 5, .y_m = draw.between(10, 30)};
+    problem.goal = {.x_m = 35, .y_m = draw.between(10, 30), .radius_m = 2, .heading_rad = {}};
+    problem.speed_max_mps = 2;
     problem.limits.margin_min = 0;
+    problem.search = {.time_s = {}, .iterations = 1000, .seed = seed, .threads = 1};
     try {
       validate(problem);
     } catch (const InputError&) {

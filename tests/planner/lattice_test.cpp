@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "planner/path_improvement.h"
 #include "planner/replay.h"
 #include "tests/planner/planner_run.h"
 
@@ -90,6 +91,22 @@ TEST(Lattice, EachPathThatItAnnouncesIsCheaperThanTheLast) {
   // The cost is time unless the problem asks for another.
   EXPECT_NEAR(better.announced_costs.back(), better.duration_s(), 1e-6);
   EXPECT_NEAR(std::stod(better.progress("best cost REAL")), better.duration_s(), 1e-5);
+}
+
+TEST(Lattice, GoingOnCostsNoMoreThanOptimisingItsFirstPath) {
+  const PlanningProblem problem =
+      lrv_problem(one_soil_map(50, firm_regolith(), flat, two_rows_of_rocks()));
+  const World world(problem, WorldUse::kSearch, 2);
+  PlannerRun first(world, "Lattice"), patient(world, "Lattice", true);
+  first.solve(20000);
+  patient.solve(20000);
+  SearchSteps steps(world, problem.limits.margin_min, 0);
+  const auto optimised = improved(steps, exact_solution(*first.definition));
+  ASSERT_TRUE(optimised);
+  EXPECT_LE(patient.duration_s(), optimised->improvement.cost_after + 1e-9);
+  EXPECT_LT(patient.duration_s(), first.duration_s());
+  // What it counts holds the steps that optimising took.
+  EXPECT_GT(patient.problem.propagations(), first.problem.propagations() + steps.count());
 }
 
 TEST(Lattice, TheGoalCountsWhereverAMotionPassesIt) {

@@ -50,6 +50,13 @@ TEST(Obstacles, ARockBesideTheVehicleIsHitOnlyByAWiderOne) {
   EXPECT_TRUE(hits(map, 25, 25, 0, 0.1));
 }
 
+TEST(Obstacles, TheReserveOfASearchReachesDownwardsToo) {
+  const double clearance_m = preset_vehicle("lrv").body.clearance_m;
+  const TerrainMap map = with_rock({25, 25, 0.2, clearance_m - 0.02});
+  EXPECT_FALSE(hits(map, 25, 25));
+  EXPECT_TRUE(hits(map, 25, 25, 0, 0.1));
+}
+
 TEST(Obstacles, ACylinderIsMetWhereItStandsOnItsSlope) {
   const TerrainMap map = one_soil_map(
       50, firm_regolith(), [](double x, double /*y*/) { return 0.3 * x; }, {{27, 25, 0.3, 1}});

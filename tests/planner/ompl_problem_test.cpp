@@ -77,6 +77,13 @@ TEST(OmplProblem, SstStopsAtItsFirstPathUnlessItIsToImprove) {
   EXPECT_EQ(threshold(false), std::numeric_limits<double>::max());
 }
 
+TEST(OmplProblem, SstLeavesItsStartHoweverLargeTheMap) {
+  PlanningProblem problem = lrv_problem(one_soil_map(300, firm_regolith(), flat));
+  const World world(problem, WorldUse::kSearch, 2);
+  PlannerRun run(world, "SST");
+  EXPECT_EQ(run.solve(20000), ob::PlannerStatus::EXACT_SOLUTION);
+}
+
 TEST(OmplProblem, AStateOnceCountedIsCountedOnce) {
   const Posed posed;
   PlannerRun run(posed.world, "StableSparse");

@@ -92,6 +92,19 @@ TEST(PathImprovement, NothingWorseAndNothingInvalidComesBack) {
   }
 }
 
+TEST(PathImprovement, ArrivesWhereTheVehicleFallsBehindItsWheels) {
+  // Uphill, wheels slip all the way.
+  PlanningProblem problem = lrv_problem(
+      one_soil_map(150, firm_regolith(), [](double x, double /*y*/) { return 0.2 * x; }));
+  problem.goal = {.x_m = 140, .y_m = 40, .radius_m = 2, .heading_rad = {}};
+  const World world(problem, WorldUse::kSearch, 2);
+  PlannerRun run(world, "Lattice");
+  ASSERT_EQ(run.solve(20000), ompl::base::PlannerStatus::EXACT_SOLUTION);
+  const auto better = improved(world, exact_solution(*run.definition));
+  ASSERT_TRUE(better);
+  EXPECT_TRUE(replay(world, better->controls, {.coarse_s = world.search_step_s()}).reached_goal);
+}
+
 TEST(PathImprovement, TheSamePathGivesTheSameBits) {
   const Found found;
   int improvements = 0;
@@ -110,6 +123,20 @@ TEST(PathImprovement, APathThatDoesNotReachTheGoalOrBacksUpIsLeftAlone) {
   EXPECT_FALSE(improved(found.world, {{.duration_s = 4, .speed_target_mps = 1}}));
   EXPECT_FALSE(improved(found.world, {{.duration_s = 4, .speed_target_mps = -1}}));
   EXPECT_FALSE(improved(found.world, {}));
+}
+
+TEST(PathSmoothing, AWindingWayBetweenWallsComesStraight) {
+  // Walls 8 m either side; the way swings 4 m and back, sharper than it may.
+  std::vector<Rock> walls;
+  for (double x = 5; x < 95; x += 2.5) {
+    walls.push_back({x, 42, 1.5, 2});
+    walls.push_back({x, 58, 1.5, 2});
+  }
+  PlanningProblem problem = lrv_problem(one_soil_map(100, firm_regolith(), flat, std::move(walls)));
+  problem.goal = {.x_m = 90, .y_m = 50, .radius_m = 3, .heading_rad = {}};
+  std::vector<PathPoint> knots;
+  for (double x = 10; x <= 90; x += 2) knots.push_back({x, 52 - 2 * std::cos((x - 10) / 5)});
+  for (const PathPoint& point : smoothed(problem, knots, 0.05)) EXPECT_NEAR(point.y_m, 50, 2);
 }
 
 TEST(PathSmoothing, AZigzagComesStraighterAndOffTheRocks) {

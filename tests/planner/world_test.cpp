@@ -63,6 +63,17 @@ TEST(World, ASearchMayStartAtTopSpeedThoughItKeepsAReserveBelowIt) {
   EXPECT_EQ(reason(world.rejected(world.start(), {})), std::nullopt);
 }
 
+TEST(World, ASearchKeepsAReserveToTheEdgeOfTheMap) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World world(problem, WorldUse::kSearch, 1), verdict(problem, WorldUse::kVerdict, 1);
+  const auto at = [&](double y_m) { return world.dynamics().rolling_state(25, y_m, 0, 1); };
+  double lowest_m = 5;  // that the verdict accepts
+  while (!verdict.rejected(at(lowest_m), {})) lowest_m -= 0.01;
+  EXPECT_EQ(reason(verdict.rejected(at(lowest_m), {})), Rejection::kUnknownTerrain);
+  EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.05), {})), Rejection::kUnknownTerrain);
+  EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.15), {})), std::nullopt);
+}
+
 TEST(World, ASteepSlopeIsRejectedForSlopeAndASofterLimitForTraction) {
   const auto slope = [](double x, double /*y*/) { return std::tan(28 * kTestDegree) * x; };
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), slope));
