@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SOILS = ["firm_regolith", "loose_regolith", "soft_patch"]
 MANOEUVRES = (
     [{"kind": "steady_turn", "name": f"turn of {radius} m", "radius_m": radius, "angle_deg": 90,
-      "speed_mps": [1, 2, 3], "soil": SOILS} for radius in (8, 12, 16)]
+      "speed_mps": [1.5, 2, 2.5, 3], "soil": SOILS} for radius in (8, 10, 12, 14, 16)]
     + [{"kind": "slope_traverse", "slope_deg": [5, 10, 15, 20], "speed_mps": 1, "soil": SOILS}]
     + [{"kind": "lane_change", "name": f"lane change in {length} m", "offset_m": 2,
         "length_m": length, "speed_mps": [2, 3], "soil": SOILS} for length in (8, 12)])
