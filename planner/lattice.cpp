@@ -183,8 +183,8 @@ void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
       // Reverse seldom helps where no heading is asked for, and looks at the same ground again.
       const bool seldom = round->resolution.reverse && !goal.heading_rad;
       const int drives = seldom ? turn / 4 : turn;
-      RoundEnd end;
-      double before;
+      RoundEnd end = RoundEnd::kBoundReached;
+      double before = kNoBound;
       do {  // who comes nearer goes on
         before = round->nearest;
         end = search(*round, drives, stop);

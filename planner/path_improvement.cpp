@@ -17,7 +17,7 @@ namespace regoplan {
 namespace {
 
 // Where the vehicle comes out faster than its rims, downhill, it is made slower.
-constexpr double kTopShare = 0.99;
+constexpr double kTopShare = 0.97;
 constexpr double kSlowestShare = 0.05;
 
 /// A path as the search drives it, from the start.
