@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -166,7 +168,8 @@ class Diagnosing {
 
   void take(Correction correction) {
     if (!correction.refused.empty()) {
-      found_.notes.push_back("the corrected model is the calibrated one: " + correction.refused);
+      found_.notes.push_back(
+          fmt::format("the corrected model is the calibrated one: {}", correction.refused));
     }
     found_.fit = correction.proof.fit;
     found_.held_out_by = correction.proof.families.by;
