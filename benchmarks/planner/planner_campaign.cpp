@@ -164,9 +164,13 @@ void first_path(const Settings& settings) {
       ++verified;
       overturned += row->second[4] == 0;
     }
-    fmt::print("{:>16}: search {}; with its process {}; verification {}; found {}; overturned {}\n",
-               name, times_text(search_s), times_text(process_s), times_text(verification_s),
-               share_text(found, static_cast<int>(runs.size())), share_text(overturned, verified));
+    fmt::print("{:>16}: search {}; with its process {}; found {}", name, times_text(search_s),
+               times_text(process_s), share_text(found, static_cast<int>(runs.size())));
+    if (verified > 0) {
+      fmt::print("; verification {}; overturned {}", times_text(verification_s),
+                 share_text(overturned, verified));
+    }
+    fmt::print("\n");
   }
 }
 
