@@ -8,6 +8,7 @@
 #include "planner/path_cost.h"
 #include "planner/path_improvement.h"
 #include "planner/steer_back.h"
+#include "planner/steering_samplers.h"
 
 namespace regoplan {
 
@@ -161,18 +162,18 @@ Lattice::RoundEnd Lattice::search(Round& round, int drives,
 }
 
 void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
-  const Goal& goal = problem_.world().problem().goal;
-  const std::vector<LatticeResolution> resolutions =
-      lattice_resolutions(problem_.world().problem());
-  // A careful look first; where that does not lead there soon, slower ones, for a vehicle that may
-  // go faster than the ground lets it turn, and greedier ones.
-  constexpr double kCareful = 2.5, kGreedy = 4;
+  const PlanningProblem& asked = problem_.world().problem();
+  const std::vector<LatticeResolution> resolutions = lattice_resolutions(asked);
+  // A careful look first; where that does not lead there soon, slower ones, as long as the vehicle
+  // may go much faster than where it turns fastest, and greedier ones.
+  constexpr double kCareful = 2.5, kGreedy = 4, kMuchFaster = 1.5;
   std::vector<Round> rounds;
-  for (const double share : {1.0, 0.5, 0.25}) {
-    Round& round =
-        rounds.emplace_back(Round{.resolution = resolutions.front(), .weight = kCareful});
-    round.resolution.speed_max_mps *= share;
-  }
+  double top_mps = asked.speed_max_mps;
+  do {
+    rounds.push_back({.resolution = resolutions.front(), .weight = kCareful});
+    rounds.back().resolution.speed_max_mps = top_mps;
+    top_mps /= 2;
+  } while (top_mps > kMuchFaster * fastest_turning_mps(asked));
   for (const LatticeResolution& resolution : resolutions) {
     rounds.push_back({.resolution = resolution, .weight = kGreedy});
   }
@@ -181,7 +182,7 @@ void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
   for (int turn = kFirstTurn; turn < kLongestTurn && !rounds.empty(); turn *= 2) {
     for (auto round = rounds.begin(); round != rounds.end();) {
       // Reverse seldom helps where no heading is asked for, and looks at the same ground again.
-      const bool seldom = round->resolution.reverse && !goal.heading_rad;
+      const bool seldom = round->resolution.reverse && !asked.goal.heading_rad;
       const int drives = seldom ? turn / 4 : turn;
       RoundEnd end = RoundEnd::kBoundReached;
       double before = kNoBound;
