@@ -33,10 +33,6 @@ void Lattice::push(Round& round, double cost, const VehicleState& state, int nod
                    const std::optional<Drive>& drive) {
   const double rest = rough_cost_to_go(round.resolution, problem_, state);
   if (!std::isfinite(rest)) return;
-  // Steps of a grid along and across come to 8 % more than the way at most.
-  constexpr double kGrid = 0.92;
-  const double way_m = kGrid * problem_.way().cost_m(state.x_m, state.y_m);
-  if (cost + least_cost(problem_.world().problem(), way_m) >= bound_) return;
   if (!drive) round.nearest = std::min(round.nearest, rest);
   round.open.push({.priority = cost + round.weight * rest,
                    .order = round.pushed++,

@@ -109,6 +109,17 @@ TEST(Lattice, GoingOnCostsNoMoreThanOptimisingItsFirstPath) {
   EXPECT_GT(patient.problem.propagations(), first.problem.propagations() + steps.count());
 }
 
+TEST(Lattice, AFieldThatIsDearerThanTheWayEndsNoSearchForCheaperPaths) {
+  const PlanningProblem problem =
+      lrv_problem(one_soil_map(50, firm_regolith(), flat, two_rows_of_rocks()));
+  const World world(problem, WorldUse::kSearch, 2);
+  constexpr double kDearer = 20;  // times, at most: no bound on what the way costs
+  PlannerRun plain(world, "Lattice", true), varied(world, "Lattice", true, 1, kDearer);
+  plain.solve(20000);
+  varied.solve(20000);
+  EXPECT_GT(2 * varied.problem.propagations(), plain.problem.propagations());
+}
+
 TEST(Lattice, TheGoalCountsWhereverAMotionPassesIt) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   problem.goal.radius_m = 0.3;  // far less than a drive is long

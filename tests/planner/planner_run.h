@@ -17,10 +17,11 @@ namespace regoplan {
 class PlannerRun {
  public:
   PlannerRun(const World& world, const std::string& planner, bool improve = false,
-             std::uint64_t seed = 1)
-      : problem(
-            world,
-            {.seed = seed, .margin_min = world.problem().limits.margin_min, .improve = improve}),
+             std::uint64_t seed = 1, double variety = 0)
+      : problem(world, {.seed = seed,
+                        .margin_min = world.problem().limits.margin_min,
+                        .variety = variety,
+                        .improve = improve}),
         definition(std::make_shared<ompl::base::ProblemDefinition>(problem.space())),
         planner_(make_planner(planner, problem)) {
     problem.pose(*definition);
