@@ -3,6 +3,7 @@
 #include <ompl/control/PathControl.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace regoplan {
 namespace {
@@ -45,6 +46,26 @@ std::vector<Drive> drives_to(const std::vector<DriveNode>& nodes, int node) {
     drives.push_back(nodes[static_cast<std::size_t>(at)].drive);
   }
   std::reverse(drives.begin(), drives.end());
+  return drives;
+}
+
+std::vector<ControlSegment> controls_of(const std::vector<Drive>& drives, double step_s) {
+  std::vector<ControlSegment> controls;
+  for (const Drive& drive : drives) {
+    controls.push_back({.duration_s = drive.steps * step_s,
+                        .speed_target_mps = drive.control.speed_target_mps,
+                        .curvature_target_1pm = drive.control.curvature_target_1pm});
+  }
+  return controls;
+}
+
+std::vector<Drive> drives_of(const std::vector<ControlSegment>& controls, double step_s) {
+  std::vector<Drive> drives;
+  for (const ControlSegment& segment : controls) {
+    drives.push_back({.control = {.speed_target_mps = segment.speed_target_mps,
+                                  .curvature_target_1pm = segment.curvature_target_1pm},
+                      .steps = static_cast<int>(std::lround(segment.duration_s / step_s))});
+  }
   return drives;
 }
 

@@ -29,6 +29,10 @@ struct DriveNode {
 /// From the root to a node.
 std::vector<Drive> drives_to(const std::vector<DriveNode>& nodes, int node);
 
+/// The same, as replays take them, and back again.
+std::vector<ControlSegment> controls_of(const std::vector<Drive>& drives, double step_s);
+std::vector<Drive> drives_of(const std::vector<ControlSegment>& controls, double step_s);
+
 /// The best path that a planner has found so far. Its cost may be read while the planner runs.
 class BestPath {
  public:

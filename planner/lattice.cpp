@@ -201,22 +201,9 @@ bool Lattice::arrive(double cost, std::vector<Drive> drives) {
 }
 
 void Lattice::optimise() {
-  std::vector<ControlSegment> controls;
-  for (const Drive& drive : found_) {
-    controls.push_back({.duration_s = drive.steps * problem_.step_s(),
-                        .speed_target_mps = drive.control.speed_target_mps,
-                        .curvature_target_1pm = drive.control.curvature_target_1pm});
-  }
-  const std::optional<ImprovedPath> path = improved(problem_.steps(), controls);
-  if (!path) return;
-  std::vector<Drive> drives;
-  for (const ControlSegment& control : path->controls) {
-    drives.push_back(
-        {.control = {.speed_target_mps = control.speed_target_mps,
-                     .curvature_target_1pm = control.curvature_target_1pm},
-         .steps = static_cast<int>(std::lround(control.duration_s / problem_.step_s()))});
-  }
-  if (best_.offer(path->improvement.cost_after, std::move(drives))) {
+  const double step_s = problem_.step_s();
+  const auto path = improved(problem_.steps(), controls_of(found_, step_s));
+  if (path && best_.offer(path->improvement.cost_after, drives_of(path->controls, step_s))) {
     announce(*this, problem_, starts_.front(), best_);
   }
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/drive.h"
 #include "planner/path_cost.h"
 #include "planner/path_curve.h"
 #include "planner/path_smoothing.h"
@@ -58,11 +59,8 @@ Driven drive(SearchSteps& steps, double cost_below, ControlAt control_at) {
 
 Driven as_given(SearchSteps& steps, const std::vector<ControlSegment>& controls) {
   std::vector<VehicleControl> by_step;
-  for (const ControlSegment& segment : controls) {
-    const long count = std::lround(segment.duration_s / steps.world().search_step_s());
-    by_step.insert(by_step.end(), static_cast<std::size_t>(std::max(0L, count)),
-                   {.speed_target_mps = segment.speed_target_mps,
-                    .curvature_target_1pm = segment.curvature_target_1pm});
+  for (const Drive& drive : drives_of(controls, steps.world().search_step_s())) {
+    by_step.insert(by_step.end(), static_cast<std::size_t>(drive.steps), drive.control);
   }
   return drive(steps, std::numeric_limits<double>::infinity(),
                [&](std::size_t i, const VehicleState&) -> std::optional<VehicleControl> {

@@ -50,6 +50,13 @@ std::vector<WheelLaw> views_of(const std::vector<WheelModel>& models,
   return laws;
 }
 
+double edge_reach_m(const PlanningProblem& problem) {
+  const BodyBox& body = problem.vehicle.body;
+  const GridFrame& frame = problem.map.elevation().frame;
+  return std::hypot(std::max(body.x_max_m, -body.x_min_m), std::max(body.y_max_m, -body.y_min_m)) +
+         std::max(frame.cell_width_m, frame.cell_height_m) + World::kSearchClearance_m;
+}
+
 double largest_by_magnitude(const Vehicle& vehicle, double curvature_1pm) {
   double largest = 0;
   for (const WheelMount& wheel : vehicle.wheels) {
@@ -110,6 +117,7 @@ World::World(const PlanningProblem& problem, WorldUse use, int threads)
       models_(models_of(problem, use)),
       force_tables_(tables_of(problem, use)),
       laws_(views_of(models_, force_tables_)),
+      edge_reach_m_(edge_reach_m(problem)),
       ground_(problem.map, problem.vehicle),
       dynamics_(
           problem.vehicle, laws_,
@@ -206,14 +214,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
 }
 
 bool World::beside_the_edge(const VehicleState& state) const {
-  const BodyBox& body = problem_.vehicle.body;
-  const GridFrame& frame = problem_.map.elevation().frame;
-  const double reach_m =
-      std::hypot(std::max(body.x_max_m, -body.x_min_m), std::max(body.y_max_m, -body.y_min_m)) +
-      std::max(frame.cell_width_m, frame.cell_height_m) + kSearchClearance_m;
   const double x = state.x_m, y = state.y_m;
-  if (problem_.map.inside(x - reach_m, y - reach_m) &&
-      problem_.map.inside(x + reach_m, y + reach_m)) {
+  if (problem_.map.inside(x - edge_reach_m_, y - edge_reach_m_) &&
+      problem_.map.inside(x + edge_reach_m_, y + edge_reach_m_)) {
     return false;
   }
   const auto ends = [&](double dx_m, double dy_m) {

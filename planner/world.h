@@ -88,6 +88,8 @@ class World {
   /// By soil; of a search, where a table comes near enough to the model.
   std::vector<std::optional<ForceTable>> force_tables_;
   std::vector<WheelLaw> laws_;  ///< by soil, views of what there is
+  /// From the vehicle's origin to its farthest corner, a cell of the map and a search's clearance.
+  double edge_reach_m_;
   GroundFinder ground_;
   VehicleDynamics dynamics_;
   SupportPolygon polygon_;
