@@ -1,5 +1,5 @@
 # One test program a folder of the house: tests/<folder>/*_test.cpp. Tests run from the source
-# root, find the real-terrain data through REGOPLAN_DATA and skip, saying so, where it is absent.
+# root, find measured data through REGOPLAN_DATA and skip, saying so, where they are absent.
 include(GoogleTest)
 
 function(regoplan_tests folder)

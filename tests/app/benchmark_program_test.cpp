@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -213,7 +215,7 @@ TEST(BenchmarkProgram, LosesNothingWhenTheDiskIsFull) {
   write_suite(folder, 5);
   std::filesystem::create_directories(folder.path("small"));
   if (mount("tmpfs", folder.path("small").c_str(), "tmpfs", 0, "size=24k") != 0) {
-    GTEST_SKIP() << "a small file system cannot be mounted here (needs root)";
+    GTEST_SKIP() << "a small file system cannot be mounted here: " << std::strerror(errno);
   }
   const ProgramRun full = run_program(folder, benchmark_arguments(folder, "small/out", "--quiet"));
   EXPECT_EQ(full.status, 1);

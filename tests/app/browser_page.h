@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
-#include <memory>
 #include <string>
 
+#include "tests/app/command_output.h"
 #include "tests/app/scratch_folder.h"
 
 namespace regoplan {
@@ -41,17 +39,6 @@ class InTheBrowser : public testing::Test {
   }
 
  private:
-  static std::string output_of(const std::string& command) {
-    std::string text;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"),
-                                                               &pclose);
-    if (!pipe) return text;
-    std::array<char, 65536> part{};
-    while (const std::size_t count = std::fread(part.data(), 1, part.size(), pipe.get()))
-      text.append(part.data(), count);
-    return text;
-  }
-
   static std::string without_scripts(std::string page) {
     const std::string end = "</script>";
     while (true) {

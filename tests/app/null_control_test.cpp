@@ -4,13 +4,12 @@
 
 #include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <cstdlib>
-#include <filesystem>
 #include <set>
 
 #include "app/recording_file.h"
 #include "diagnosis/condensed_recording.h"
 #include "diagnosis/discrepancy.h"
+#include "tests/measured_data.h"
 
 namespace regoplan {
 namespace {
@@ -86,10 +85,8 @@ double misfit_of_the_rest(const TestBed& bed, const ChannelData& data,
 }
 
 TEST(NullControl, ASmoothSurfaceThroughHalfTheDaysPredictsTheOtherHalf) {
-  const char* data = std::getenv("REGOPLAN_DATA");
-  const std::string file =
-      std::string(data ? data : "../shared/data") + "/cmu_single_wheel/smooth.csv";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+  const std::string file = measured_data() / "cmu_single_wheel" / "smooth.csv";
+  if (const auto absence = absence_of(file)) GTEST_SKIP() << *absence;
   Recording recording = read_recording(file).recording;
   std::set<double> days;
   for (const WheelRun& run : recording.runs) days.insert(run.day);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,6 +16,7 @@
 #include <sstream>
 #include <thread>
 
+#include "tests/app/command_output.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"
 
@@ -27,14 +27,6 @@ using namespace std::chrono_literals;
 
 bool succeeds(const std::string& command) {
   return std::system((command + " >/dev/null 2>&1").c_str()) == 0;
-}
-
-std::string output_of(const std::string& command) {
-  std::string text;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command.c_str(), "r"), &pclose);
-  char part[4096];
-  while (pipe && std::fgets(part, sizeof part, pipe.get())) text += part;
-  return text;
 }
 
 std::string text_of(const std::string& file) {
@@ -56,9 +48,12 @@ bool within(std::chrono::seconds time, Condition condition) {
 class Slurm : public testing::Test {
  protected:
   void SetUp() override {
-    if (geteuid() != 0 || !succeeds("command -v slurmctld slurmd munged sbatch")) {
-      GTEST_SKIP() << "Slurm cannot be started here (needs root, slurm-wlm and munge)";
+    for (const char* program : {"slurmctld", "slurmd", "munged", "sbatch"}) {
+      if (!succeeds(fmt::format("command -v {}", program))) {
+        GTEST_SKIP() << program << " is not installed (Debian's slurm-wlm and munge)";
+      }
     }
+    if (geteuid() != 0) GTEST_SKIP() << "a cluster of its own can only be started by root";
     folder_ = std::make_unique<ScratchFolder>();
     for (const char* name : {"state", "spool", "munge"}) {
       std::filesystem::create_directories(folder_->path(name));

@@ -1,20 +1,15 @@
 // Real terrain: between two of Curiosity's stops in Gale crater.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "app/scenario_settings.h"
 #include "planner/plan.h"
+#include "tests/measured_data.h"
 
 namespace regoplan {
 
 TEST(MariasPass, ACuriosityClassRoverDrivesFromOneOfItsStopsToAnother) {
-  const char* given = std::getenv("REGOPLAN_DATA");
-  const std::filesystem::path data = std::filesystem::absolute(given ? given : "../shared/data");
-  if (!std::filesystem::exists(data / "mars_gale_marias_pass")) {
-    GTEST_SKIP() << (data / "mars_gale_marias_pass").string() << " is absent";
-  }
+  const std::filesystem::path data = measured_data();
+  if (const auto absence = absence_of(data / "mars_gale_marias_pass")) GTEST_SKIP() << *absence;
   setenv("REGOPLAN_DATA", data.c_str(), 1);
   PlanningProblem problem =
       read_scenario(REGOPLAN_SOURCE_DIR "/scenarios/marias_pass/scenario.yaml", {}).problem;

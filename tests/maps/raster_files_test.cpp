@@ -6,21 +6,16 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 #include "maps/terrain_summary.h"
 #include "temporary_folder.h"
 #include "terramech/input_error.h"
+#include "tests/measured_data.h"
 
 namespace regoplan {
 namespace {
 
 const std::string kMars = "+proj=eqc +R=3396190 +units=m";
-
-std::string data_folder() {
-  const char* folder = std::getenv("REGOPLAN_DATA");
-  return folder != nullptr ? folder : "../shared/data";
-}
 
 struct Tiff {
   GDALDataType type = GDT_Float32;
@@ -293,8 +288,8 @@ TEST(RasterFiles, AClassRasterWithoutCrsTakesTheElevationsAndOneWithAnotherIsRef
 }
 
 TEST(RasterFiles, TheMarsMapReadsWithTheFactsThatItsOwnersState) {
-  const std::string folder = data_folder() + "/mars_gale_marias_pass/";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  const std::string folder = measured_data() / "mars_gale_marias_pass/";
+  if (const auto absence = absence_of(folder)) GTEST_SKIP() << *absence;
   ElevationRaster elevation = read_elevation(folder + "missionDEM.tif");
   EXPECT_EQ(elevation.frame.columns, 348);
   EXPECT_EQ(elevation.frame.rows, 337);
@@ -317,8 +312,8 @@ TEST(RasterFiles, TheMarsMapReadsWithTheFactsThatItsOwnersState) {
 }
 
 TEST(RasterFiles, TheMarsYardReads) {
-  const std::string file = data_folder() + "/mars_yard/marsyard2021_0p094m.asc";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+  const std::string file = measured_data() / "mars_yard" / "marsyard2021_0p094m.asc";
+  if (const auto absence = absence_of(file)) GTEST_SKIP() << *absence;
   const ElevationRaster elevation = read_elevation(file);
   EXPECT_EQ(elevation.height_m.size(), 250000U);
   EXPECT_NEAR(elevation.frame.east_m(), -23.5 + 47, 1e-9);

@@ -6,23 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <numbers>
 
 #include "terramech/wheel_model.h"
+#include "tests/measured_data.h"
 #include "tests/terramech/csv_rows.h"
 
 namespace regoplan {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-std::string data_folder() {
-  const char* data = std::getenv("REGOPLAN_DATA");
-  return std::string(data ? data : "../shared/data") + "/cmu_single_wheel";
-}
 
 /// Pressure-sinkage numbers of the plate nearest to the wheel's width (60 mm): means of the six
 /// tests. Friction from the angle of repose, density as published; cohesion as the authors take it.
@@ -67,8 +61,8 @@ std::string slip_band(double slip) {
 }  // namespace
 
 TEST(SingleWheelMeasurements, SayWhereTheBaseModelFailsAndByHowMuch) {
-  const std::string folder = data_folder();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  const std::string folder = measured_data() / "cmu_single_wheel";
+  if (const auto absence = absence_of(folder)) GTEST_SKIP() << *absence;
   const WheelModel model({.wheel = {.radius_m = 0.058, .width_m = 0.050}, .soil = sand(folder)});
   // run-to-run standard deviation of replicates
   const std::map<std::string, double> noise{{"fx_n", 0.80}, {"fy_n", 0.76}, {"sinkage_m", 0.65e-3}};

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "terramech/input_error.h"
+#include "tests/measured_data.h"
 #include "tests/terramech/csv_rows.h"
 #include "tests/terramech/wheel_specs.h"
 
@@ -25,11 +24,6 @@ WheelModelSpec spec_2004() {
   return wheel_specs::yoshida2004();
 }
 
-std::string golden_folder() {
-  const char* data = std::getenv("REGOPLAN_DATA");
-  return std::string(data ? data : "../shared/data") + "/../golden";
-}
-
 void expect_near(double value, double golden, double floor, const std::string& what) {
   EXPECT_NEAR(value, golden, std::max(1e-5 * std::abs(golden), floor)) << what;
 }
@@ -37,8 +31,8 @@ void expect_near(double value, double golden, double floor, const std::string& w
 }  // namespace
 
 TEST(WheelModel, MatchesTheGoldenTables) {
-  const std::string folder = golden_folder();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  const std::string folder = measured_data() / ".." / "golden";
+  if (const auto absence = absence_of(folder)) GTEST_SKIP() << *absence;
   for (const std::string file : {"wheel.csv", "soils.csv"}) {
     const std::vector<csv_rows::Row> rows = csv_rows::read(folder + "/" + file);
     ASSERT_GT(rows.size(), 200u);

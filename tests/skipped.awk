@@ -1,0 +1,10 @@
+# The tests that CTest's log says were skipped, and why: CTest itself tells no more than their names.
+function told(why) {
+  if (!count++) print "Skipped, and why:"
+  print "  " test ": " why
+}
+/^[0-9]+\/[0-9]+ Test: / { test = $3 }
+/^skipped: / { told(substr($0, 10)) }                      # a script
+inside && /^\[  SKIPPED \]/ { told(reason); inside = 0 }  # GoogleTest
+inside { reason = reason (reason == "" ? "" : "\n    ") $0 }
+/: Skipped$/ { inside = 1; reason = "" }
