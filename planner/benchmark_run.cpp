@@ -122,7 +122,6 @@ Properties counted_properties(const OmplProblem& problem) {
 
 BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run) {
   ompl::msg::noOutputHandler();
-  seed_ompl(run.guidance.seed);
   SearchGuidance guidance = run.guidance;
   Properties parameters = run.parameters;
   if (const auto improve = parameters.extract("improve")) {

@@ -110,6 +110,12 @@ std::shared_ptr<VehicleSpace> states_of(const PlanningProblem& problem) {
                             .speed_m = 1});
 }
 
+// Zero would have OMPL draw a seed of its own.
+std::uint_fast32_t ompl_seed(std::uint64_t seed) {
+  constexpr std::uint64_t kLargestPrimeBelow32Bits = 4294967291;
+  return static_cast<std::uint_fast32_t>(seed % kLargestPrimeBelow32Bits + 1);
+}
+
 oc::SpaceInformationPtr space_of(const PlanningProblem& problem,
                                  const std::shared_ptr<VehicleSpace>& states) {
   const double curvature_max = problem.vehicle.curvature_max_1pm;
@@ -124,10 +130,11 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
     : world_(world),
       way_(world.problem(), guidance.variety, guidance.seed),
       steps_(world, guidance.margin_min, guidance.seed),
-      seed_(guidance.seed),
+      seed_(ompl_seed(guidance.seed)),
       improves_(guidance.improve),
       states_(states_of(world.problem())),
       space_(space_of(world.problem(), states_)) {
+  ompl::RNG::setSeed(seed_);
   space_->getControlSpace()->setControlSamplerAllocator([this](const oc::ControlSpace* controls) {
     return std::make_shared<SteeringSampler>(controls, world_, way_);
   });

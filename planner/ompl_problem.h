@@ -21,6 +21,7 @@ namespace regoplan {
 /// it counts is of that run.
 class OmplProblem {
  public:
+  /// Seeds what OMPL draws from here on, in the whole process.
   /// \param world must outlive it
   OmplProblem(const World& world, const SearchGuidance& guidance);
   OmplProblem(const OmplProblem&) = delete;
@@ -37,7 +38,7 @@ class OmplProblem {
   double diagonal_m() const;
 
   /// For planners that own their random numbers.
-  std::uint64_t seed() const { return seed_; }
+  std::uint_fast32_t seed() const { return seed_; }
 
   /// Whether a search goes on for a better path once it has one.
   bool improves() const { return improves_; }
@@ -61,7 +62,7 @@ class OmplProblem {
   const World& world_;
   CostToGo way_;
   SearchSteps steps_;
-  std::uint64_t seed_;
+  std::uint_fast32_t seed_;
   bool improves_;
   double cost_below_ = std::numeric_limits<double>::infinity();
   std::shared_ptr<VehicleSpace> states_;

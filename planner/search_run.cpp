@@ -2,7 +2,6 @@
 
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/util/Console.h>
-#include <ompl/util/RandomNumbers.h>
 
 #include <chrono>
 #include <limits>
@@ -17,7 +16,6 @@ namespace ob = ompl::base;
 SearchOutcome search(const World& world, const SearchRun& run) {
   const auto start = std::chrono::steady_clock::now();
   ompl::msg::noOutputHandler();
-  seed_ompl(run.guidance.seed);
   OmplProblem problem(world, run.guidance);
   const ob::PlannerPtr planner = make_planner(run.planner, problem);
   const auto definition = std::make_shared<ob::ProblemDefinition>(problem.space());
@@ -34,11 +32,6 @@ SearchOutcome search(const World& world, const SearchRun& run) {
       .rejected_states = problem.rejections().sample(),
       .propagations = problem.propagations(),
       .time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
-}
-
-void seed_ompl(std::uint64_t seed) {
-  constexpr std::uint64_t kLargestPrimeBelow32Bits = 4294967291;
-  ompl::RNG::setSeed(static_cast<std::uint_fast32_t>(seed % kLargestPrimeBelow32Bits + 1));
 }
 
 }  // namespace regoplan

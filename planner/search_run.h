@@ -36,12 +36,8 @@ struct SearchOutcome {
   double time_s = 0;  ///< wall clock, the field that guides it included
 };
 
-/// Runs a planner of OMPL in this process, which must not have drawn from OMPL's random numbers
-/// before: the seed is set for the whole process.
+/// Runs a planner of OMPL in this process. Planners of OMPL's own draw from random numbers that the
+/// process shares: one at a time.
 SearchOutcome search(const World& world, const SearchRun& run);
-
-/// Sets the seed of all of OMPL's random numbers in this process. It counts once, before the first
-/// is drawn.
-void seed_ompl(std::uint64_t seed);
 
 }  // namespace regoplan

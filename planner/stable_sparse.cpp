@@ -11,20 +11,11 @@ namespace regoplan {
 
 namespace ob = ompl::base;
 
-namespace {
-
-// Zero would have OMPL draw a seed of its own.
-std::uint_fast32_t seed_of(const OmplProblem& problem) {
-  return static_cast<std::uint_fast32_t>(problem.seed() % 4294967291 + 1);
-}
-
-}  // namespace
-
 StableSparse::StableSparse(OmplProblem& problem)
     : ob::Planner(problem.space(), "StableSparse"),
       problem_(problem),
       tree_(problem.world().problem()),
-      random_(seed_of(problem)) {
+      random_(problem.seed()) {
   specs_.optimizingPaths = true;
   specs_.directed = true;
   addPlannerProgressProperty("best cost REAL", [this] { return std::to_string(best_.cost()); });
@@ -39,7 +30,7 @@ void StableSparse::clear() {
   Planner::clear();
   tree_.clear();
   best_.clear();
-  random_.setLocalSeed(seed_of(problem_));
+  random_.setLocalSeed(problem_.seed());
 }
 
 bool StableSparse::hopeless(double cost, const VehicleState& state) const {

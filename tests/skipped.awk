@@ -4,7 +4,7 @@ function told(why) {
   print "  " test ": " why
 }
 /^[0-9]+\/[0-9]+ Test: / { test = $3 }
-/^skipped: / { told(substr($0, 10)) }                      # a script
+/^skipped: / { told(substr($0, 10)) }                     # a script
 inside && /^\[  SKIPPED \]/ { told(reason); inside = 0 }  # GoogleTest
 inside { reason = reason (reason == "" ? "" : "\n    ") $0 }
 /: Skipped$/ { inside = 1; reason = "" }

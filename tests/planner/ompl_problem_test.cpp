@@ -90,6 +90,19 @@ TEST(OmplProblem, SstLeavesItsStartHoweverLargeTheMap) {
   EXPECT_EQ(run.solve(20000), ob::PlannerStatus::EXACT_SOLUTION);
 }
 
+TEST(OmplProblem, TheSeedIsThatOfOmplsOwnPlannersToo) {
+  const Posed posed;
+  const auto found = [&](std::uint64_t seed) {
+    PlannerRun run(posed.world, "RRT", false, seed);
+    run.solve(20000);
+    return std::pair(run.problem.propagations(), run.duration_s());
+  };
+  const auto first = found(1);
+  EXPECT_GT(first.second, 0);
+  EXPECT_NE(found(2), first);
+  EXPECT_EQ(found(1), first);
+}
+
 TEST(OmplProblem, AStateOnceCountedIsCountedOnce) {
   const Posed posed;
   PlannerRun run(posed.world, "StableSparse");
@@ -110,7 +123,7 @@ TEST_P(Syclop, IsLedAfterClearAsBefore) {
   for (int i = 0; i < 2; ++i) {
     run.planner().clear();
     run.definition->clearSolutionPaths();
-    run.solve(20000);
+    run.solve(100000);
     EXPECT_FALSE(exact_solution(*run.definition).empty()) << i;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
+#include <ompl/util/Console.h>
 
 #include <memory>
 #include <string>
@@ -24,6 +25,7 @@ class PlannerRun {
                         .improve = improve}),
         definition(std::make_shared<ompl::base::ProblemDefinition>(problem.space())),
         planner_(make_planner(planner, problem)) {
+    ompl::msg::noOutputHandler();
     problem.pose(*definition);
     definition->setIntermediateSolutionCallback(
         [this](const ompl::base::Planner*, const std::vector<const ompl::base::State*>& states,
