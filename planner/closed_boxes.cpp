@@ -24,7 +24,8 @@ struct HeightRange {
 
 }  // namespace
 
-ClosedBoxes::ClosedBoxes(const PlanningProblem& problem) : problem_(problem) {
+ClosedBoxes::ClosedBoxes(const PlanningProblem& problem)
+    : problem_(problem), too_high_(problem.map.rocks().size(), Answer::kNotAsked) {
   const Vehicle& vehicle = problem.vehicle;
   const auto count = static_cast<Eigen::Index>(vehicle.wheels.size());
   Eigen::Matrix<double, Eigen::Dynamic, 3> place(count, 3);
@@ -119,6 +120,12 @@ bool ClosedBoxes::too_steep(const PoseBox& box) const {
 }
 
 bool ClosedBoxes::too_high(const Rock& rock) const {
+  Answer& answer = too_high_[static_cast<std::size_t>(&rock - problem_.map.rocks().data())];
+  if (answer == Answer::kNotAsked) answer = stands_too_high(rock) ? Answer::kYes : Answer::kNo;
+  return answer == Answer::kYes;
+}
+
+bool ClosedBoxes::stands_too_high(const Rock& rock) const {
   // The body stands on the plane through its contacts, which lies nowhere below the body higher
   // than the highest ground around by more than that ground's relief.
   const ElevationRaster& raster = problem_.map.elevation();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "planner/planning_problem.h"
@@ -35,7 +36,9 @@ class ClosedBoxes {
  private:
   bool wheel_off_ground(const PoseBox& box) const;
   bool on_rock(const PoseBox& box) const;
+  /// Whether the body passes over the rock nowhere.
   bool too_high(const Rock& rock) const;
+  bool stands_too_high(const Rock& rock) const;
 
   const PlanningProblem& problem_;
   double wheel_reach_m_ = 0;  ///< farthest contact from the vehicle's origin
@@ -43,6 +46,8 @@ class ClosedBoxes {
   /// How much a deviation of the ground by a metre at the contacts can turn their plane: bounds of
   /// its slopes, |forward| and |left|.
   double slope_per_deviation_1pm_ = 0;
+  enum class Answer : std::int8_t { kNotAsked, kNo, kYes };
+  mutable std::vector<Answer> too_high_;  ///< of each rock of the map
 };
 
 }  // namespace regoplan

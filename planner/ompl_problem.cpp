@@ -173,9 +173,11 @@ void OmplProblem::accept_first_below(double cost) {
 }
 
 bool OmplProblem::hopeless(double cost, const VehicleState& state, double best_cost) const {
-  const Goal& goal = world_.problem().goal;
-  const double away_m = std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) - goal.radius_m;
-  return cost + least_cost(world_.problem(), away_m) >= std::min(best_cost, cost_below_);
+  const double below = std::min(best_cost, cost_below_);
+  if (!std::isfinite(below)) return false;
+  if (!least_length_) least_length_.emplace(world_.problem());
+  return cost + least_cost(world_.problem(), least_length_->to_goal_m(state.x_m, state.y_m)) >=
+         below;
 }
 
 double OmplProblem::diagonal_m() const {

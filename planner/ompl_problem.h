@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "planner/cost_to_go.h"
+#include "planner/least_length.h"
 #include "planner/search_run.h"
 #include "planner/search_steps.h"
 #include "planner/vehicle_space.h"
@@ -65,6 +67,7 @@ class OmplProblem {
   std::uint_fast32_t seed_;
   bool improves_;
   double cost_below_ = std::numeric_limits<double>::infinity();
+  mutable std::optional<LeastLength> least_length_;  ///< once there is a path to beat
   std::shared_ptr<VehicleSpace> states_;
   ompl::control::SpaceInformationPtr space_;
 };
