@@ -1,0 +1,51 @@
+#include "benchmarks/planner/campaign_runs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include "planner/candidate.h"
+#include "planner/search_processes.h"
+
+namespace regoplan {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, Scenario> feasible_scenarios(const CampaignSettings& settings) {
+  std::map<std::string, Scenario> scenarios;
+  for (const auto& entry : fs::directory_iterator(settings.scenarios)) {
+    const std::string name = entry.path().stem();
+    const auto& wanted = settings.names;
+    if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;
+    Scenario scenario = read_scenario(entry.path(), {});
+    if (scenario.expectation == PlanStatus::kFeasible) scenarios.emplace(name, std::move(scenario));
+  }
+  return scenarios;
+}
+
+TimedOutcome timed(const World& world, const SearchRun& run) {
+  TimedOutcome result;
+  bool given = false;
+  const auto start = std::chrono::steady_clock::now();
+  search_in_processes(
+      world, 1,
+      [&]() -> std::optional<SearchRun> {
+        return std::exchange(given, true) ? std::nullopt : std::optional(run);
+      },
+      [&](const SearchRun&, const std::optional<SearchOutcome>& outcome) {
+        result = {outcome,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+      },
+      {});
+  return result;
+}
+
+bool passes(const World& verdict, const World& searched,
+            const std::vector<ControlSegment>& controls) {
+  return !verify_all(verdict, searched, {{.planner = {}, .controls = controls}},
+                     [](const PlanProgress&) {})
+              .passed.empty();
+}
+
+}  // namespace regoplan
