@@ -69,6 +69,7 @@ void compare_propagations(const Pairs& by_run) {
     ratios.push_back(sst[1] / first[1]);
     hundredfold += ratios.back() >= 100;
   }
+  if (pairs == 0) return;
   fmt::print(
       "first path no dearer than SST's in the end: {}; propagations fewer by a factor of "
       "{:.0f} (median), {:.0f} (least); a hundredfold in {}\n",
