@@ -18,11 +18,11 @@ namespace regoplan {
 /// that fall into one cell of place, heading and speed counting as one. Drives are tried lazily
 /// (Cohen, Phillips, Likhachev 2014): the queue holds rough ends, and only the most promising drive
 /// is propagated, exactly, step by step, the goal tested at each; one whose rough end another drive
-/// has reached for less is dropped. Rounds with growing bounds go
-/// through finer resolutions and driving in reverse until a path is found; then, where the problem
-/// asks to improve, through smaller weights, each round pruned against the best cost so far.
-/// Rounds with reverse also try, from slow nodes near a goal with a heading, the shortest way to
-/// its pose (`connection_to_goal`). Deterministic; draws nothing.
+/// has reached for less is dropped. Rounds with growing bounds go through finer resolutions and
+/// driving in reverse until a path is found; then, where the problem asks to improve, through
+/// smaller weights, each round pruned against the best cost so far. Rounds with reverse also try,
+/// from slow nodes near a goal with a heading, the shortest way to its pose (`connection_to_goal`).
+/// Deterministic; draws nothing.
 ///
 /// An iteration is one drive taken from the queue. Progress: `best cost REAL`, in the units of the
 /// objective.
