@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 
 namespace regoplan {
 namespace {
@@ -17,39 +19,95 @@ std::string list_of(const std::vector<std::string>& names) {
   return text;
 }
 
+struct Quantity {
+  std::string words;
+  std::string unit;
+  double per_file_unit = 1;
+};
+
+Quantity quantity_of(Channel channel) {
+  switch (channel) {
+    case Channel::kFx:
+      return {"drawbar pull", "N"};
+    case Channel::kFy:
+      return {"side force", "N"};
+    case Channel::kTorque:
+      return {"torque", "N m"};
+    case Channel::kSinkage:
+      return {"sinkage", "mm", 1000};
+    case Channel::kRutLeft:
+      return {"left rut depth", "mm", 1000};
+    case Channel::kRutRight:
+      return {"right rut depth", "mm", 1000};
+  }
+  return {};
+}
+
+/// What columns of conditions are called; others go by their own names.
+Quantity quantity_of(const std::string& column) {
+  static const std::map<std::string, Quantity> kWords{
+      {"slip_ratio", {"slip ratio", ""}},
+      {"slip_angle_deg", {"slip angle", "deg"}},
+      {"abs_slip_angle_deg", {"slip angle to either side", "deg"}},
+      {"load_n", {"load", "N"}},
+      {"speed_mps", {"speed", "m/s"}},
+      {"position_m", {"position", "m"}},
+      {"time_s", {"time", "s"}}};
+  const auto known = kWords.find(column);
+  return known == kWords.end() ? Quantity{column, ""} : known->second;
+}
+
+/// "slip ratio 0.3 to 0.8".
+std::string range_words(const std::string& column, double from, double to) {
+  const Quantity quantity = quantity_of(column);
+  std::string text = fmt::format("{} {:.3g}", quantity.words, from);
+  if (to != from) text += fmt::format(" to {:.3g}", to);
+  return quantity.unit.empty() ? text : fmt::format("{} {}", text, quantity.unit);
+}
+
+std::string region_words(const MismatchRegion& region) {
+  std::string text;
+  for (const auto& [column, range] : region.region) {
+    text +=
+        fmt::format("{}{}", text.empty() ? " at " : ", ", range_words(column, range[0], range[1]));
+  }
+  return text;
+}
+
+/// "Sinkage lies 6.05 mm (95 %: 5.79 to 6.3) above the calibrated model at slip ratio 0.65".
+std::string mismatch_words(const MismatchRegion& region) {
+  Quantity quantity = quantity_of(region.channel);
+  quantity.words.front() = static_cast<char>(std::toupper(quantity.words.front()));
+  const double up = region.effect < 0 ? -quantity.per_file_unit : quantity.per_file_unit;
+  const auto [least, most] = std::minmax({up * region.ci95[0], up * region.ci95[1]});
+  return fmt::format("{} lies {:.3g} {} (95 %: {:.3g} to {:.3g}) {} the calibrated model{}",
+                     quantity.words, up * region.effect, quantity.unit, least, most,
+                     region.effect < 0 ? "below" : "above", region_words(region));
+}
+
 std::string experiment_words(const Diagnosis& diagnosis) {
   if (diagnosis.next_experiments.empty()) return "";
   const Experiment& best = diagnosis.next_experiments.front();
   if (best.further_sensor) {
-    return fmt::format(" Measure {} to decide.", name(*best.further_sensor));
+    return fmt::format(" Measure {} to decide.", quantity_of(*best.further_sensor).words);
   }
   std::string at;
   for (const auto& [column, value] : best.conditions) {
-    at += fmt::format("{}{} {:.3g}", at.empty() ? "" : ", ", column, value);
+    at += fmt::format("{}{}", at.empty() ? "" : ", ", range_words(column, value, value));
   }
   return fmt::format(" To decide, measure at {}.", at);
 }
 
-}  // namespace
-
-std::string words_of(const MismatchRegion& region) {
-  std::string text;
-  for (const auto& [column, range] : region.region) {
-    text += fmt::format("{}{} {:.3g}", text.empty() ? "" : ", ", column, range[0]);
-    if (range[1] != range[0]) text += fmt::format(" to {:.3g}", range[1]);
-  }
-  return text.empty() ? "all conditions" : text;
+/// No more certain than it can be told apart from certainty.
+std::string percent(double probability) {
+  return probability > 0.99 ? "over 99 %" : fmt::format("{:.0f} %", 100 * probability);
 }
+
+}  // namespace
 
 std::string sentence_of(const Diagnosis& diagnosis) {
   std::string where;
-  if (!diagnosis.where.empty()) {
-    const MismatchRegion& worst = diagnosis.where.front();
-    where = fmt::format(
-        "{} differs from the calibrated model by {:+.3g} (95 %: {:.3g} to {:.3g}) "
-        "at {}; ",
-        name(worst.channel), worst.effect, worst.ci95[0], worst.ci95[1], words_of(worst));
-  }
+  if (!diagnosis.where.empty()) where = mismatch_words(diagnosis.where.front()) + "; ";
   switch (diagnosis.verdict) {
     case Verdict::kConsistent:
       return "The recording agrees with the model at the prior soil numbers: nothing beyond noise.";
@@ -72,8 +130,8 @@ std::string sentence_of(const Diagnosis& diagnosis) {
       for (const Claim& claim : diagnosis.claims) {
         std::vector<std::string> names{claim.id};
         names.insert(names.end(), claim.equivalent.begin(), claim.equivalent.end());
-        what += fmt::format("{}{}, {:.0f} %", what.empty() ? "" : "; and ", list_of(names),
-                            100 * claim.probability);
+        what += fmt::format("{}{}, {}", what.empty() ? "" : "; and ", list_of(names),
+                            percent(claim.probability));
       }
       std::string text = where + "the data say " + what + ".";
       const double left = 1 - diagnosis.share_explained;

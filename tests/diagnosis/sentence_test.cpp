@@ -22,8 +22,26 @@ void expect_says(const std::string& sentence, const std::vector<std::string>& wo
 }
 
 TEST(Sentence, NamesChannelSizeRegionMechanismAndProbability) {
-  expect_says(sentence_of(named()), {"sinkage_m", "+0.0042", "0.0035 to 0.0049",
-                                     "slip_ratio 0.3 to 0.8", "slip_sinkage, 96 %"});
+  expect_says(sentence_of(named()),
+              {"Sinkage lies 4.2 mm (95 %: 3.5 to 4.9) above the calibrated model at "
+               "slip ratio 0.3 to 0.8;",
+               "slip_sinkage, 96 %"});
+}
+
+TEST(Sentence, SaysBelowOfWhatIsLess) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.front() = {.channel = Channel::kFy,
+                             .region = {{"abs_slip_angle_deg", {16, 16}}, {"load_n", {20, 64}}},
+                             .effect = -3,
+                             .ci95 = {-3.5, -2.5}};
+  expect_says(sentence_of(diagnosis), {"Side force lies 3 N (95 %: 2.5 to 3.5) below",
+                                       "slip angle to either side 16 deg, load 20 to 64 N"});
+}
+
+TEST(Sentence, IsNeverQuiteCertain) {
+  Diagnosis diagnosis = named();
+  diagnosis.claims.front().probability = 0.9999;
+  expect_says(sentence_of(diagnosis), {"slip_sinkage, over 99 %"});
 }
 
 TEST(Sentence, SaysWhatANameLeavesUnexplained) {
@@ -36,9 +54,9 @@ TEST(Sentence, OfAClassNamesAllAndWhatWouldDecide) {
   diagnosis.claims.front().equivalent = {"grousers"};
   diagnosis.next_experiments = {{.conditions = {{"slip_ratio", 0.9}, {"load_n", 30}}}};
   expect_says(sentence_of(diagnosis), {"slip_sinkage or grousers", "cannot tell the names apart",
-                                       "load_n 30, slip_ratio 0.9"});
+                                       "load 30 N, slip ratio 0.9"});
   diagnosis.next_experiments = {{.further_sensor = Channel::kTorque}};
-  expect_says(sentence_of(diagnosis), {"Measure torque_nm to decide"});
+  expect_says(sentence_of(diagnosis), {"Measure torque to decide"});
 }
 
 TEST(Sentence, OfWrongSoilNumbersNamesTheFarthest) {
@@ -55,7 +73,7 @@ TEST(Sentence, OfTheUnexplainedInventsNoName) {
   diagnosis.verdict = Verdict::kUnexplained;
   diagnosis.claims.clear();
   const std::string sentence = sentence_of(diagnosis);
-  expect_says(sentence, {"sinkage_m", "no known name explains it"});
+  expect_says(sentence, {"Sinkage", "no known name explains it"});
   EXPECT_EQ(sentence.find("slip_sinkage"), std::string::npos);
 }
 
