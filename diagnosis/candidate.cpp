@@ -232,6 +232,10 @@ bool is_instrument(const std::string& id) {
   return id.starts_with("sensor_") || id == "slip_scale" || id == "load_transfer";
 }
 
+bool has_one_form(const std::string& id) {
+  return id.starts_with("sensor_") || id == "slip_scale" || id == "slope_tilt";
+}
+
 std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording) {
   const auto varied = [&](const auto& column) { return span_of(bed, column).width() > 0; };
   const Span slip = span_of(bed, [](const Condition& at) { return at.slip_ratio; });

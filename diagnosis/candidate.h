@@ -54,6 +54,10 @@ struct Effect {
 /// Whether an id is a fault of instruments and not physics of wheel and soil.
 bool is_instrument(const std::string& id);
 
+/// Whether what it does is known to the last term, so that no other form of it can be meant: a
+/// sensor's bias, gain and crosstalk, a scale, a tilt.
+bool has_one_form(const std::string& id);
+
 /// Every form of every mechanism and instrument fault that the recording can bear, each from every
 /// starting point it needs.
 std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording);

@@ -77,11 +77,34 @@ std::size_t days_of(const Recording& recording) {
   return days.size();
 }
 
+/// Between its smallest and its largest value.
+double span_of(const Recording& recording, Channel channel) {
+  double low = INFINITY, high = -INFINITY;
+  for (const WheelRun& run : recording.runs) {
+    if (!std::isfinite(run.value(channel))) continue;
+    low = std::min(low, run.value(channel));
+    high = std::max(high, run.value(channel));
+  }
+  return high - low;
+}
+
+std::string setup_note(const Recording& recording, const ChannelNoise& noise) {
+  std::string text =
+      fmt::format("{}: no replicates; noise {:.3g} from the setup, days by half of it (assumed)",
+                  name(noise.channel), noise.constant);
+  const double span = span_of(recording, noise.channel);
+  if (noise.constant > span) {
+    text +=
+        fmt::format("; all its values lie within {:.3g}: is the unit of the noise right?", span);
+  }
+  return text;
+}
+
 std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
   const std::string channel(name(noise.channel));
   switch (noise.source) {
     case NoiseSource::kSetup:
-      return fmt::format("{}: no replicates; noise {:.3g} from the setup", channel, noise.constant);
+      return setup_note(recording, noise);
     case NoiseSource::kNeighbours:
       return fmt::format(
           "{}: neither replicates nor setup tell the noise; {:.3g} was taken from "

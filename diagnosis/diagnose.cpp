@@ -17,8 +17,9 @@
 namespace regoplan {
 namespace {
 
-constexpr double kWorstPull = 4.5;    // prior standard deviations that calibration may need
-constexpr double kClearEvidence = 9;  // nats by which a name must beat `parameters` unprompted
+constexpr double kWorstPull = 4.5;     // prior standard deviations that calibration may need
+constexpr double kBeyondDoubt = 1e-3;  // p of a lack of fit that needs no held-out proof
+constexpr double kClearEvidence = 9;   // nats by which a name must beat `parameters` unprompted
 
 /// One diagnosis under way: what has been found, and the parts that later steps build on.
 class Diagnosing {
@@ -37,10 +38,6 @@ class Diagnosing {
   Diagnosis run() {
     tell("testing for lack of fit", 0.05);
     detect();
-    if (!rejected_ && !stopped()) {
-      found_.smallest_detectable = smallest_detectable(calibrated_.problem(), calibrated_.base(),
-                                                       effects_, found_.before.critical);
-    }
     tell("locating the mismatch", 0.1);
     if (rejected_ && !stopped()) {
       found_.where = locate(calibrated_.recording(), calibrated_.remainder_of(calibrated_.base()),
@@ -51,8 +48,14 @@ class Diagnosing {
     tell("proving it on held-out conditions", 0.85);
     decide();
     list_ranking();
+    const bool nothing_missing =
+        found_.verdict == Verdict::kConsistent || found_.verdict == Verdict::kParameters;
+    if (nothing_missing && !stopped()) {
+      found_.smallest_detectable = smallest_detectable(calibrated_.problem(), calibrated_.base(),
+                                                       effects_, found_.before.critical);
+    }
     tell("choosing the next experiment", 0.95);
-    if (rejected_ && !stopped()) found_.next_experiments = experiments();
+    if (!nothing_missing && !stopped()) found_.next_experiments = experiments();
     found_.interrupted = stopped();
     found_.sentence = sentence_of(found_);
     tell("done", 1);
@@ -79,10 +82,12 @@ class Diagnosing {
     found_.before = lack_of_fit(recording, remainder, options_.seed);
     found_.after = found_.before;
     unfit_ = found_.before.f > found_.before.critical;
+    beyond_doubt_ = found_.before.p_value < kBeyondDoubt;
     if (loose && !unfit_ && kWide * loose->x.lpNorm<Eigen::Infinity>() > kWorstPull) {
       // too far, unless numbers nearer to their tests fit as well
       const LackOfFit near = lack_of_fit(recording, calibrated_.remainder_of(base), options_.seed);
       unfit_ = near.f > near.critical;
+      beyond_doubt_ = unfit_;
     }
     stands_out_ = p_value_along(recording, remainder, directions(), options_.seed) < 0.005;
     rejected_ = unfit_ || stands_out_;
@@ -140,7 +145,7 @@ class Diagnosing {
       nothing_is_missing();
       return;
     }
-    NameContest contest(calibrated_, scored_, plain_model(), options_.threads);
+    NameContest contest(calibrated_, scored_, plain_model(), options_.seed, options_.threads);
     const auto claim = contest.decide();
     scored_ = contest.scored();
     add_notes(contest.notes());
@@ -151,14 +156,23 @@ class Diagnosing {
       found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
       take(
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
-    } else if (unfit_) {
-      found_.verdict = Verdict::kUnexplained;
-      take(correction_without_name(calibrated_, scored_, options_.threads));
-    } else {
-      // only a name's evidence spoke against the calibrated model, and the name does not hold
-      nothing_is_missing();
-      weigh(scored_, PlainModel::kHolds);
+      return;
     }
+    if (unfit_) {
+      Correction correction = correction_without_name(calibrated_, scored_, options_.threads);
+      if (correction.refused.empty() || beyond_doubt_) {
+        found_.verdict = Verdict::kUnexplained;
+        take(std::move(correction));
+        return;
+      }
+      found_.notes.push_back(
+          fmt::format("there may be a lack of fit (p = {:.2g}), but nothing that predicts "
+                      "held-out conditions: it is taken for chance",
+                      found_.before.p_value));
+    }
+    // what spoke against the calibrated model does not hold
+    nothing_is_missing();
+    weigh(scored_, PlainModel::kHolds);
   }
 
   void nothing_is_missing() {
@@ -207,9 +221,10 @@ class Diagnosing {
   const CalibratedRecording calibrated_;
   std::vector<Effect> effects_;
   std::vector<ScoredId> scored_;
-  bool stands_out_ = false;  // the residual lies along some effect farther than noise goes
-  bool unfit_ = false;       // lack of fit, or soil numbers that calibration pulled too far
-  bool rejected_ = false;    // that, or a name far better than calibration alone
+  bool stands_out_ = false;    // the residual lies along some effect farther than noise goes
+  bool unfit_ = false;         // lack of fit, or soil numbers that calibration pulled too far
+  bool beyond_doubt_ = false;  // unfit, even where no correction proves itself
+  bool rejected_ = false;      // that, or a name far better than calibration alone
   bool consistent_ = false;
   Diagnosis found_;
 };

@@ -42,7 +42,7 @@ std::optional<ProvenClaim> NameContest::decide() {
   const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
   if (best == nullptr) return std::nullopt;
   const FitProblem problem = calibrated_.problem();
-  std::string doubt = objection(problem, best->fit);
+  std::string doubt = doubt_about(best->fit);
   if (!doubt.empty() && another_holds(claimed, std::string(best->id))) {
     claimed = proven_one_by_one();
     best = best_of(scored_, claimed);
@@ -87,6 +87,19 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
   }
 }
 
+/// What speaks against it: its own numbers, or a lack of fit that it leaves. Other effects act in
+/// forms that nobody knows and may leave one.
+std::string NameContest::doubt_about(const CandidateFit& fit) const {
+  std::string doubt = objection(calibrated_.problem(), fit);
+  const bool exact = std::ranges::all_of(
+      fit.candidate.effects, [](const Effect& effect) { return has_one_form(effect.id); });
+  if (!doubt.empty() || !exact) return doubt;
+  const LackOfFit left = lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(fit), seed_);
+  if (left.f <= left.critical) return "";
+  return fmt::format("what it does is known exactly, and leaves a lack of fit (p = {:.2g})",
+                     left.p_value);
+}
+
 /// What speaks against the best of a class need not speak against its other names, nor against
 /// it with a second effect beside it. Gives up the best where a claim that shares a name with the
 /// one before is made then and nothing speaks against it.
@@ -103,7 +116,7 @@ bool NameContest::another_holds(const std::vector<NameClass>& refuted, const std
     });
   };
   if (other != nullptr && std::ranges::any_of(other->fit.candidate.effects, was_named) &&
-      objection(calibrated_.problem(), other->fit).empty()) {
+      doubt_about(other->fit).empty()) {
     return true;
   }
   scored_ = before;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +25,12 @@ class NameContest {
  public:
   /// \param scored weighed
   NameContest(const CalibratedRecording& calibrated, std::vector<ScoredId> scored, PlainModel plain,
-              int threads)
-      : calibrated_(calibrated), scored_(std::move(scored)), plain_(plain), threads_(threads) {}
+              std::uint64_t seed, int threads)
+      : calibrated_(calibrated),
+        scored_(std::move(scored)),
+        plain_(plain),
+        seed_(seed),
+        threads_(threads) {}
 
   /// The claim that holds, if any does.
   std::optional<ProvenClaim> decide();
@@ -43,11 +48,13 @@ class NameContest {
 
   std::vector<NameClass> proven_one_by_one();
   std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const;
+  std::string doubt_about(const CandidateFit& fit) const;
   bool another_holds(const std::vector<NameClass>& refuted, const std::string& best);
 
   const CalibratedRecording& calibrated_;
   std::vector<ScoredId> scored_;
   PlainModel plain_;
+  std::uint64_t seed_;
   int threads_;
   std::vector<std::string> notes_;
 };

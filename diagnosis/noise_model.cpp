@@ -213,6 +213,12 @@ bool several_days(const Recording& recording) {
       recording.runs, [&](const WheelRun& run) { return run.day != recording.runs.front().day; });
 }
 
+/// A bed prepared once may differ from the next by as much as days do elsewhere, seen or not.
+void assume_a_day(ChannelNoise& noise) {
+  noise.day_assumed = true;
+  noise.day_offset = noise.constant / 2;
+}
+
 }  // namespace
 
 double run_deviation(const ChannelNoise& noise, double y) {
@@ -233,6 +239,7 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
                          ? given->second
                          : neighbour_deviation(conditions, adjusted, model);
     noise.degrees_of_freedom = 0;
+    assume_a_day(noise);
     if (!(noise.constant > 0)) {
       throw InputError(
           fmt::format("{}: neither replicates nor setup tell its noise, and "
@@ -263,10 +270,7 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   };
   weigh_outliers(replicates, adjusted, whole_deviation, noise.weight);
   fit_variances(recording, replicates, adjusted, days && days_seen, noise);
-  if (days && !days_seen) {
-    noise.day_assumed = true;
-    noise.day_offset = noise.constant / 2;
-  }
+  if (!days_seen) assume_a_day(noise);
   for (std::size_t run = 0; run < noise.weight.size(); ++run) {
     if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
   }

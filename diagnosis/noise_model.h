@@ -20,7 +20,9 @@ struct ChannelNoise {
   double proportional = 0;
   double day_offset = 0;
   double day_gain = 0;
-  bool day_assumed = false;  ///< no condition was run on two days: half of the scatter was taken
+  /// No condition was run on two days, as far as the recording says: half of the scatter was taken,
+  /// of every day that it names or of all of it.
+  bool day_assumed = false;
   int degrees_of_freedom = 0;
   std::vector<double> weight;         ///< per run, in [0, 1]: below 1 for outliers
   std::vector<std::size_t> outliers;  ///< runs

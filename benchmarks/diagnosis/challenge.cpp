@@ -51,10 +51,11 @@ DiagnosisSetup written(const Rig& rig, const MeasurementNoise& noise, Random& ra
   }
   if (rig.replicates > 1) return setup;
   for (const Channel channel : rig.channels) {
-    const double typical = channel == Channel::kSinkage ? rig.middle_sinkage_m
+    const bool is_force = channel == Channel::kFx || channel == Channel::kFy;
+    const double typical = is_force ? 0.3 * rig.middle_load_n
                            : channel == Channel::kTorque
                                ? 0.3 * rig.middle_load_n * rig.setup.wheel.radius_m
-                               : 0.3 * rig.middle_load_n;
+                               : rig.middle_sinkage_m;
     setup.noise_standard_deviation[channel] =
         as_in_file(uniform(random, 0.95, 1.1) * noise_sigma(noise, channel, typical));
   }

@@ -95,6 +95,18 @@ TEST(NoiseModel, WithoutReplicatesTheSetupsNumberCounts) {
   EXPECT_EQ(noise.source, NoiseSource::kSetup);
   EXPECT_EQ(noise.constant, 0.7);
   EXPECT_EQ(noise.degrees_of_freedom, 0);
+  EXPECT_EQ(noise.day_offset, 0.35);
+}
+
+TEST(NoiseModel, WhatADayMayAddIsHeldPossibleWhereNoneCanBeTold) {
+  const ChannelNoise replicates_on_one_day = [] {
+    Bed made = bed(40, 3, 0.5, 0, 0, 8);
+    for (WheelRun& run : made.recording.runs) run.day = 0;
+    return noise_of(made);
+  }();
+  EXPECT_TRUE(replicates_on_one_day.day_assumed);
+  EXPECT_EQ(replicates_on_one_day.day_offset, replicates_on_one_day.constant / 2);
+  EXPECT_FALSE(noise_of(bed(40, 3, 0.5, 0, 0, 8)).day_assumed);
 }
 
 TEST(NoiseModel, WithoutReplicatesAndSetupNeighboursErrOnTheCautiousSide) {

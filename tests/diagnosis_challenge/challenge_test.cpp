@@ -53,6 +53,22 @@ TEST(Challenge, RecordsFortyToAHundredAndThirtyRuns) {
   }
 }
 
+TEST(Challenge, StatesTheNoiseThatItMakes) {
+  int stated = 0;
+  for (std::uint64_t index = 0; index < 6; ++index) {
+    const Challenge made = generate(Stratum::kRutShown, 20261122, index);
+    for (const auto& [channel, deviation] : made.setup.noise_standard_deviation) {
+      double largest = 0;
+      for (const WheelRun& run : made.recording.runs) {
+        largest = std::max(largest, std::abs(run.value(channel)));
+      }
+      EXPECT_LT(deviation, 0.5 * largest) << name(channel) << " of case " << index;
+      ++stated;
+    }
+  }
+  EXPECT_GT(stated, 0);
+}
+
 TEST(Challenge, TellsRutDepthsInOneStratumOnly) {
   const auto tells = [](Stratum stratum) {
     const Recording recording = generate(stratum, 7, 0).recording;
