@@ -160,14 +160,16 @@ class Diagnosing {
     }
     if (unfit_) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);
-      if (correction.refused.empty() || beyond_doubt_) {
+      const bool proven =
+          correction.refused.empty() && correction.proof.share_explained > kWorthCorrecting;
+      if (proven || beyond_doubt_) {
         found_.verdict = Verdict::kUnexplained;
         take(std::move(correction));
         return;
       }
       found_.notes.push_back(
-          fmt::format("there may be a lack of fit (p = {:.2g}), but nothing that predicts "
-                      "held-out conditions: it is taken for chance",
+          fmt::format("there may be a lack of fit (p = {:.2g}), but no correction proves its "
+                      "worth on held-out conditions: it is taken for chance",
                       found_.before.p_value));
     }
     // what spoke against the calibrated model does not hold

@@ -11,8 +11,7 @@
 namespace regoplan {
 namespace {
 
-constexpr double kClearGain = 2;            // standard errors of the held-out gain
-constexpr double kWorthNaming = 1.0 / 3.0;  // share of the excess misfit that a claim explains
+constexpr double kClearGain = 2;  // standard errors of the held-out gain
 
 /// What a claim explains on held-out conditions, and of the pulls on the soil numbers.
 struct Worth {
@@ -20,7 +19,7 @@ struct Worth {
   double share = 0;  ///< of the excess misfit
   double slack = 0;  ///< noise alone moves that share by so much
 
-  bool proven() const { return gain > kClearGain && share + slack > kWorthNaming; }
+  bool proven() const { return gain > kClearGain && share + slack > kWorthCorrecting; }
 };
 
 Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
