@@ -1,7 +1,6 @@
 #include "benchmarks/planner/campaign_runs.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <utility>
 
@@ -24,6 +23,10 @@ std::map<std::string, Scenario> feasible_scenarios(const CampaignSettings& setti
   return scenarios;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 TimedOutcome timed(const World& world, const SearchRun& run) {
   TimedOutcome result;
   bool given = false;
@@ -34,8 +37,7 @@ TimedOutcome timed(const World& world, const SearchRun& run) {
         return std::exchange(given, true) ? std::nullopt : std::optional(run);
       },
       [&](const SearchRun&, const std::optional<SearchOutcome>& outcome) {
-        result = {outcome,
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+        result = {outcome, seconds_since(start)};
       },
       {});
   return result;

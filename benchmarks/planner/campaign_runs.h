@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@ namespace regoplan {
 
 /// The scenarios asked for that a path is expected in, by name.
 std::map<std::string, Scenario> feasible_scenarios(const CampaignSettings& settings);
+
+double seconds_since(std::chrono::steady_clock::time_point start);
 
 struct TimedOutcome {
   std::optional<SearchOutcome> outcome;

@@ -14,6 +14,7 @@ struct CampaignSettings {
   int seeds = 10;
   int verified = 1 << 30;
   double time_s = 10;
+  std::filesystem::path map;  ///< scenario of the large map
 };
 
 /// How soon the lattice has its first path, and whether the path passes verification.
@@ -27,5 +28,8 @@ void certificates_campaign(const CampaignSettings& settings);
 
 /// In how many soil draws that the plan has not seen its accepted path keeps the margin.
 void coverage_campaign(const CampaignSettings& settings);
+
+/// How long a first path of 500 m takes on a large map, from reading it on.
+void large_map_campaign(const CampaignSettings& settings);
 
 }  // namespace regoplan

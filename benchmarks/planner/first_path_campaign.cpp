@@ -10,15 +10,7 @@
 
 namespace regoplan {
 
-namespace {
-
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 void first_path_campaign(const CampaignSettings& settings) {
   CampaignRows rows(settings.out / "first_path.csv",

@@ -4,6 +4,7 @@
 //   planner_campaign cost         --out DIR [--seeds N] [--time S] [--planner NAME]...
 //   planner_campaign certificates --out DIR [--seeds N]
 //   planner_campaign coverage     --out DIR [--seeds N] [--scenario NAME]...
+//   planner_campaign large_map    --out DIR --map SCENARIO.yaml [--seeds N]
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
@@ -20,7 +21,8 @@ int main(int argc, char** argv) {
       {"first_path", first_path_campaign},
       {"cost", cost_campaign},
       {"certificates", certificates_campaign},
-      {"coverage", coverage_campaign}};
+      {"coverage", coverage_campaign},
+      {"large_map", large_map_campaign}};
   for (const auto& [name, campaign] : campaigns) {
     CLI::App* parser = app.add_subcommand(name, "");
     parser->add_option("--out", settings.out, "folder for NAME.csv")->required();
@@ -30,6 +32,8 @@ int main(int argc, char** argv) {
     parser->add_option("--seeds", settings.seeds, "how many, of each; of maps for certificates");
     parser->add_option("--verified", settings.verified, "seeds of first_path to verify too");
     parser->add_option("--time", settings.time_s, "seconds of each run");
+    parser->add_option("--map", settings.map, "scenario of the large map")
+        ->required(name == "large_map");
     parser->callback([&settings, run = campaign] {
       std::filesystem::create_directories(settings.out);
       run(settings);
