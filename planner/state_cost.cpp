@@ -4,7 +4,6 @@
 #include <ompl/control/PathControl.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "planner/ompl_planners.h"
@@ -26,13 +25,10 @@ Driven driven(OmplProblem& problem, const VehicleSpace::Values& start,
   Driven path;
   VehicleSpace::Values values = start;
   double cost = 0;
-  for (const ControlSegment& segment : controls) {
-    const VehicleControl control{.speed_target_mps = segment.speed_target_mps,
-                                 .curvature_target_1pm = segment.curvature_target_1pm};
-    const long steps = std::lround(segment.duration_s / problem.step_s());
-    path.drives.push_back({.control = control});
-    for (long i = 0; i < steps; ++i) {
-      const SearchStep step = problem.steps().next(values, control, problem.step_s());
+  for (const Drive& drive : drives_of(controls, problem.step_s())) {
+    path.drives.push_back({.control = drive.control});
+    for (int i = 0; i < drive.steps; ++i) {
+      const SearchStep step = problem.steps().next(values, drive.control, problem.step_s());
       cost += step_cost(problem.world(), values, step, problem.step_s());
       values = step.values;
       ++path.drives.back().steps;

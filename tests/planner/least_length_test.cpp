@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/drive.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {
@@ -25,13 +26,11 @@ std::vector<std::pair<double, VehicleState>> steps_to_goal(const World& world) {
   VehicleSpace::Values values;
   values.vehicle = world.start();
   double driven_m = 0;
-  for (const ControlSegment& segment : exact_solution(*run.definition)) {
-    const VehicleControl control{.speed_target_mps = segment.speed_target_mps,
-                                 .curvature_target_1pm = segment.curvature_target_1pm};
-    for (long i = std::lround(segment.duration_s / run.problem.step_s()); i > 0; --i) {
+  for (const Drive& drive : drives_of(exact_solution(*run.definition), run.problem.step_s())) {
+    for (int i = 0; i < drive.steps; ++i) {
       steps.emplace_back(driven_m, values.vehicle);
       const VehicleState before = values.vehicle;
-      values = run.problem.steps().next(values, control, run.problem.step_s()).values;
+      values = run.problem.steps().next(values, drive.control, run.problem.step_s()).values;
       driven_m += std::hypot(values.vehicle.x_m - before.x_m, values.vehicle.y_m - before.y_m);
     }
   }
