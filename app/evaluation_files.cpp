@@ -11,6 +11,7 @@
 #include "app/evaluation_report.h"
 #include "app/model_settings.h"
 #include "app/staged_files.h"
+#include "planner/rejection_text.h"
 
 namespace regoplan {
 namespace {
@@ -22,20 +23,16 @@ double degrees(double rad) {
 }
 
 Json refusal_json(const Refusal& refusal) {
-  const bool angle = refusal.reason == "slope" || refusal.reason == "slip_angle";
-  const double unit = angle ? degrees(1) : 1;
+  const ShownUnit unit = shown_unit(refusal.reason);
   return {{"reason", refusal.reason},
           {"when", refusal.while_tracking ? "driven" : "commanded"},
           {"x_m", refusal.x_m},
           {"y_m", refusal.y_m},
           {"distance_m", refusal.s_m},
           {"time_s", refusal.time_s},
-          {"value", refusal.value * unit},
-          {"limit", refusal.limit * unit},
-          {"unit", angle                                                          ? "deg"
-                   : refusal.reason == "steering"                                 ? "1/m"
-                   : refusal.reason == "deviation" || refusal.reason == "sinkage" ? "m"
-                                                                                  : ""}};
+          {"value", refusal.value * unit.per_si},
+          {"limit", refusal.limit * unit.per_si},
+          {"unit", unit.name}};
 }
 
 Json limiting_json(const PathEvaluation& evaluation) {

@@ -7,6 +7,7 @@
 
 #include "app/report_map.h"
 #include "planner/pareto.h"
+#include "planner/rejection_text.h"
 #include "planner/wheel_loads_along.h"
 
 namespace regoplan {
@@ -162,9 +163,7 @@ json rejected_states_json(const std::vector<RejectedState>& states) {
   json rows = json::array();
   for (std::size_t k = 0; k < count; ++k) {
     const RejectedState& state = states[k * states.size() / count];
-    // Where the reason is an angle, value and limit are radians.
-    const bool angle = state.reason == Rejection::kSlope || state.reason == Rejection::kSlipAngle;
-    const double unit = angle ? degrees(1) : 1;
+    const double unit = shown_unit(name(state.reason)).per_si;
     rows.push_back({{"reason", name(state.reason)},
                     {"x_m", rounded(state.x_m, 3)},
                     {"y_m", rounded(state.y_m, 3)},

@@ -11,6 +11,7 @@
 
 #include "planner/path_improvement.h"
 #include "planner/path_margins.h"
+#include "planner/rejection_text.h"
 #include "planner/soil_uncertainty.h"
 #include "planner/steer_back.h"
 #include "terramech/parallel_for.h"
@@ -20,12 +21,7 @@ namespace {
 
 std::string why_overturned(const Replay& replay) {
   if (const auto& rejection = replay.rejection) {
-    const std::string numbers =
-        std::isfinite(rejection->value)
-            ? fmt::format(" {:.4g} against {:.4g}", rejection->value, rejection->limit)
-            : "";
-    return fmt::format("{}{} at ({:.2f}, {:.2f}), {:.2f} s", name(rejection->reason), numbers,
-                       rejection->x_m, rejection->y_m, replay.rejection_time_s);
+    return fmt::format("{}, {:.2f} s", rejection_text(*rejection), replay.rejection_time_s);
   }
   const VehicleState& end = replay.end;
   return fmt::format("the goal is not reached: the path ends at ({:.2f}, {:.2f})", end.x_m,

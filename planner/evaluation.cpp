@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "planner/path_margins.h"
+#include "planner/rejection_text.h"
 #include "terramech/parallel_for.h"
 
 namespace regoplan {
@@ -181,22 +181,8 @@ double default_deviation_max_m(const Vehicle& vehicle) {
 }
 
 std::string sentence(const Refusal& refusal) {
-  const bool angle = refusal.reason == "slope" || refusal.reason == "slip_angle";
-  const double unit = angle ? 180 / std::numbers::pi : 1;
-  const char* unit_text = angle                           ? " deg"
-                          : refusal.reason == "steering"  ? " 1/m"
-                          : refusal.reason == "deviation" ? " m"
-                          : refusal.reason == "sinkage"   ? " m"
-                                                          : "";
-  std::string what = refusal.reason;
-  std::replace(what.begin(), what.end(), '_', ' ');
-  if (std::isinf(refusal.value)) {
-    what += " (no steady trim)";
-  } else if (std::isfinite(refusal.value)) {
-    what += fmt::format(" {:.3g}{} against {:.3g}{}", refusal.value * unit, unit_text,
-                        refusal.limit * unit, unit_text);
-  }
-  return fmt::format("{} at ({:.2f}, {:.2f}), {:.1f} m along, {:.1f} s{}", what, refusal.x_m,
+  return fmt::format("{} at ({:.2f}, {:.2f}), {:.1f} m along, {:.1f} s{}",
+                     rejection_text(refusal.reason, refusal.value, refusal.limit), refusal.x_m,
                      refusal.y_m, refusal.s_m, refusal.time_s,
                      refusal.while_tracking ? ", when driven" : "");
 }

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "planner/candidate.h"
+#include "planner/rejection_text.h"
 #include "planner/relaxation.h"
 #include "planner/relaxed_problem.h"
 #include "planner/search_processes.h"
@@ -96,12 +97,7 @@ class RunSchedule {
 std::optional<std::string> start_certificate(const World& verdict) {
   const auto rejection = verdict.rejected(verdict.start(), {});
   if (!rejection) return std::nullopt;
-  const std::string numbers =
-      std::isfinite(rejection->value)
-          ? fmt::format(" ({:.4g} against {:.4g})", rejection->value, rejection->limit)
-          : "";
-  return fmt::format("the vehicle may not stand at its start: {}{} at ({:.2f}, {:.2f})",
-                     name(rejection->reason), numbers, rejection->x_m, rejection->y_m);
+  return "the vehicle may not stand at its start: " + rejection_text(*rejection);
 }
 
 std::string reason_of(const PlanResult& result, int found) {
