@@ -151,8 +151,7 @@ bool ClosedBoxes::stands_too_high(const Rock& rock) const {
   const double relief = ground.high - ground.low;
   const double underside = ground.high + 2 * relief + body.clearance_m;
   const double top = ground.low - 2 * relief + body.clearance_m + body.height_m;
-  return rock.height_m > problem_.vehicle.step_max_m && base + rock.height_m >= underside &&
-         base - rock.height_m <= top;
+  return base + rock.height_m >= underside && base - rock.height_m <= top;
 }
 
 bool ClosedBoxes::on_rock(const PoseBox& box) const {

@@ -9,6 +9,8 @@
 #include <queue>
 #include <random>
 
+#include "planner/obstacles.h"
+
 namespace regoplan {
 namespace {
 
@@ -91,9 +93,9 @@ std::vector<double> CostToGo::dearness(const PlanningProblem& problem, double va
       const bool blocked =
           steepness > 1 || map.any_rock(at.x_m - reach, at.x_m + reach, at.y_m - reach,
                                         at.y_m + reach, [&](const Rock& rock) {
-                                          return rock.height_m > vehicle.step_max_m &&
-                                                 std::hypot(rock.x_m - at.x_m, rock.y_m - at.y_m) <
-                                                     rock.radius_m + reach;
+                                          return std::hypot(rock.x_m - at.x_m, rock.y_m - at.y_m) <
+                                                     rock.radius_m + reach &&
+                                                 in_the_way(map, vehicle, rock);
                                         });
       value = (blocked ? kAcrossObstacle : 1 + 3 * steepness * steepness) +
               variety * noise.at(at.x_m - west_m_, at.y_m - south_m_);

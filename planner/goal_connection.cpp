@@ -95,8 +95,7 @@ class Way {
     steps_.push_back(next);
     const VehicleState there = state();
     const GroundPatch patch = world_.dynamics().ground(there.x_m, there.y_m, there.yaw_rad);
-    blocked_ = blocked_ || !patch.known ||
-               world_.obstacles().hit(there.x_m, there.y_m, there.yaw_rad, patch);
+    blocked_ = blocked_ || !patch.known || world_.obstacles().hit(there, patch);
   }
 
   const PlanningProblem& problem_;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "planner/obstacles.h"
+
 namespace regoplan {
 namespace {
 
@@ -127,7 +129,7 @@ std::vector<PathPoint> settled(const PlanningProblem& problem, const std::vector
     problem.map.any_rock(
         from[i].x_m - near_m, from[i].x_m + near_m, from[i].y_m - near_m, from[i].y_m + near_m,
         [&](const Rock& rock) {
-          if (rock.height_m <= problem.vehicle.step_max_m) return false;
+          if (!in_the_way(problem.map, problem.vehicle, rock)) return false;
           squares.AddResidualBlock(
               new ceres::AutoDiffCostFunction<OffRock, 1, 2>(new OffRock{
                   spacing_m, rock.x_m, rock.y_m, rock.radius_m + half_width_m + kClear_m}),

@@ -144,7 +144,10 @@ void validate(const PlanningProblem& problem) {
     throw InputError("start: a wheel stands outside the map or on unknown or forbidden ground");
   }
   const Obstacles obstacles(problem.map, problem.vehicle, 0);
-  if (obstacles.hit(problem.start.x_m, problem.start.y_m, problem.start.heading_rad, patch)) {
+  if (obstacles.hit({.x_m = problem.start.x_m,
+                     .y_m = problem.start.y_m,
+                     .yaw_rad = problem.start.heading_rad},
+                    patch)) {
     throw InputError(fmt::format("start: the vehicle at ({}, {}) touches a rock or the ground",
                                  problem.start.x_m, problem.start.y_m));
   }

@@ -192,7 +192,7 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
   if (!patch.known || (use_ == WorldUse::kSearch && beside_the_edge(state))) {
     return because(Rejection::kUnknownTerrain, kNoNumber, kNoNumber);
   }
-  if (obstacles_.hit(state.x_m, state.y_m, state.yaw_rad, patch)) {
+  if (obstacles_.hit(state, patch)) {
     return because(Rejection::kObstacle, kNoNumber, kNoNumber);
   }
   const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;

@@ -114,8 +114,8 @@ TEST(Plan, AWallOfRocksIsInfeasibleWithItsCertificate) {
 TEST(Plan, WhatCannotBeCertifiedStaysUndecidedAndSaysWhatStoppedIt) {
   // A wall with a gap that the body fits through, but not with the clearance that a search keeps.
   std::vector<Rock> wall;
-  for (double y = 0; y <= 50; y += 0.8) {
-    if (std::abs(y - 25) > 1.08 + 0.6) wall.push_back({25, y, 0.6, 3});
+  for (double away = 1.08 + 0.6; away <= 25; away += 0.8) {
+    for (const double side : {-1, 1}) wall.push_back({25, 25 + side * away, 0.6, 3});
   }
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall));
   problem.search.iterations = 300;
