@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/csv_cells.h"
+#include "app/effective_settings.h"
 #include "app/model_settings.h"
 #include "app/plan_report.h"
 #include "maps/raster_files.h"
@@ -155,9 +156,10 @@ std::string plan_json(const PlanningProblem& problem, const PlanResult& result) 
             {"speed_max_mps", problem.speed_max_mps},
             {"limits", limits_json(problem.limits)},
             {"objective", objective_json(problem.search.objective)},
+            {"settings", effective_settings(problem)},
             {"overturned", list_json(result.overturned, overturned_json)},
             {"what_ifs", list_json(result.what_ifs, what_if_json)}};
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string candidate_csv(const PlanningProblem& problem, const Candidate& candidate) {

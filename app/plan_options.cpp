@@ -3,20 +3,49 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "app/command.h"
+#include "terramech/vehicle.h"
 
 namespace regoplan {
 
-void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
+namespace {
+
+/// A flag of a scenario's own has three answers: yes, no, and what the scenario says. CLI11 would
+/// take the third for no.
+void add_improve_flags(CLI::App& parser, ScenarioOverrides& overrides) {
+  CLI::Option* improve = parser.add_flag_callback(
+      "--improve", [&overrides] { overrides.improve = true; },
+      fmt::format("optimise the controls of what is found; else as the scenario says, else {}",
+                  Search{}.improve ? "yes" : "no"));
   parser
-      .add_option("--planner", overrides.planner,
-                  fmt::format("{}", fmt::join(planner_names(), ", ")))
+      .add_flag_callback(
+          "--no-improve", [&overrides] { overrides.improve = false; },
+          "leave them as they were found")
+      ->excludes(improve);
+}
+
+}  // namespace
+
+void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
+  const Search defaults;
+  const auto else_as = [](const char* help, const auto& value) {
+    return fmt::format("{}; else as the scenario says, else {}", help, value);
+  };
+  parser
+      .add_option(
+          "--planner", overrides.planner,
+          else_as(fmt::format("{}", fmt::join(planner_names(), ", ")).c_str(), defaults.planner))
       ->type_name("NAME")
       ->check(one_of(planner_names()));
-  parser.add_option("--seed", overrides.seed, "of all that is drawn")
+  parser.add_option("--seed", overrides.seed, else_as("of all that is drawn", defaults.seed))
       ->type_name("N")
       ->check(in_range(kAtLeast0));
-  CLI::Option* time = parser.add_option("--time", overrides.time_s, "seconds to search for")
+  CLI::Option* time = parser
+                          .add_option("--time", overrides.time_s,
+                                      else_as("seconds to search for", kSearchTimeDefault_s))
                           ->type_name("S")
                           ->check(in_range(kAbove0));
   parser
@@ -25,19 +54,41 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
       ->type_name("N")
       ->check(in_range({.min = 1}))
       ->excludes(time);
-  parser.add_option("--candidates", overrides.candidates, "how many paths to look for")
+  parser
+      .add_option("--candidates", overrides.candidates,
+                  else_as("how many paths to look for", defaults.candidates))
       ->type_name("N")
       ->check(in_range({.min = 1, .max = 100}));
-  parser.add_flag("--improve,!--no-improve", overrides.improve,
-                  "optimise the controls of what is found; default: yes");
+  add_improve_flags(parser, overrides);
   parser.add_option("--threads", overrides.threads, "default: all cores; changes no result")
       ->type_name("N")
       ->check(in_range({.min = 1, .max = kThreadsMax}));
 }
 
+namespace {
+
+/// An option takes a preset, or a file that exists.
+CLI::Validator names_a_vehicle() {
+  return {[](std::string& text) {
+            const std::vector<std::string> presets = preset_vehicle_names();
+            const bool known = std::ranges::find(presets, text) != presets.end() ||
+                               std::filesystem::is_regular_file(text);
+            return known
+                       ? std::string()
+                       : fmt::format("{} is not valid (allowed: {}, or a vehicle file that exists)",
+                                     text, fmt::join(presets, " | "));
+          },
+          ""};
+}
+
+}  // namespace
+
 void add_stub_options(CLI::App& parser, ScenarioStub& stub) {
-  parser.add_option("--vehicle", stub.vehicle, "of scenario.yaml: a preset or a file")
+  parser
+      .add_option("--vehicle", stub.vehicle,
+                  "of scenario.yaml: a preset, or a file that is copied beside it")
       ->type_name("NAME")
+      ->check(names_a_vehicle())
       ->capture_default_str();
   parser.add_option("--gravity-mps2", stub.gravity_mps2, "of scenario.yaml")
       ->type_name("NUMBER")

@@ -152,7 +152,6 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
 }  // namespace
 
 Search overridden(Search search, const ScenarioOverrides& overrides) {
-  constexpr double kDefaultTime_s = 20;
   if (overrides.planner) search.planner = *overrides.planner;
   if (overrides.seed) search.seed = *overrides.seed;
   if (overrides.improve) search.improve = *overrides.improve;
@@ -161,7 +160,7 @@ Search overridden(Search search, const ScenarioOverrides& overrides) {
     search.time_s = overrides.time_s;
     search.iterations = overrides.iterations;
   }
-  if (!search.time_s && !search.iterations) search.time_s = kDefaultTime_s;
+  if (!search.time_s && !search.iterations) search.time_s = kSearchTimeDefault_s;
   search.threads = overrides.threads.value_or(
       std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kThreadsMax));
   return search;

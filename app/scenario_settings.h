@@ -14,6 +14,9 @@ namespace regoplan {
 
 inline constexpr int kThreadsMax = 256;
 
+/// Of a search that is given neither a time nor iterations.
+inline constexpr double kSearchTimeDefault_s = 20;
+
 /// What a command line says in place of the scenario.
 struct ScenarioOverrides {
   std::optional<std::string> model_file{};
@@ -26,8 +29,8 @@ struct ScenarioOverrides {
   std::optional<int> threads{};  ///< else as many as the machine has
 };
 
-/// `search` with what the command line says in its place; 20 s where neither gives a budget, as
-/// many threads as the machine has cores.
+/// `search` with what the command line says in its place; the default time where neither gives a
+/// budget, as many threads as the machine has cores.
 Search overridden(Search search, const ScenarioOverrides& overrides);
 
 struct Scenario {

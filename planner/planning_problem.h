@@ -18,6 +18,8 @@ struct StartState {
   double y_m = 0;
   double heading_rad = 0;  ///< from +x toward +y
   double speed_mps = 0;
+
+  bool operator==(const StartState&) const = default;
 };
 
 struct Goal {
@@ -26,6 +28,8 @@ struct Goal {
   double radius_m = 0;
   std::optional<double> heading_rad;
   double heading_tolerance_rad = 0;  ///< either side; counts with a heading only
+
+  bool operator==(const Goal&) const = default;
 };
 
 /// Hard limits that every accepted state keeps.
@@ -38,6 +42,8 @@ struct Limits {
   /// The chance constraint: candidates whose margin holds with less probability over the soils'
   /// uncertainty are no answer. Held against the lower end of the draws' 95 % interval; 0: none.
   double probability_min = 0;
+
+  bool operator==(const Limits&) const = default;
 };
 
 /// The limits that a vehicle brings where a scenario gives none.
@@ -53,6 +59,8 @@ struct Objective {
   /// 1 - m/exposed_below.
   double per_exposed_s = 0;
   double exposed_below = 0.2;
+
+  bool operator==(const Objective&) const = default;
 };
 
 /// How to search. Exactly one of `time_s` and `iterations` bounds it: wall-clock seconds for the
@@ -67,6 +75,8 @@ struct Search {
   bool improve = true;   ///< optimise the controls of what is found (`improved`)
   int soil_draws = 100;  ///< for the quantiles and the probability of each candidate
   int threads = 2;       ///< changes the time taken, never the result under an iteration budget
+
+  bool operator==(const Search&) const = default;
 };
 
 /// The names that `Search::planner` may take.
