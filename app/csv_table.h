@@ -12,6 +12,25 @@
 
 namespace regoplan {
 
+/// A number of a table that is none of those allowed there.
+struct CellOutOfRange {
+  std::int64_t line = 0;
+  std::string column;
+  double value = 0;
+  std::string allowed;  ///< in words
+};
+
+class OutOfRangeError : public InputError {
+ public:
+  OutOfRangeError(const InputError& error, CellOutOfRange cell)
+      : InputError(error), cell_(std::move(cell)) {}
+
+  const CellOutOfRange& cell() const { return cell_; }
+
+ private:
+  CellOutOfRange cell_;
+};
+
 /// A CSV table with a header (RFC 4180, one line a row), read row by row. What is wrong with it is
 /// an InputError that names file and line.
 class CsvTable {
@@ -34,6 +53,7 @@ class CsvTable {
 
   /// A cell of the row that `next` gave last.
   /// \param hint what may be meant instead, for the error
+  /// \throws OutOfRangeError for a number outside `allowed`, InputError for what is no number
   double number(const Cells& cells, std::size_t index, const ValueRange& allowed,
                 std::string_view hint = "") const;
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -28,6 +29,18 @@ struct Options {
   bool quiet = false;
 };
 
+/// What the recording does without; of many rows, the first.
+void notify_of_left_out(const std::vector<LeftOutRow>& rows, bool quiet) {
+  constexpr std::size_t kShown = 5;
+  for (std::size_t i = 0; i < std::min(kShown, rows.size()); ++i) {
+    notify(rows[i].why + ": the row is left out", quiet);
+  }
+  if (rows.size() <= kShown) return;
+  notify(
+      fmt::format("{} more rows are left out (left_out in diagnosis.json)", rows.size() - kShown),
+      quiet);
+}
+
 /// `diagnose` knows runs, not files: its errors get the file in front.
 Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options) {
   try {
@@ -49,6 +62,7 @@ ExitStatus run_diagnosis(const Options& options) {
   for (const auto* warnings : {&run.setup.warnings, &recording.warnings}) {
     for (const std::string& warning : *warnings) notify(warning, options.quiet);
   }
+  notify_of_left_out(run.recording.left_out, options.quiet);
   if (!recording.ignored.empty()) {
     notify(fmt::format("{}: {} kept and not used", options.recording,
                        fmt::join(recording.ignored, ", ")),

@@ -110,6 +110,14 @@ Json detectable_json(const std::vector<SmallestDetectable>& all) {
   return detectable;
 }
 
+Json left_out_json(const LeftOutRow& row) {
+  return {{"line", row.cell.line},
+          {"run_id", row.run_id},
+          {"column", row.cell.column},
+          {"value", row.cell.value},
+          {"allowed", row.cell.allowed}};
+}
+
 std::vector<std::string> notes(const DiagnosisRun& run) {
   std::vector<std::string> all = run.setup.warnings;
   const auto& found = run.diagnosis.notes;  // begins with the warnings of the recording
@@ -156,6 +164,7 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
           {"setup", run.setup_file},
           {"runs", recording.runs.size()},
           {"channels", channels_json(recording.channels)},
+          {"left_out", list_json(run.recording.left_out, left_out_json)},
           {"ignored_columns", recording.ignored},
           {"corrected_model", "corrected-model.yaml"},
           {"residuals", "residuals.csv"},

@@ -163,6 +163,16 @@ bool is_recorded(const RecordingFile& read, std::string_view column) {
       read.file, read.lines[static_cast<std::size_t>(empty - read.cells.begin())], column));
 }
 
+/// A sensor errs now and then; what is wrong throughout has another reason, such as a unit.
+void refuse_where_too_many_are_left_out(const RecordingFile& read) {
+  constexpr std::size_t kOneIn = 20;
+  const std::size_t rows = read.recording.runs.size() + read.left_out.size();
+  if (kOneIn * read.left_out.size() <= rows) return;
+  throw InputError(fmt::format("{}; {} of {} rows are out of range (up to {} % are left out)",
+                               read.left_out.front().why, read.left_out.size(), rows,
+                               100 / kOneIn));
+}
+
 }  // namespace
 
 RecordingFile read_recording(std::istream& stream, const std::string& file) {
@@ -177,10 +187,17 @@ RecordingFile read_recording(std::istream& stream, const std::string& file) {
   RecordingFile read{.file = file, .columns = table.columns()};
   Recording& recording = read.recording;
   while (std::optional<Cells> cells = table.next()) {
-    recording.runs.push_back(read_run(table, *cells));
+    try {
+      recording.runs.push_back(read_run(table, *cells));
+    } catch (const OutOfRangeError& bad) {
+      read.left_out.push_back(
+          {.run_id = (*cells)[table.column("run_id")], .cell = bad.cell(), .why = bad.what()});
+      continue;
+    }
     read.cells.push_back(std::move(*cells));
     read.lines.push_back(table.line());
   }
+  refuse_where_too_many_are_left_out(read);
   if (recording.runs.empty()) throw InputError(file + ": no runs below the header");
 
   for (const Circumstance& at : kCircumstances) {

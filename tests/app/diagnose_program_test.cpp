@@ -78,6 +78,23 @@ TEST_F(Diagnose, TheBuiltInRecordingIsExplainedTheSameWhateverTheThreads) {
   }
 }
 
+TEST_F(Diagnose, ARowOutOfRangeIsLeftOutAndNamedInNoticesFilesAndOnThePage) {
+  const std::string recording = changed("r002,1,64.78,-0.0999,7.96", "r002,1,64.78,-0.0999,90.04");
+  const ProgramRun run = diagnose(recording, kScenario + "setup.yaml", "--json");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.errors.find("changed.csv:3: slip_angle_deg: 90.04 is not valid (allowed: -90 to "
+                            "90): the row is left out\n"),
+            std::string::npos)
+      << run.errors;
+  const auto d = nlohmann::json::parse(run.output);
+  EXPECT_EQ(d["runs"], 89);
+  ASSERT_EQ(d["left_out"].size(), 1u);
+  EXPECT_EQ(d["left_out"][0]["line"], 3);
+  EXPECT_EQ(d["left_out"][0]["run_id"], "r002");
+  EXPECT_NE(folder_.read("out/report.html").find(d["left_out"][0].dump()), std::string::npos);
+  EXPECT_EQ(folder_.read("out/residuals.csv").find("r002"), std::string::npos);
+}
+
 TEST_F(Diagnose, BadInputIsOneLineAndLeavesNothing) {
   const std::string setup = kScenario + "setup.yaml";
   expect_refused(diagnose("none.csv", setup), {"none.csv: no such file"});

@@ -97,6 +97,21 @@ TEST(DiagnosisJson, KeepsTheNotesOfReadingAndTheIgnoredColumns) {
   EXPECT_EQ(d["interrupted"], false);
 }
 
+TEST(DiagnosisJson, ListsTheRowsThatWereLeftOut) {
+  DiagnosisRun run = claimed_diagnosis();
+  run.recording.left_out = {
+      {.run_id = "r17",
+       .cell = {.line = 19, .column = "slip_angle_deg", .value = 90.04, .allowed = "-90 to 90"},
+       .why = "r.csv:19: ..."}};
+  const json row = {{"line", 19},
+                    {"run_id", "r17"},
+                    {"column", "slip_angle_deg"},
+                    {"value", 90.04},
+                    {"allowed", "-90 to 90"}};
+  EXPECT_EQ(parsed(run)["left_out"], json::array({row}));
+  EXPECT_TRUE(parsed(claimed_diagnosis())["left_out"].empty());
+}
+
 TEST(CorrectedModel, IsAModelFileWithTheSoilsSpread) {
   const ModelSettings read =
       read_model(parse_settings(corrected_model_text(claimed_diagnosis()), "c.yaml"));

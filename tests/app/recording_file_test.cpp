@@ -88,14 +88,17 @@ TEST(RecordingFile, CircumstancesGoWhereTheModelLooksForThem) {
 }
 
 TEST(RecordingFile, WhatCannotBeIsAnErrorWithItsPlace) {
-  EXPECT_EQ(error_of("64.7,", "0,"), "r.csv:2: load_n: 0 is not valid (allowed: above 0)");
-  EXPECT_EQ(error_of("64.7,", "-3,"), "r.csv:2: load_n: -3 is not valid (allowed: above 0)");
+  const std::string one_of_three = "; 1 of 3 rows are out of range (up to 5 % are left out)";
+  EXPECT_EQ(error_of("64.7,", "0,"),
+            "r.csv:2: load_n: 0 is not valid (allowed: above 0)" + one_of_three);
+  EXPECT_EQ(error_of("64.7,", "-3,"),
+            "r.csv:2: load_n: -3 is not valid (allowed: above 0)" + one_of_three);
   EXPECT_EQ(error_of("-20,", "nan,"),
             "r.csv:2: fx_n: nan is not valid (allowed: any finite number)");
   EXPECT_EQ(error_of("4.5,18", "4.5,inf"),
             "r.csv:3: fy_n: inf is not valid (allowed: any finite number)");
   EXPECT_EQ(error_of("0.30,16", "0.30,106"),
-            "r.csv:3: slip_angle_deg: 106 is not valid (allowed: -90 to 90)");
+            "r.csv:3: slip_angle_deg: 106 is not valid (allowed: -90 to 90)" + one_of_three);
   EXPECT_EQ(error_of("2020-11-16", "2020-02-30"),
             "r.csv:2: day: 2020-02-30 is not valid (allowed: a number or an ISO date such as "
             "2020-11-16)");
@@ -104,11 +107,51 @@ TEST(RecordingFile, WhatCannotBeIsAnErrorWithItsPlace) {
   EXPECT_EQ(error_of(",wheel,", ",wheel"), "r.csv:2: 12 cells (the header has 11)");
 }
 
+/// A recording of so many rows, some of them with a slip angle that no wheel can have.
+std::string recording_with(int rows, int out_of_range) {
+  std::string text = "run_id,load_n,slip_ratio,slip_angle_deg,fx_n\n";
+  for (int i = 0; i < rows; ++i) {
+    text += "r" + std::to_string(i) + ",64.7,0.3," + (i < out_of_range ? "90.04" : "16") + ",4.5\n";
+  }
+  return text;
+}
+
+TEST(RecordingFile, ARowOutOfRangeIsLeftOutAndListedAndTheRestIsKept) {
+  const RecordingFile file = read(recording_with(40, 2));
+  EXPECT_EQ(file.recording.runs.size(), 38u);
+  EXPECT_EQ(file.recording.runs.front().run_id, "r2");
+  EXPECT_EQ(file.lines.front(), 4);
+  EXPECT_EQ(file.cells.size(), 38u);
+  ASSERT_EQ(file.left_out.size(), 2u);
+  EXPECT_EQ(file.left_out[1].run_id, "r1");
+  EXPECT_EQ(file.left_out[1].cell.line, 3);
+  EXPECT_EQ(file.left_out[1].cell.column, "slip_angle_deg");
+  EXPECT_EQ(file.left_out[1].cell.value, 90.04);
+  EXPECT_EQ(file.left_out[1].cell.allowed, "-90 to 90");
+  EXPECT_EQ(file.left_out[1].why,
+            "r.csv:3: slip_angle_deg: 90.04 is not valid (allowed: -90 to 90)");
+}
+
+TEST(RecordingFile, MoreThanOneRowInTwentyOutOfRangeIsRefused) {
+  EXPECT_EQ(error_text([] { read(recording_with(40, 3)); }),
+            "r.csv:2: slip_angle_deg: 90.04 is not valid (allowed: -90 to 90); 3 of 40 rows are "
+            "out of range (up to 5 % are left out)");
+}
+
+TEST(RecordingFile, WhatIsNoNumberIsNeverLeftOut) {
+  EXPECT_EQ(error_text([] { read(replaced(recording_with(100, 0), "r7,64.7", "r7,heavy")); }),
+            "r.csv:9: load_n: heavy is not valid (allowed: above 0)");
+}
+
 TEST(RecordingFile, ASlipInPerCentIsSuspectedAsSuch) {
-  EXPECT_EQ(error_of("0.30", "30"),
-            "r.csv:3: slip_ratio: 30 is not valid (allowed: -1 to 1); is it in per cent?");
-  EXPECT_EQ(error_of("-0.25", "-25"),
-            "r.csv:2: slip_ratio: -25 is not valid (allowed: -1 to 1); is it in per cent?");
+  EXPECT_NE(
+      error_of("0.30", "30")
+          .find("r.csv:3: slip_ratio: 30 is not valid (allowed: -1 to 1); is it in per cent?"),
+      std::string::npos);
+  EXPECT_NE(
+      error_of("-0.25", "-25")
+          .find("r.csv:2: slip_ratio: -25 is not valid (allowed: -1 to 1); is it in per cent?"),
+      std::string::npos);
   EXPECT_NE(error_of("-0.25", "-1.5").find("a braking wheel's slip is (r w - Vx)/Vx"),
             std::string::npos);
 }

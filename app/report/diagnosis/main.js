@@ -1,6 +1,10 @@
 // Draws the diagnosis report.
 document.body.classList.add(`status-${DIAGNOSIS.verdict}`);
 byId('notes').append(...DIAGNOSIS.notes.map(note => element('li', {}, note)));
+byId('notes').append(...DIAGNOSIS.left_out.map(
+    ({line, run_id, column, value, allowed}) => element(
+        'li', {},
+        `Left out: line ${line}, run ${run_id}: ${column} is ${value} (allowed: ${allowed}).`)));
 if (DIAGNOSIS.ignored_columns.length)
   byId('notes').append(
       element('li', {}, `Columns kept and not used: ${DIAGNOSIS.ignored_columns.join(', ')}.`));
