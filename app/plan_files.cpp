@@ -202,11 +202,20 @@ std::string candidate_geojson(const PlanningProblem& problem, const Candidate& c
 
 namespace {
 
+constexpr const char* kMarginFile = "margin.tif";
+constexpr const char* kSupplyFile = "supply.tif";
+
+/// A start that is refused, or a certificate, is an answer before any search: rasters of the
+/// terrain, which take longer, would hold it up.
+bool was_searched(const PlanResult& result) {
+  return result.status != PlanStatus::kInfeasible;
+}
+
 void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
   write_bands(rasters.frame,
               {{.description = "stability margin of driving straight on, smallest over headings",
                 .values = rasters.margin}},
-              staged.path("margin.tif"));
+              staged.path(kMarginFile));
   std::vector<RasterBand> supply;
   for (std::size_t i = 0; i < rasters.speeds_mps.size(); ++i) {
     supply.push_back(
@@ -214,7 +223,7 @@ void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
                                     rasters.speeds_mps[i]),
          .values = rasters.supply_n[i]});
   }
-  write_bands(rasters.frame, supply, staged.path("supply.tif"));
+  write_bands(rasters.frame, supply, staged.path(kSupplyFile));
 }
 
 }  // namespace
@@ -229,9 +238,13 @@ void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
   }
   files.push_back({"plan.json", plan_json(problem, result)});  // last: it speaks for the others
   StagedFiles staged(folder);
-  write_rasters(terrain_rasters(problem), staged);
+  const bool with_rasters = was_searched(result);
+  if (with_rasters) write_rasters(terrain_rasters(problem), staged);
   for (const RenderedFile& file : files) staged.write(file);
   staged.commit();
+  for (const char* raster : {kMarginFile, kSupplyFile}) {
+    if (!with_rasters) std::filesystem::remove(folder / raster);
+  }
   for (std::size_t rank = result.candidates.size() + 1;; ++rank) {
     bool found = false;
     for (const std::string_view extension : {"csv", "geojson"}) {

@@ -21,8 +21,9 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
 std::string candidate_geojson(const PlanningProblem& problem, const Candidate& candidate);
 
 /// Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, and as GeoTIFF in the map's
-/// place margin.tif and supply.tif, a band for each speed (see `TerrainRasters`), all or none, and
-/// takes away the candidate files of an earlier plan in the same folder.
+/// place margin.tif and supply.tif, a band for each speed (see `TerrainRasters`), all or none; the
+/// rasters only where there was a search. Takes away the candidate files and rasters of an earlier
+/// plan in the same folder that are not written again.
 /// \throws InputError where the folder takes no files
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
                       const std::filesystem::path& folder);

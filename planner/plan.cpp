@@ -105,7 +105,6 @@ std::string reason_of(const PlanResult& result, int found) {
     return fmt::format("{} verified {}", result.candidates.size(),
                        result.candidates.size() == 1 ? "path" : "different paths");
   }
-  if (result.status == PlanStatus::kInfeasible) return *result.certificate;
   if (found > 0 && result.overturned.empty()) return fmt::format("{} paths were found", found);
   if (found > 0) {
     return fmt::format("{} paths were found, none passed its verification: {}", found,
@@ -148,10 +147,13 @@ PlanResult plan(const PlanningProblem& problem,
   result.seed = problem.search.seed;
   const World verdict(problem, WorldUse::kVerdict, problem.search.threads);
   result.certificate = start_certificate(verdict);
-  if (!result.certificate) result.certificate = certificate_of_infeasibility(problem);
+  const bool can_stand = !result.certificate;
+  if (can_stand) result.certificate = certificate_of_infeasibility(problem);
   if (result.certificate) {
     result.status = PlanStatus::kInfeasible;
-    result.reason = with_relaxation(reason_of(result, 0), problem, on_progress, stop);
+    // The refusal of a start says itself what would have to give way.
+    result.reason = can_stand ? with_relaxation(*result.certificate, problem, on_progress, stop)
+                              : *result.certificate;
     result.interrupted = stop.stop_requested();
     return result;
   }

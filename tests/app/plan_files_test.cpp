@@ -184,6 +184,19 @@ TEST(PlanFiles, MarginAndSupplyLieInTheMapsPlace) {
   }
 }
 
+TEST(PlanFiles, WhereNothingWasSearchedThereAreNoRastersNotEvenOlderOnes) {
+  const ScratchFolder folder;
+  write_plan_files(flat_problem(), result_with(1), folder.path(""));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("margin.tif")));
+  PlanResult refused;
+  refused.status = PlanStatus::kInfeasible;
+  refused.reason = "the start is refused";
+  write_plan_files(flat_problem(), refused, folder.path(""));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("margin.tif")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("supply.tif")));
+  EXPECT_EQ(folder.count(), 2);
+}
+
 TEST(PlanFiles, MarksWhatNoOtherCandidateBeats) {
   PlanResult result = result_with(2);
   result.candidates[0].margin_min = 0.2;

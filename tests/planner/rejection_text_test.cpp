@@ -52,5 +52,19 @@ TEST(RejectionText, AStartThatIsTooSteepIsRefusedInDegrees) {
       << *result.certificate;
 }
 
+TEST(Plan, ARefusedStartSaysWhatRefusesItAndLooksForNothingElse) {
+  const double slope = std::tan(12 * kTestDegree);
+  PlanningProblem problem = lrv_problem(one_soil_map(
+      50, firm_regolith(), [slope](double /*x_m*/, double y_m) { return slope * y_m; }));
+  problem.goal.x_m = 20;
+  problem.limits.slope_max_rad = 10 * kTestDegree;  // a search at 15 deg would find a path
+  const PlanResult result = plan(problem, [](const PlanProgress&) {}, {});
+  EXPECT_EQ(result.status, PlanStatus::kInfeasible);
+  EXPECT_EQ(result.reason,
+            "the vehicle may not stand at its start: slope 12 deg (allowed: at most 10 deg) at "
+            "(10.00, 25.00)");
+  EXPECT_EQ(result.certificate, result.reason);
+}
+
 }  // namespace
 }  // namespace regoplan
