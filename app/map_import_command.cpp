@@ -3,6 +3,7 @@
 
 #include "app/command.h"
 #include "app/map_folder.h"
+#include "app/map_notices.h"
 #include "app/map_summary.h"
 #include "app/plan_options.h"
 #include "app/soil_settings.h"
@@ -14,6 +15,7 @@ namespace {
 
 struct MapImportOptions {
   std::string elevation;
+  HeightReading heights;
   std::optional<std::string> classes;
   std::string soils;
   std::optional<std::string> rocks;
@@ -27,7 +29,7 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   require_writable_folder(options.out);
   SoilCatalogue soils =
       read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
-  ElevationRaster elevation = read_elevation(options.elevation);
+  ElevationRaster elevation = read_elevation(options.elevation, options.heights);
   std::optional<ClassRaster> classes;
   if (options.classes) {
     classes = read_classes(*options.classes);
@@ -39,6 +41,9 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   const TerrainMap map(std::move(elevation), std::move(classes), std::move(soils),
                        std::move(rocks));
   write_map_folder(map, options.stub, options.out);
+  for (const std::string& notice : map_notices(map, stub_vehicle(options.stub))) {
+    notify(notice, options.quiet);
+  }
   print_map_written(map, options.out, options.json, options.quiet);
   return kYes;
 }
@@ -50,10 +55,21 @@ Command add_map_import_command(CLI::App& map) {
   CLI::App* parser = map.add_subcommand(
       "import",
       "Check an elevation raster, a class raster and their soils, and make a map of them.\n"
-      "Writes dem.tif, classes.tif, soils.yaml, rocks.csv and scenario.yaml.");
-  parser->add_option("--elevation", options->elevation, "any raster that GDAL reads, metres")
+      "Writes dem.tif, classes.tif, soils.yaml, rocks.csv and scenario.yaml, and copies "
+      "a vehicle file.");
+  parser
+      ->add_option("--elevation", options->elevation,
+                   "metres: any raster that GDAL reads, or a table of points x, y, height (.csv, "
+                   ".xyz)")
       ->type_name("FILE")
       ->required();
+  const auto number = [&](const char* name, std::optional<double>& value, const char* help) {
+    parser->add_option(name, value, help)->type_name("NUMBER")->check(in_range(kAnyNumber));
+  };
+  number("--scale", options->heights.scale,
+         "metres a unit of the elevation; else as its file says");
+  number("--offset", options->heights.offset_m, "height in metres of its 0; else as its file says");
+  number("--nodata", options->heights.nodata, "what cells without height hold, if undeclared");
   parser->add_option("--soil-class", options->classes, "raster of integers, same CRS, own grid")
       ->type_name("FILE");
   parser->add_option("--soils", options->soils, "classes, soils, unmapped")

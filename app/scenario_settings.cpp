@@ -7,6 +7,7 @@
 #include <numbers>
 #include <thread>
 
+#include "app/map_notices.h"
 #include "app/model_settings.h"
 #include "app/settings_mapping.h"
 #include "app/settings_path.h"
@@ -268,6 +269,9 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
           *overrides.model_file));
     }
     validate(scenario.problem);
+    for (std::string& notice : map_notices(scenario.problem.map, scenario.problem.vehicle)) {
+      scenario.notices.push_back(std::move(notice));
+    }
     return scenario;
   });
 }

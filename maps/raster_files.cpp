@@ -13,6 +13,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "maps/grid_table.h"
+#include "maps/raster_units.h"
+#include "maps/undeclared_nodata.h"
 #include "maps/whole_file.h"
 #include "terramech/input_error.h"
 
@@ -96,12 +99,7 @@ GridFrame read_frame(GDALDataset& dataset, const std::string& file) {
                      "gdalwarp -t_srs \"{}\" {} out.tif",
                      crs->GetName(), metric_crs(*crs, transform, frame.columns, frame.rows), file));
   }
-  if (crs != nullptr && std::abs(crs->GetLinearUnits() - 1) > 1e-9) {
-    fail(file,
-         fmt::format("the unit of its CRS \"{}\" is {} m, metres are needed; remedy: gdalwarp "
-                     "-t_srs CRS_IN_METRES {} out.tif",
-                     crs->GetName(), crs->GetLinearUnits(), file));
-  }
+  if (crs != nullptr) check_crs_unit(*crs, transform, frame.columns, frame.rows, file);
   // Below a thousandth of a cell over the whole raster, a rotation is rounding.
   const bool rotated = std::abs(transform[2]) * frame.rows > 1e-3 * std::abs(transform[1]) ||
                        std::abs(transform[4]) * frame.columns > 1e-3 * std::abs(transform[5]);
@@ -150,9 +148,11 @@ std::vector<Number> read_cells(GDALRasterBand& band, GDALDataType type, const st
   return cells;
 }
 
-/// Which cells count: empty where all do.
+/// Which cells count: empty where all do, or where the cells tell it themselves.
 std::vector<std::uint8_t> read_mask(GDALRasterBand& band, const std::string& file) {
   if (band.GetMaskFlags() == GMF_ALL_VALID) return {};
+  // A mask of NaN is what the cells say anyhow, and costs another reading of the file.
+  if (band.GetMaskFlags() == GMF_NODATA && std::isnan(band.GetNoDataValue())) return {};
   return read_cells<std::uint8_t>(*band.GetMaskBand(), GDT_Byte, file);
 }
 
@@ -166,16 +166,19 @@ std::string cell_place(std::size_t cell, const GridFrame& frame) {
 /// Reads the cells as `Stored`, applies scale and offset, and turns each into a `Cell`.
 template <typename Stored, typename Cell, typename Convert>
 std::vector<Cell> convert_cells(GDALRasterBand& band, GDALDataType type, const std::string& file,
-                                Cell unknown, Convert convert) {
+                                const HeightReading& reading, Cell unknown, Convert convert) {
   std::vector<std::uint8_t> mask = read_mask(band, file);
-  const double scale = band.GetScale();
-  const double offset = band.GetOffset();
+  const double scale = reading.scale.value_or(band.GetScale());
+  const double offset = reading.offset_m.value_or(band.GetOffset());
   const bool scaled = scale != 1 || offset != 0;
+  std::optional<Stored> nodata;
+  if (reading.nodata) nodata = static_cast<Stored>(*reading.nodata);
   std::vector<Stored> stored = read_cells<Stored>(band, type, file);
   const auto converted = [&](std::size_t i) {
     if (!mask.empty() && mask[i] == 0) return unknown;
     const auto value = static_cast<double>(stored[i]);
-    return std::isnan(value) ? unknown : convert(scaled ? value * scale + offset : value, i);
+    if (std::isnan(value) || stored[i] == nodata) return unknown;
+    return convert(scaled ? value * scale + offset : value, i);
   };
   if constexpr (std::is_same_v<Stored, Cell>) {
     for (std::size_t i = 0; i < stored.size(); ++i) stored[i] = converted(i);
@@ -185,14 +188,6 @@ std::vector<Cell> convert_cells(GDALRasterBand& band, GDALDataType type, const s
     for (std::size_t i = 0; i < stored.size(); ++i) cells[i] = converted(i);
     return cells;
   }
-}
-
-void check_unit(GDALRasterBand& band, const std::string& file) {
-  const std::string unit = band.GetUnitType();
-  for (const char* metre : {"", "m", "metre", "meter", "metres", "meters"}) {
-    if (EQUAL(unit.c_str(), metre)) return;
-  }
-  fail(file, fmt::format("its heights are in \"{}\", metres are needed", unit));
 }
 
 template <typename Number>
@@ -255,7 +250,8 @@ void write_raster(const GridFrame& frame, const std::vector<Layer<Number>>& laye
 
 }  // namespace
 
-ElevationRaster read_elevation(const std::string& file) {
+ElevationRaster read_elevation(const std::string& file, const HeightReading& reading) {
+  if (is_grid_table(file) && std::filesystem::exists(file)) return read_grid_table(file, reading);
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open(file);
   GDALRasterBand& band = *dataset->GetRasterBand(1);
@@ -263,7 +259,7 @@ ElevationRaster read_elevation(const std::string& file) {
   if (colour == GCI_RedBand || colour == GCI_PaletteIndex) {
     fail(file, "is a picture of colours, heights in metres are needed");
   }
-  check_unit(band, file);
+  check_height_unit(band, dataset->GetSpatialRef(), reading, file);
   ElevationRaster raster{.frame = read_frame(*dataset, file), .height_m = {}};
   bool known = false;
   const auto height = [&](double value, std::size_t cell) {
@@ -281,10 +277,13 @@ ElevationRaster read_elevation(const std::string& file) {
   // Through double only where float would lose digits or range before scale and nodata are seen.
   const bool float_holds_it = GDALGetDataTypeSizeBits(band.GetRasterDataType()) <= 16 ||
                               band.GetRasterDataType() == GDT_Float32;
-  raster.height_m = float_holds_it
-                        ? convert_cells<float, float>(band, GDT_Float32, file, kUnknown, height)
-                        : convert_cells<double, float>(band, GDT_Float64, file, kUnknown, height);
+  raster.height_m =
+      float_holds_it
+          ? convert_cells<float, float>(band, GDT_Float32, file, reading, kUnknown, height)
+          : convert_cells<double, float>(band, GDT_Float64, file, reading, kUnknown, height);
   if (!known) fail(file, "no cell is known: every cell is nodata");
+  check_for_undeclared_nodata(raster, reading.scale.value_or(band.GetScale()),
+                              reading.offset_m.value_or(band.GetOffset()), file);
   return raster;
 }
 
@@ -307,8 +306,8 @@ ClassRaster read_classes(const std::string& file) {
   const bool int32_holds_it =
       GDALDataTypeIsInteger(type) && (GDALGetDataTypeSizeBits(type) <= 16 || type == GDT_Int32);
   raster.code = int32_holds_it ? convert_cells<std::int32_t, std::int32_t>(
-                                     band, GDT_Int32, file, ClassRaster::kNoData, code)
-                               : convert_cells<double, std::int32_t>(band, GDT_Float64, file,
+                                     band, GDT_Int32, file, {}, ClassRaster::kNoData, code)
+                               : convert_cells<double, std::int32_t>(band, GDT_Float64, file, {},
                                                                      ClassRaster::kNoData, code);
   if (!known) fail(file, "no cell has a class: every cell is nodata");
   return raster;

@@ -3,17 +3,19 @@
 #include <string>
 #include <vector>
 
+#include "maps/height_reading.h"
 #include "maps/rock_files.h"
 #include "maps/terrain_map.h"
 
 namespace regoplan {
 
-/// Reads band 1 of any raster that GDAL knows; its scale and offset are applied. Nodata, masked and
-/// NaN cells become NaN: unknown.
-/// \throws InputError naming the file and what is wrong with it: missing, not a raster, rotated or
-/// south-up, a CRS in degrees or feet (names the remedy), no numbers, no known cell, a height that
-/// cannot be one (beyond 1000 km)
-ElevationRaster read_elevation(const std::string& file);
+/// Reads band 1 of any raster that GDAL knows, or a table of points (`read_grid_table`); scale and
+/// offset of the band are applied where `reading` gives none. Nodata, masked and NaN cells become
+/// NaN: unknown.
+/// \throws InputError naming the file, what is wrong with it and the remedy: missing, not a raster,
+/// rotated or south-up, a CRS in degrees or feet, heights in feet or of a picture, no numbers, no
+/// known cell, a height that cannot be one (beyond 1000 km), a nodata value that is not declared
+ElevationRaster read_elevation(const std::string& file, const HeightReading& reading = {});
 
 /// Reads band 1 of any raster of integers that GDAL knows, whatever number type holds them; nodata,
 /// masked and NaN cells become `ClassRaster::kNoData`.

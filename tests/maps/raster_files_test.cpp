@@ -1,5 +1,6 @@
 #include "maps/raster_files.h"
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
@@ -218,6 +219,77 @@ TEST(RasterFiles, FeetAreRefused) {
       {"0.3048", "gdalwarp -t_srs"}));
   EXPECT_TRUE(refuses([&] { read_elevation(write(folder, {.unit = "ft"})); }, {"\"ft\""}));
   EXPECT_EQ(read_elevation(write(folder, {.unit = "metre"})).height_m[0], 1);
+}
+
+TEST(RasterFiles, HeightsInAnotherUnitAreRefusedWithTheScaleThatMendsThem) {
+  const TemporaryFolder folder;
+  for (const auto& [unit, scale] :
+       {std::pair{"ft", "--scale 0.3048"}, std::pair{"US survey foot", "--scale 0.3048006096"},
+        std::pair{"cm", "--scale 0.01"}, std::pair{"kilometre", "--scale 1000"},
+        std::pair{"furlong", "--scale METRES_A_UNIT"}}) {
+    EXPECT_TRUE(refuses([&] { read_elevation(write(folder, {.unit = unit})); }, {unit, scale}));
+  }
+  write(folder, {});
+  const std::string virtual_raster = folder.write(
+      "feet.vrt",
+      "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><SRS>EPSG:32633+6360</SRS>"
+      "<GeoTransform>100, 1, 0, 200, 0, -1</GeoTransform><VRTRasterBand dataType=\"Float32\" "
+      "band=\"1\"><SimpleSource><SourceFilename relativeToVRT=\"1\">in.tif</SourceFilename>"
+      "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");
+  EXPECT_TRUE(refuses([&] { read_elevation(virtual_raster); },
+                      {"vertical CRS", "US survey foot", "--scale 0.3048006096"}));
+  const std::string feet = write(folder, {.scale = 2, .offset = 10, .unit = "ft"});
+  EXPECT_TRUE(refuses([&] { read_elevation(feet); }, {"--scale 0.6096 --offset 3.048"}));
+  const ElevationRaster mended = read_elevation(feet, {.scale = 0.6096, .offset_m = 3.048});
+  EXPECT_NEAR(mended.height_m[3], 18 * 0.3048, 1e-6);
+}
+
+TEST(RasterFiles, ACrsInAnotherUnitIsRefusedWithARemedyThatCanBeCopied) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(refuses(
+      [&] {
+        read_elevation(write(folder, {.crs = "+proj=tmerc +lon_0=9 +R=6371000 +units=us-ft"}));
+      },
+      {"0.3048006096 m", "gdalwarp -t_srs \"+proj=tmerc +lat_0=0 +lon_0=9", "+units=m\""}));
+  for (const auto& [unit, corners] :
+       {std::pair{R"(UNIT["centimetre",0.01])", "-a_ullr 1 2 1.02 1.98"},
+        std::pair{R"(UNIT["kilometre",1000])", "-a_ullr 100000 200000 102000 198000"}}) {
+    const std::string crs = std::string(R"(LOCAL_CS["bed",)") + unit + "]";
+    EXPECT_TRUE(refuses([&] { read_elevation(write(folder, {.crs = crs})); },
+                        {"metres are needed", "gdal_translate -a_srs", corners}));
+  }
+}
+
+TEST(RasterFiles, AMarkOfUnknownCellsThatIsNotDeclaredIsRefusedWithTheRemedy) {
+  const TemporaryFolder folder;
+  for (const double mark : {-9999., -32768., 9999.}) {
+    const std::string file = write(folder, {.cells = {1, mark, 3, 4}});
+    EXPECT_TRUE(refuses([&] { read_elevation(file); },
+                        {fmt::format("{} stands in 1 cells (the first: column 1, row 0)", mark),
+                         fmt::format("--nodata {}", mark), "gdal_translate -a_nodata"}));
+    EXPECT_TRUE(std::isnan(read_elevation(file, {.nodata = mark}).height_m[1]));
+  }
+  // Ground may be as low as a mark.
+  EXPECT_EQ(read_elevation(write(folder, {.cells = {-9999, -9998, -9997, -9950}})).height_m[0],
+            -9999);
+}
+
+TEST(RasterFiles, APictureIsNotInMetresUnlessSomebodySaysSo) {
+  const TemporaryFolder folder;
+  GDALAllRegister();
+  const std::string file = folder.file("heights.png");
+  {
+    const GDALDatasetUniquePtr tiff(GDALDataset::Open(
+        write(folder, {.type = GDT_UInt16, .cells = {0, 1000, 2000, 3000}}).c_str()));
+    const char* options[] = {"WORLDFILE=YES", nullptr};
+    GDALDatasetUniquePtr png(GetGDALDriverManager()->GetDriverByName("PNG")->CreateCopy(
+        file.c_str(), tiff.get(), FALSE, const_cast<char**>(options), nullptr, nullptr));
+  }
+  EXPECT_TRUE(refuses([&] { read_elevation(file); },
+                      {"heights.png", "16 bits", "regoplan map import --scale"}));
+  const ElevationRaster raster = read_elevation(file, {.scale = 0.01, .offset_m = -5});
+  EXPECT_FLOAT_EQ(raster.height_m[1], 5);
+  EXPECT_EQ(raster.frame.west_m, 100);
 }
 
 TEST(RasterFiles, RotatedAndSouthUpRastersAreRefusedWithTheRemedy) {
