@@ -50,12 +50,13 @@ double CsvTable::number(const Cells& cells, std::size_t index, const ValueRange&
   const std::string& cell = cells[index];
   const std::optional<double> value = parse_number(cell);
   if (value && allowed.contains(*value)) return *value;
-  const InputError bad = error(fmt::format("{}: {} is not valid (allowed: {}){}{}", columns_[index],
-                                           cell.empty() ? "an empty cell" : cell, allowed.text(),
-                                           hint.empty() ? "" : "; ", hint));
-  if (!value) throw bad;
+  const std::string what = fmt::format("{}: {} is not valid (allowed: {}){}{}", columns_[index],
+                                       cell.empty() ? "an empty cell" : cell, allowed.text(),
+                                       hint.empty() ? "" : "; ", hint);
+  if (!value) throw error(what);
   throw OutOfRangeError(
-      bad, {.line = line_, .column = columns_[index], .value = *value, .allowed = allowed.text()});
+      error(what),
+      {.line = line_, .column = columns_[index], .value = *value, .allowed = allowed.text()});
 }
 
 std::optional<CsvTable::Cells> CsvTable::next_line() {

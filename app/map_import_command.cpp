@@ -9,6 +9,7 @@
 #include "app/soil_settings.h"
 #include "app/staged_files.h"
 #include "maps/raster_files.h"
+#include "terramech/input_error.h"
 
 namespace regoplan {
 namespace {
@@ -27,6 +28,9 @@ struct MapImportOptions {
 
 ExitStatus run_map_import(const MapImportOptions& options) {
   require_writable_folder(options.out);
+  if (options.heights.scale == 0) {
+    throw InputError("--scale: 0 is not valid (allowed: any number but 0)");
+  }
   SoilCatalogue soils =
       read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
   ElevationRaster elevation = read_elevation(options.elevation, options.heights);

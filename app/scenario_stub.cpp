@@ -82,6 +82,11 @@ class StandingGround {
 
   /// By the planner's verdict, at rest.
   bool stands(const Place& place, double heading_deg) {
+    const TerrainMap& map = problem_.map;
+    if (std::isnan(map.height_m(place.x_m, place.y_m)) || !map.soil_index(place.x_m, place.y_m)) {
+      ++refused_[static_cast<std::size_t>(Rejection::kUnknownTerrain)];
+      return false;
+    }
     const VehicleState state =
         world_.dynamics().rolling_state(place.x_m, place.y_m, heading_deg * kDegree, 0);
     const auto rejection = world_.rejected(state, {});

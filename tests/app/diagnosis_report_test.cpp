@@ -76,6 +76,18 @@ TEST_F(DiagnosisReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {
   expect_drawn_without_error(drawn(diagnosis_report(run)));
 }
 
+TEST_F(DiagnosisReportInTheBrowser, ListsTheRowsThatWereLeftOut) {
+  DiagnosisRun run = claimed_diagnosis();
+  run.recording.left_out = {
+      {.run_id = "r17",
+       .cell = {.line = 19, .column = "slip_angle_deg", .value = 90.04, .allowed = "-90 to 90"},
+       .why = ""}};
+  const std::string page = drawn(diagnosis_report(run));
+  expect_drawn_without_error(page);
+  EXPECT_NE(page.find("Left out: line 19, run r17: slip_angle_deg is 90.04 (allowed: -90 to 90)."),
+            std::string::npos);
+}
+
 TEST_F(DiagnosisReportInTheBrowser, DrawsADiagnosisThatWasInterruptedAtOnce) {
   DiagnosisRun run = claimed_diagnosis();
   run.diagnosis = {.interrupted = true};

@@ -91,6 +91,13 @@ TEST_F(MapImport, TheStartStandsWhereThePlannerLetsTheVehicleStand) {
   EXPECT_FALSE(rejection) << name(rejection->reason);
 }
 
+TEST_F(MapImport, GroundFullOfHolesIsNoPlaceToStand) {
+  write_elevations([](double x_m, double y_m) {
+    return std::fmod(x_m, 2) < 1 && std::fmod(y_m, 2) < 1 ? std::nan("") : 0.25;
+  });
+  expect_refusal(import(""), {"can stand nowhere on the map", "unknown_terrain"});
+}
+
 TEST_F(MapImport, AMapOnWhichTheVehicleCanStandNowhereIsRefusedWithTheReason) {
   write_elevations([](double x_m, double /*y_m*/) { return 2 * x_m; });
   expect_refusal(import(""), {"can stand nowhere on the map", "slope"});
@@ -119,6 +126,7 @@ TEST_F(MapImport, WholeMetresOnSmallCellsAreANotice) {
 TEST_F(MapImport, ScaleOffsetAndNodataAreApplied) {
   write_elevations([](double x_m, double y_m) { return y_m > 39 ? -9999 : 100 + x_m; });
   expect_refusal(import(""), {"-9999", "--nodata -9999"});
+  expect_refusal(import("--scale 0"), {"--scale: 0 is not valid"});
   const ProgramRun run = import("--scale 0.1 --offset -3 --nodata -9999");
   ASSERT_EQ(run.status, 0) << run.errors;
   const ElevationRaster map = read_elevation(folder_.path("map/dem.tif"));
