@@ -13,6 +13,7 @@
 #include "app/effective_settings.h"
 #include "app/model_settings.h"
 #include "app/plan_report.h"
+#include "app/spread_json.h"
 #include "maps/raster_files.h"
 #include "planner/pareto.h"
 #include "planner/terrain_rasters.h"
@@ -61,22 +62,22 @@ Json limiting_json(const LimitingPlace& place) {
 }
 
 Json candidate_json(const Candidate& candidate) {
-  return {{"rank", candidate.rank},
-          {"planner", candidate.planner},
-          {"seed", candidate.seed},
-          {"file", candidate_file(candidate.rank, "csv")},
-          {"length_m", candidate.length_m},
-          {"duration_s", candidate.duration_s},
-          {"energy_j", candidate.energy_j},
-          {"margin_min", candidate.margin_min},
-          {"margin_p05", candidate.margin_p05},
-          {"margin_worst_tenth", candidate.margin_worst_tenth},
-          {"limiting", limiting_json(candidate.limiting)},
-          {"probability_feasible", candidate.probability_feasible},
-          {"improved", improved_json(candidate.improvement)},
-          {"verified",
-           {{"margin_min", candidate.verified.margin_min},
-            {"max_deviation_m", candidate.verified.deviation_max_m}}}};
+  Json json{{"rank", candidate.rank},
+            {"planner", candidate.planner},
+            {"seed", candidate.seed},
+            {"file", candidate_file(candidate.rank, "csv")},
+            {"length_m", candidate.length_m},
+            {"duration_s", candidate.duration_s},
+            {"energy_j", candidate.energy_j},
+            {"margin_min", candidate.margin_min},
+            {"margin_worst_tenth", candidate.margin_worst_tenth},
+            {"limiting", limiting_json(candidate.limiting)},
+            {"improved", improved_json(candidate.improvement)},
+            {"verified",
+             {{"margin_min", candidate.verified.margin_min},
+              {"max_deviation_m", candidate.verified.deviation_max_m}}}};
+  add_spread(json, candidate.spread);
+  return json;
 }
 
 Json overturned_json(const Candidate& candidate) {
@@ -99,6 +100,10 @@ Json what_if_json(const WhatIf& what_if) {
   }
   if (what_if.end_shift_m) json["end_shift_m"] = *what_if.end_shift_m;
   return json;
+}
+
+Json number_json(const std::optional<double>& number) {
+  return number ? Json(*number) : Json(nullptr);
 }
 
 template <class Items, class ToJson>
@@ -146,6 +151,10 @@ std::string plan_json(const PlanningProblem& problem, const PlanResult& result) 
             {"propagations", result.propagations},
             {"planning_time_s", result.planning_time_s},
             {"verification_time_s", result.verification_time_s},
+            {"first_verified_s", number_json(result.first_verified_s)},
+            {"least_duration_s", number_json(result.least_duration_s)},
+            {"fastest_duration_s", number_json(fastest_duration_s(result))},
+            {"gap", number_json(duration_gap(result))},
             {"seed", result.seed},
             {"version", REGOPLAN_VERSION},
             {"interrupted", result.interrupted},
@@ -205,12 +214,6 @@ namespace {
 constexpr const char* kMarginFile = "margin.tif";
 constexpr const char* kSupplyFile = "supply.tif";
 
-/// A start that is refused, or a certificate, is an answer before any search: rasters of the
-/// terrain, which take longer, would hold it up.
-bool was_searched(const PlanResult& result) {
-  return result.status != PlanStatus::kInfeasible;
-}
-
 void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
   write_bands(rasters.frame,
               {{.description = "stability margin of driving straight on, smallest over headings",
@@ -238,12 +241,11 @@ void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
   }
   files.push_back({"plan.json", plan_json(problem, result)});  // last: it speaks for the others
   StagedFiles staged(folder);
-  const bool with_rasters = was_searched(result);
-  if (with_rasters) write_rasters(terrain_rasters(problem), staged);
+  if (result.rasters) write_rasters(*result.rasters, staged);
   for (const RenderedFile& file : files) staged.write(file);
   staged.commit();
   for (const char* raster : {kMarginFile, kSupplyFile}) {
-    if (!with_rasters) std::filesystem::remove(folder / raster);
+    if (!result.rasters) std::filesystem::remove(folder / raster);
   }
   for (std::size_t rank = result.candidates.size() + 1;; ++rank) {
     bool found = false;

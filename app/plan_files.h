@@ -11,7 +11,7 @@
 namespace regoplan {
 
 /// The text of plan.json. Two runs of the same problem under an iteration budget differ in
-/// `planning_time_s` and `verification_time_s` only.
+/// `planning_time_s`, `verification_time_s` and `first_verified_s` only.
 std::string plan_json(const PlanningProblem& problem, const PlanResult& result);
 
 /// The table of a candidate's points: candidate-K.csv.
@@ -20,11 +20,11 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
 /// A candidate's path in map coordinates, GeoJSON with a `crs` member: candidate-K.geojson.
 std::string candidate_geojson(const PlanningProblem& problem, const Candidate& candidate);
 
-/// Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, and as GeoTIFF in the map's
-/// place margin.tif and supply.tif, a band for each speed (see `TerrainRasters`), all or none; the
-/// rasters only where there was a search. Takes away the candidate files and rasters of an earlier
-/// plan in the same folder that are not written again.
-/// \throws InputError where the folder takes no files
+/// Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, and where the plan has them
+/// as GeoTIFF in the map's place margin.tif and supply.tif, a band for each speed (see
+/// `TerrainRasters`), all or none. Takes away the candidate files and rasters of an earlier plan in
+/// the same folder that are not written again.
+/// 	hrows InputError where the folder takes no files
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
                       const std::filesystem::path& folder);
 

@@ -40,15 +40,39 @@ std::string with_stop(std::string sentence) {
 }
 
 /// How likely the best path holds, in view of what is not known of the soils.
-std::string soil_sentence(const PlanningProblem& problem, const Candidate& best) {
+std::string soil_sentence(const Candidate& best) {
+  if (!best.spread) return "How its margin spreads over the soils' uncertainty was not drawn.";
+  const MarginSpread& spread = *best.spread;
   return fmt::format(
-      "Over {} draws of the soils within their uncertainty, the best path keeps every limit in {} "
-      "of them; its margin falls below {} in 5 % of them.",
-      problem.search.soil_draws,
-      std::isfinite(best.probability_feasible)
-          ? fmt::format("{:.0f} %", 100 * best.probability_feasible)
-          : "an unknown share",
-      number(best.margin_p05, 2));
+      "Over {} draws of the soils within their uncertainty, the best path keeps its margins in "
+      "{:.0f} % of them (95 % interval of the share: {:.0f} to {:.0f} %); in 5 % of them its "
+      "smallest margin falls below {} ({} to {}).",
+      spread.draws, 100 * spread.feasible.share, 100 * spread.feasible.low,
+      100 * spread.feasible.high, number(spread.p05, 2), number(spread.p05_low, 2),
+      number(spread.p05_high, 2));
+}
+
+/// How far from the fastest path that there is.
+std::string gap_sentence(const PlanResult& result) {
+  const auto fastest_s = fastest_duration_s(result), gap = duration_gap(result);
+  if (!gap) return "";
+  return fmt::format(
+      "The fastest of these paths takes {:.1f} s; no path of this problem is faster than {:.1f} s "
+      "(gap {:.0f} %).",
+      *fastest_s, *result.least_duration_s, 100 * *gap);
+}
+
+/// The margin that the soils leave of the best path: in 95 % of the draws, and how many draws keep
+/// it at all; at the mean soils where nothing was drawn.
+std::string margin_words(const Candidate& best) {
+  const std::string at_mean = number(best.verified.margin_min, 2);
+  if (!best.spread) return fmt::format("a stability margin of {} at the mean soils", at_mean);
+  const MarginSpread& spread = *best.spread;
+  return fmt::format(
+      "a stability margin of {} in 95 % of the draws of the soils and enough in {:.0f} of {} ({} "
+      "at the "
+      "mean soils)",
+      number(spread.p05, 2), spread.feasible.share * spread.draws, spread.draws, at_mean);
 }
 
 std::string what_if_sentence(const WhatIf& what_if) {
@@ -73,15 +97,16 @@ std::string rejection_sentence(const PlanResult& result) {
                      words(name(reason)), 100 * share);
 }
 
-std::vector<std::string> lead_sentences(const PlanningProblem& problem, const PlanResult& result) {
+std::vector<std::string> lead_sentences(const PlanResult& result) {
   std::vector<std::string> sentences;
   if (result.interrupted)
     sentences.emplace_back("The search was interrupted: this is what it had found by then.");
   if (result.status == PlanStatus::kFeasible && !result.reason.empty())
     sentences.push_back(with_stop(result.reason));
   if (result.certificate) sentences.push_back("Shown by: " + with_stop(*result.certificate));
-  if (!result.candidates.empty())
-    sentences.push_back(soil_sentence(problem, result.candidates.front()));
+  if (!result.candidates.empty()) sentences.push_back(soil_sentence(result.candidates.front()));
+  if (std::string sentence = gap_sentence(result); !sentence.empty())
+    sentences.push_back(std::move(sentence));
   for (const WhatIf& what_if : result.what_ifs) sentences.push_back(what_if_sentence(what_if));
   if (!result.overturned.empty())
     sentences.push_back(fmt::format(
@@ -108,9 +133,9 @@ std::string plan_headline(const PlanResult& result) {
   }
   if (result.candidates.empty()) return "Feasible.";
   const Candidate& best = result.candidates.front();
-  return fmt::format("Feasible: {}; the best keeps a stability margin of {} ({} binds at {}).",
-                     counted(result.candidates.size(), "verified path"),
-                     number(best.verified.margin_min, 2), words(name(best.limiting.margin)),
+  return fmt::format("Feasible: {}; the best keeps {}; {} binds at {}.",
+                     counted(result.candidates.size(), "verified path"), margin_words(best),
+                     words(name(best.limiting.margin)),
                      place(best.limiting.x_m, best.limiting.y_m, best.limiting.time_s));
 }
 
@@ -121,7 +146,7 @@ std::string plan_report(const PlanningProblem& problem, const PlanResult& result
       {.title = fmt::format("Plan for {} from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})",
                             problem.vehicle.name, start.x_m, start.y_m, goal.x_m, goal.y_m),
        .headline = plan_headline(result),
-       .lead = lead_sentences(problem, result),
+       .lead = lead_sentences(result),
        .body_html = report_assets::kPlanHtml,
        .script = report_assets::kPlanScript,
        .data_json = json_for_html(plan_report_data(problem, result))});

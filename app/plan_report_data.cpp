@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/report_map.h"
+#include "app/spread_json.h"
 #include "planner/pareto.h"
 #include "planner/rejection_text.h"
 #include "planner/wheel_loads_along.h"
@@ -106,29 +107,29 @@ json improved_json(const std::optional<Improvement>& improvement) {
 
 json candidate_json(const PlanningProblem& problem, const Candidate& candidate,
                     std::size_t points_max) {
-  return {{"rank", candidate.rank},
-          {"planner", candidate.planner},
-          {"seed", candidate.seed},
-          {"length_m", candidate.length_m},
-          {"duration_s", candidate.duration_s},
-          {"energy_j", candidate.energy_j},
-          {"margin_min", candidate.margin_min},
-          {"margin_p05", candidate.margin_p05},
-          {"margin_worst_tenth", candidate.margin_worst_tenth},
-          {"probability_feasible", candidate.probability_feasible},
-          {"improved", improved_json(candidate.improvement)},
-          {"limiting",
-           {{"margin", name(candidate.limiting.margin)},
-            {"x_m", candidate.limiting.x_m},
-            {"y_m", candidate.limiting.y_m},
-            {"time_s", candidate.limiting.time_s}}},
-          {"verified",
-           {{"passed", candidate.verified.passed},
-            {"reason", candidate.verified.reason},
-            {"margin_min", candidate.verified.margin_min},
-            {"max_deviation_m", candidate.verified.deviation_max_m}}},
-          {"points_total", candidate.points.size()},
-          {"points", points_json(problem, thinned(candidate.points, points_max))}};
+  json row{{"rank", candidate.rank},
+           {"planner", candidate.planner},
+           {"seed", candidate.seed},
+           {"length_m", candidate.length_m},
+           {"duration_s", candidate.duration_s},
+           {"energy_j", candidate.energy_j},
+           {"margin_min", candidate.margin_min},
+           {"margin_worst_tenth", candidate.margin_worst_tenth},
+           {"improved", improved_json(candidate.improvement)},
+           {"limiting",
+            {{"margin", name(candidate.limiting.margin)},
+             {"x_m", candidate.limiting.x_m},
+             {"y_m", candidate.limiting.y_m},
+             {"time_s", candidate.limiting.time_s}}},
+           {"verified",
+            {{"passed", candidate.verified.passed},
+             {"reason", candidate.verified.reason},
+             {"margin_min", candidate.verified.margin_min},
+             {"max_deviation_m", candidate.verified.deviation_max_m}}},
+           {"points_total", candidate.points.size()},
+           {"points", points_json(problem, thinned(candidate.points, points_max))}};
+  add_spread(row, candidate.spread);
+  return row;
 }
 
 json candidates_json(const PlanningProblem& problem, const std::vector<Candidate>& candidates) {
@@ -295,6 +296,7 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"propagations", result.propagations},
                {"planning_time_s", result.planning_time_s},
                {"verification_time_s", result.verification_time_s},
+               {"least_duration_s", nullptr},
                {"problem", problem_json(problem)},
                {"map", report_map(problem.map)},
                {"candidates", candidates_json(problem, result.candidates)},
@@ -302,6 +304,7 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"what_ifs", json::array()},
                {"rejected", rejected_json(result)},
                {"rejected_states", rejected_states_json(result.rejected_states)}};
+  if (result.least_duration_s) data["least_duration_s"] = *result.least_duration_s;
   if (result.certificate) data["certificate"] = *result.certificate;
   for (const WhatIf& what_if : result.what_ifs) data["what_ifs"].push_back(what_if_json(what_if));
   return data;

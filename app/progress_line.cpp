@@ -14,7 +14,13 @@ constexpr const char* kWipeLine = "\r\033[K";
 ProgressLine::ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {
+  wipe();
+}
+
+void ProgressLine::wipe() {
   if (shown_) std::fputs(kWipeLine, stderr);
+  shown_ = false;
+  stage_.clear();  // whatever comes next is due at once
 }
 
 bool ProgressLine::is_due(std::string_view stage) {
@@ -35,8 +41,8 @@ void ProgressLine::show(std::string_view stage, double share) {
 
 void ProgressLine::show(const PlanProgress& progress) {
   if (!is_due(progress.stage)) return;
-  fmt::print(stderr, "{}{} {:.0f} %, {} found", kWipeLine, stage_, 100 * progress.share,
-             progress.found);
+  fmt::print(stderr, "{}{} {:.0f} %, {} found, {} verified", kWipeLine, stage_,
+             100 * progress.share, progress.found, progress.verified);
   std::fflush(stderr);
 }
 

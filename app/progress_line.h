@@ -17,6 +17,8 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void show(const PlanProgress& progress);
+  /// Takes the line off the terminal, so that something else can be printed.
+  void wipe();
   /// \param share of this stage, 0 to 1
   void show(std::string_view stage, double share);
 

@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/candidate.h"
 #include "planner/ompl_planners.h"
 #include "planner/ompl_problem.h"
+#include "planner/verified_path.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -87,21 +87,24 @@ double largest(const std::vector<TrajectoryPoint>& points, double TrajectoryPoin
 }
 
 /// What the exact model says of the solution.
-Properties verified_properties(const VerifiedPaths& paths, const PlanningProblem& problem) {
-  if (paths.passed.empty()) {
-    return {{"verified BOOLEAN", "0"},
-            {"overturned BOOLEAN", paths.overturned.empty() ? "0" : "1"}};
+Properties verified_properties(const std::optional<VerifiedPath>& path,
+                               const PlanningProblem& problem) {
+  if (!path || !path->candidate.verified.passed) {
+    return {{"verified BOOLEAN", "0"}, {"overturned BOOLEAN", path ? "1" : "0"}};
   }
-  VerifiedPath path = paths.passed.front();
-  add_spread(problem, path);
-  const Candidate& candidate = path.candidate;
+  const Candidate& candidate = path->candidate;
+  const Search& search = problem.search;
+  const MarginSpread spread =
+      margin_spread(smallest_margins(problem, path->replay, {.count = search.soil_draws},
+                                     search.seed, search.threads),
+                    problem.limits.margin_min);
   return {{"verified BOOLEAN", "1"},
           {"overturned BOOLEAN", "0"},
           {"path length m REAL", real(candidate.length_m)},
           {"path duration s REAL", real(candidate.duration_s)},
           {"path energy j REAL", real(candidate.energy_j)},
           {"margin min REAL", real(candidate.margin_min)},
-          {"margin p05 REAL", real(candidate.margin_p05)},
+          {"margin p05 REAL", real(spread.p05)},
           {"slip max REAL", real(largest(candidate.points, &TrajectoryPoint::slip_max))},
           {"sinkage max m REAL", real(largest(candidate.points, &TrajectoryPoint::sinkage_max_m))},
           {"deviation max m REAL", real(candidate.verified.deviation_max_m)}};
@@ -144,14 +147,14 @@ BenchmarkRecord benchmark(const World& searched, const World& verdict, const Ben
   tool.setPostRunEvent([&](const ob::PlannerPtr&, Properties& properties) {
     properties.merge(counted_properties(problem));
     properties["random seed INTEGER"] = std::to_string(run.guidance.seed);
-    std::vector<FoundPath> found;
+    std::optional<VerifiedPath> path;
     if (const auto controls = exact_solution(*setup.getProblemDefinition()); !controls.empty()) {
-      found.push_back({.planner = run.planner, .seed = run.guidance.seed, .controls = controls});
+      path = verify(verdict, searched,
+                    {.planner = run.planner, .seed = run.guidance.seed, .controls = controls});
     }
-    const VerifiedPaths paths = verify_all(verdict, searched, found, [](const PlanProgress&) {});
-    properties.merge(verified_properties(paths, verdict.problem()));
-    if (paths.passed.empty()) return;
-    for (const TrajectoryPoint& point : paths.passed.front().candidate.points) {
+    properties.merge(verified_properties(path, verdict.problem()));
+    if (!path || !path->candidate.verified.passed) return;
+    for (const TrajectoryPoint& point : path->candidate.points) {
       record.path.push_back({point.x_m, point.y_m, point.margin});
     }
   });

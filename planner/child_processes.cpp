@@ -31,8 +31,9 @@ struct Child {
   pid_t pid = 0;
   int pipe = -1;
   std::optional<Clock::time_point> deadline;
+  std::function<bool()> superfluous;
   std::vector<char> said;
-  bool late = false;
+  std::string killed_for;  ///< why it was, where it was
   bool done = false;
   ChildAnswer answer;
 };
@@ -97,7 +98,7 @@ Child start(const ChildTask& task, std::size_t number) {
     be_child(task, ends[1]);
   }
   close(ends[1]);
-  Child child{.task = number, .pid = pid, .pipe = ends[0]};
+  Child child{.task = number, .pid = pid, .pipe = ends[0], .superfluous = task.superfluous};
   if (task.time_limit_s) {
     child.deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                         std::chrono::duration<double>(*task.time_limit_s));
@@ -106,7 +107,7 @@ Child start(const ChildTask& task, std::size_t number) {
 }
 
 std::string failure_of(const Child& child, int status) {
-  if (child.late) return "took longer than it may";
+  if (!child.killed_for.empty()) return child.killed_for;
   if (WIFSIGNALED(status))
     return fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
   if (!child.said.empty() && child.said.front() != kAnswer) {
@@ -152,10 +153,16 @@ void listen(std::deque<Child>& children) {
   }
 }
 
-void kill_late(std::deque<Child>& children) {
+void kill_late_and_superfluous(std::deque<Child>& children) {
   for (Child& child : children) {
-    if (child.done || child.late || !child.deadline || Clock::now() < *child.deadline) continue;
-    child.late = true;
+    if (child.done || !child.killed_for.empty()) continue;
+    if (child.deadline && Clock::now() >= *child.deadline) {
+      child.killed_for = "took longer than it may";
+    } else if (child.superfluous && child.superfluous()) {
+      child.killed_for = "was wanted no longer";
+    } else {
+      continue;
+    }
     kill(child.pid, SIGKILL);
   }
 }
@@ -189,19 +196,18 @@ void run_in_children(int processes, AnswerOrder order,
   Brood brood;
   std::deque<Child>& children = brood.children;
   std::size_t given = 0;
-  bool more = true;
   while (!stop.stop_requested()) {
     const auto running = std::count_if(children.begin(), children.end(),
                                        [](const Child& child) { return !child.done; });
-    if (more && running < processes) {
-      const std::optional<ChildTask> task = next();
-      more = task.has_value();
-      if (task) children.push_back(start(*task, given++));
-      continue;
+    if (running < processes) {
+      if (const std::optional<ChildTask> task = next()) {
+        children.push_back(start(*task, given++));
+        continue;
+      }
     }
     if (children.empty()) return;
     listen(children);
-    kill_late(children);
+    kill_late_and_superfluous(children);
     for (auto child = children.begin(); child != children.end();) {
       if (child->done) {
         const ChildAnswer answer = std::move(child->answer);

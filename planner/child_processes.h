@@ -14,6 +14,7 @@ struct ChildTask {
   std::optional<double> time_limit_s{};     ///< killed when it takes longer
   /// What it may take beyond what the parent has; an allocation beyond that fails.
   std::optional<double> memory_limit_mb{};
+  std::function<bool()> superfluous{};  ///< asked of the parent now and then; true: it is killed
 };
 
 /// What a child came to.
@@ -33,7 +34,8 @@ enum class AnswerOrder {
 /// Runs tasks in child processes, several at once: a crash or a leak of one costs one task. Call it
 /// while the process has one thread. Ends early, killing what runs and giving no answer for it,
 /// when stop is requested.
-/// \param next gives the next task, nothing when there are no more
+/// \param next gives the next task, nothing where there is none at the moment: it is asked again
+/// when an answer has come, and the end is reached when nothing runs and there is none
 void run_in_children(int processes, AnswerOrder order,
                      const std::function<std::optional<ChildTask>()>& next,
                      const std::function<void(const ChildAnswer&)>& on_answer,

@@ -93,14 +93,6 @@ std::optional<Refusal> refusal_of(const TrackingRun& run, double deviation_allow
   return refusal;
 }
 
-PathMargins counted(const TrajectoryPoint& point) {
-  const auto or_else = [](double value, double other) { return std::isnan(value) ? other : value; };
-  const double cornering = or_else(point.cornering_margin, -1);
-  return {.cornering = cornering,
-          .tip_over = or_else(point.tip_over_margin, -1),
-          .traction = or_else(point.traction_margin, std::min(cornering, 0.0))};
-}
-
 /// What ends the supply on the side of the demand.
 std::optional<CorneringLimit> cornering_limit(const World& world, const VehicleState& state) {
   const PlanningProblem& problem = world.problem();
@@ -223,7 +215,7 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   std::vector<PathMargins> at_mean;
   std::vector<TrajectoryPoint> without_gaps = evaluation.points;
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    const PathMargins margins = counted(evaluation.points[i]);
+    const PathMargins margins = margins_at(evaluation.points[i]);
     PathMargins& smallest = evaluation.margins;
     smallest = {.cornering = std::min(smallest.cornering, margins.cornering),
                 .tip_over = std::min(smallest.tip_over, margins.tip_over),

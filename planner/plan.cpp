@@ -3,95 +3,62 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
 
-#include "planner/candidate.h"
+#include "planner/child_processes.h"
+#include "planner/least_duration.h"
+#include "planner/plain_bytes.h"
+#include "planner/ranking.h"
 #include "planner/rejection_text.h"
 #include "planner/relaxation.h"
 #include "planner/relaxed_problem.h"
-#include "planner/search_processes.h"
-#include "planner/soil_uncertainty.h"
+#include "planner/run_schedule.h"
+#include "planner/terrain_rasters.h"
+#include "planner/time_budget.h"
+#include "planner/undecided.h"
+#include "planner/verified_path.h"
 #include "planner/what_if.h"
 
 namespace regoplan {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// When each stage ends, as shares of the time of the whole answer. A search that has found nothing
+// that passes goes on longer; a stage that is done early gives the rest to those that follow.
+constexpr double kSearchShare = 0.4, kFirstPathShare = 0.75;
+constexpr double kVerifyShare = 0.5, kFirstVerifyShare = 0.85;
+constexpr double kImproveShare = 0.75;
+constexpr double kDrawsShare = 0.92;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+/// Draws of the soils that are judged in one go.
+constexpr int kDrawsAtOnce = 10;
 
-/// Hands out runs: planner and seed by the run's number; under a time bound each gets a share of
-/// it, under an iteration bound there are a set number of them.
-class RunSchedule {
- public:
-  RunSchedule(const PlanningProblem& problem, Clock::time_point start)
-      : search_(problem.search), margin_min_(problem.limits.margin_min), start_(start) {}
-
-  std::optional<SearchRun> next(int found) {
-    const int wanted = kRunsPerCandidate * search_.candidates;
-    SearchRun run{.planner = planner_of(number_),
-                  .guidance = {.seed = seed_of(number_),
-                               .margin_min = margin_min_ + reserve_of(number_),
-                               .variety = variety_of(number_)}};
-    if (search_.iterations) {
-      if (number_ >= wanted) return std::nullopt;
-      run.iterations = search_.iterations;
-    } else {
-      const double left = *search_.time_s - seconds_since(start_);
-      constexpr double kTooShort_s = 0.05;
-      if (found >= wanted || left < kTooShort_s) return std::nullopt;
-      const double share = *search_.time_s * search_.threads / wanted;
-      run.time_s = std::min(left, std::max(2 * share, kTooShort_s));
-    }
-    ++number_;
-    return run;
-  }
-  double progress(int found) const {
-    const double wanted = kRunsPerCandidate * search_.candidates;
-    const double by_runs = search_.iterations ? number_ / wanted : found / wanted;
-    const double by_time = search_.time_s ? seconds_since(start_) / *search_.time_s : 0;
-    return std::min(1.0, std::max(by_runs, by_time));
-  }
-
- private:
-  /// More paths than candidates, so that there is a choice.
-  static constexpr int kRunsPerCandidate = 3;
-
-  std::string planner_of(int number) const {
-    if (search_.planner != "auto") return search_.planner;
-    // The lattice is by far the fastest, and each way of its own makes another path of it. The
-    // trees fill in where it does not reach.
-    static const std::vector<std::string> kPortfolio{
-        "Lattice", "Lattice", "StableSparse", "Lattice", "Lattice",   "RRT",
-        "Lattice", "Lattice", "StableSparse", "Lattice", "SyclopRRT", "KPIECE1"};
-    return kPortfolio[static_cast<std::size_t>(number) % kPortfolio.size()];
-  }
-  std::uint64_t seed_of(int number) const {
-    return search_.seed * 1000003 + static_cast<std::uint64_t>(number);
-  }
-
-  /// Margin to spare. Some runs ask for a lot, so that there are calm paths to choose from; some
-  /// for hardly any, so that a way through a narrow place is found.
-  static double reserve_of(int number) {
-    static const std::vector<double> kReserves{0.10, 0.01, 0.15, 0.05, 0.03};
-    return kReserves[static_cast<std::size_t>(number) % kReserves.size()];
-  }
-
-  /// Ways that differ: the first run follows the cheapest, others what chance makes cheapest.
-  static double variety_of(int number) {
-    constexpr double kMost = 3;
-    return number == 0 ? 0 : kMost * (1 + number % 2) / 2;
-  }
-
-  const Search& search_;
-  double margin_min_;
-  Clock::time_point start_;
-  int number_ = 0;
+/// A piece of work for a process of its own.
+struct Piece {
+  std::function<std::vector<char>()> work;
+  double time_limit_s = 0;                                            ///< infinite: none
+  std::function<void(const std::optional<std::vector<char>>&)> take;  ///< nothing: it failed
+  std::function<bool()> superfluous{};
 };
+
+/// What a run of the search came to, and its path.
+struct RunResult {
+  SearchRun run;
+  std::optional<SearchOutcome> outcome;  ///< nothing where it was killed
+  enum { kWaiting, kUnderway, kJudged } state = kWaiting;
+  std::optional<VerifiedPath> path;
+
+  bool found() const { return outcome && !outcome->controls.empty(); }
+};
+
+double duration_s(const std::vector<ControlSegment>& controls) {
+  double sum = 0;
+  for (const ControlSegment& segment : controls) sum += segment.duration_s;
+  return sum;
+}
 
 /// Why nothing may be planned from here, where the start itself may not be.
 std::optional<std::string> start_certificate(const World& verdict) {
@@ -100,133 +67,349 @@ std::optional<std::string> start_certificate(const World& verdict) {
   return "the vehicle may not stand at its start: " + rejection_text(*rejection);
 }
 
-std::string reason_of(const PlanResult& result, int found) {
-  if (result.status == PlanStatus::kFeasible) {
-    return fmt::format("{} verified {}", result.candidates.size(),
-                       result.candidates.size() == 1 ? "path" : "different paths");
+/// One plan on its way.
+class Planning {
+ public:
+  Planning(const PlanningProblem& problem, const PlanSession& session)
+      : problem_(problem),
+        session_(session),
+        budget_(session.started, problem.search.time_s),
+        verdict_(problem, WorldUse::kVerdict, problem.search.threads) {
+    result_.seed = problem.search.seed;
   }
-  if (found > 0 && result.overturned.empty()) return fmt::format("{} paths were found", found);
-  if (found > 0) {
-    return fmt::format("{} paths were found, none passed its verification: {}", found,
-                       result.overturned.front().verified.reason);
+
+  PlanResult run() && {
+    result_.certificate = start_certificate(verdict_);
+    const bool can_stand = !result_.certificate;
+    if (can_stand) result_.certificate = certificate_of_infeasibility(problem_);
+    if (result_.certificate) {
+      result_.status = PlanStatus::kInfeasible;
+      // The refusal of a start says itself what would have to give way.
+      result_.reason = can_stand ? with_relaxation(*result_.certificate) : *result_.certificate;
+      return answered();
+    }
+    tell("preparing", 0);
+    searched_.emplace(problem_, WorldUse::kSearch, problem_.search.threads);
+    const double search_start_s = budget_.elapsed_s();
+    search_and_verify();
+    result_.planning_time_s = search_end_s_ - search_start_s;
+    improve();
+    draw_soils();
+    result_.verification_time_s = budget_.elapsed_s() - search_end_s_;
+    decide();
+    return answered();
   }
-  const auto most = std::max_element(result.rejected.begin(), result.rejected.end());
-  if (*most == 0) return "no path was found in the time given";
-  return fmt::format("no path was found in the time given; most states were rejected for {}",
-                     name(static_cast<Rejection>(most - result.rejected.begin())));
-}
 
-/// Takes away what does not keep the chance constraint. \returns how many
-std::size_t drop_improbable(const PlanningProblem& problem, std::vector<VerifiedPath>& paths) {
-  const int draws = problem.search.soil_draws;
-  return std::erase_if(paths, [&](const VerifiedPath& path) {
-    // Not drawn, because of an interrupt: nothing is known against it, and nothing for it.
-    if (std::isnan(path.candidate.probability_feasible)) return problem.limits.probability_min > 0;
-    const auto successes =
-        static_cast<int>(std::lround(path.candidate.probability_feasible * draws));
-    return probability_of(successes, draws).low < problem.limits.probability_min;
-  });
-}
+ private:
+  bool timed() const { return problem_.search.time_s.has_value(); }
+  bool stopped() const { return session_.stop.stop_requested(); }
 
-/// Why there is no path, and what to give up for one.
-std::string with_relaxation(const std::string& reason, const PlanningProblem& problem,
-                            const std::function<void(const PlanProgress&)>& on_progress,
-                            const std::stop_token& stop) {
-  on_progress({.stage = "looking for what would help"});
-  const std::optional<std::string> relaxation = relaxation_that_helps(problem, stop);
-  return relaxation ? fmt::format("{}; a verified path exists {}", reason, *relaxation) : reason;
-}
+  void tell(std::string_view stage, double share) {
+    session_.on_progress({.stage = stage, .share = share, .found = found_, .verified = verified_});
+  }
+
+  /// Works off pieces in child processes until there are no more.
+  void work_off(const std::function<std::optional<Piece>()>& next) {
+    std::vector<std::function<void(const std::optional<std::vector<char>>&)>> takers;
+    run_in_children(
+        problem_.search.threads, AnswerOrder::kAsEnded,
+        [&]() -> std::optional<ChildTask> {
+          std::optional<Piece> piece = next();
+          if (!piece) return std::nullopt;
+          takers.push_back(std::move(piece->take));
+          ChildTask task{.work = std::move(piece->work),
+                         .superfluous = std::move(piece->superfluous)};
+          if (std::isfinite(piece->time_limit_s)) task.time_limit_s = piece->time_limit_s;
+          return task;
+        },
+        [&](const ChildAnswer& answer) { takers[answer.task](answer.bytes); }, session_.stop);
+  }
+
+  void search_and_verify() {
+    RunSchedule schedule(problem_.search, problem_.limits.margin_min);
+    search_end_s_ = budget_.elapsed_s();
+    work_off([&]() -> std::optional<Piece> {
+      const double runs = timed() ? found_ : schedule.given();
+      tell("searching", std::min(1.0, runs / schedule.wanted()));
+      if (auto piece = verification_of_most_promising()) return piece;
+      const double left_s = budget_.left_s(verified_ > 0 ? kSearchShare : kFirstPathShare);
+      const auto run = schedule.next(found_, left_s);
+      if (!run) return std::nullopt;
+      return search_piece(*run, schedule.wanted());
+    });
+    for (const RunResult& run : runs_) {
+      if (!run.outcome) continue;
+      for (std::size_t i = 0; i < run.outcome->rejected.size(); ++i) {
+        result_.rejected[i] += run.outcome->rejected[i];
+      }
+      result_.rejected_states.insert(result_.rejected_states.end(),
+                                     run.outcome->rejected_states.begin(),
+                                     run.outcome->rejected_states.end());
+      result_.propagations += run.outcome->propagations;
+      if (!run.path) continue;
+      if (run.path->candidate.verified.passed) {
+        paths_.push_back(*run.path);
+      } else {
+        result_.overturned.push_back(run.path->candidate);
+      }
+    }
+  }
+
+  Piece search_piece(const SearchRun& run, int wanted) {
+    const std::size_t number = runs_.size();
+    runs_.push_back({.run = run, .outcome = {}, .path = {}});
+    return {.work = [this, run] { return bytes_of(search(*searched_, run)); },
+            .time_limit_s = budget_.left_s(kFirstVerifyShare),
+            .take =
+                [this, number](const std::optional<std::vector<char>>& bytes) {
+                  RunResult& result = runs_[number];
+                  if (bytes) result.outcome = from_bytes<SearchOutcome>(*bytes);
+                  if (result.found()) ++found_;
+                  search_end_s_ = budget_.elapsed_s();
+                },
+            .superfluous = [this, wanted] { return timed() && found_ >= wanted; }};
+  }
+
+  /// The shortest of what is found and not judged yet.
+  std::optional<Piece> verification_of_most_promising() {
+    const double left_s = budget_.left_s(verified_ > 0 ? kVerifyShare : kFirstVerifyShare);
+    if (left_s <= 0) return std::nullopt;
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (runs_[i].state != RunResult::kWaiting || !runs_[i].found()) continue;
+      if (!best ||
+          duration_s(runs_[i].outcome->controls) < duration_s(runs_[*best].outcome->controls)) {
+        best = i;
+      }
+    }
+    if (!best) return std::nullopt;
+    RunResult& result = runs_[*best];
+    result.state = RunResult::kUnderway;
+    const FoundPath path{.planner = result.run.planner,
+                         .seed = result.run.guidance.seed,
+                         .controls = result.outcome->controls};
+    return Piece{.work = [this, path] { return bytes_of(verify(verdict_, *searched_, path)); },
+                 .time_limit_s = budget_.left_s(kFirstVerifyShare),
+                 .take =
+                     [this, number = *best](const std::optional<std::vector<char>>& bytes) {
+                       RunResult& judged = runs_[number];
+                       if (bytes) judged.path = from_bytes<VerifiedPath>(*bytes);
+                       if (!judged.path) return;
+                       judged.state = RunResult::kJudged;
+                       if (judged.path->candidate.verified.passed) {
+                         announce(judged.path->candidate);
+                       }
+                     }};
+  }
+
+  void announce(const Candidate& candidate) {
+    ++verified_;
+    const double now_s = budget_.elapsed_s();
+    if (!result_.first_verified_s) result_.first_verified_s = now_s;
+    session_.on_verified(candidate, now_s);
+  }
+
+  void improve() {
+    chosen_ = different_paths(paths_, problem_.search.candidates);
+    if (!problem_.search.improve) return;
+    std::vector<std::optional<VerifiedPath>> better(chosen_.size());
+    std::size_t next = 0;
+    work_off([&]() -> std::optional<Piece> {
+      const double left_s = budget_.left_s(kImproveShare);
+      if (next == chosen_.size() || left_s <= 0) return std::nullopt;
+      tell("improving", static_cast<double>(next) / static_cast<double>(chosen_.size()));
+      const std::size_t i = next++;
+      return Piece{.work =
+                       [this, i] {
+                         const auto path = improved_path(verdict_, *searched_, chosen_[i]);
+                         return path ? bytes_of(*path) : std::vector<char>();
+                       },
+                   .time_limit_s = left_s,
+                   .take =
+                       [this, &better, i](const std::optional<std::vector<char>>& bytes) {
+                         if (!bytes || bytes->empty()) return;
+                         better[i] = from_bytes<VerifiedPath>(*bytes);
+                         if (better[i]) announce(better[i]->candidate);
+                       }};
+    });
+    // The improved stand first among equals; the others fill in where they differ.
+    std::vector<VerifiedPath> all;
+    for (std::optional<VerifiedPath>& path : better) {
+      if (path) all.push_back(std::move(*path));
+    }
+    std::move(paths_.begin(), paths_.end(), std::back_inserter(all));
+    chosen_ = different_paths(std::move(all), problem_.search.candidates);
+  }
+
+  /// Besides the draws, what else the answer needs and nothing waits for.
+  void draw_soils() {
+    const int draws = problem_.search.soil_draws;
+    std::vector<std::map<int, std::vector<double>>> drawn(chosen_.size());
+    std::vector<int> given(chosen_.size());
+    bool bounded = false, mapped = false;
+    work_off([&]() -> std::optional<Piece> {
+      if (!std::exchange(bounded, true)) return bound_piece();
+      if (!chosen_.empty() && given.front() > 0 && !std::exchange(mapped, true)) {
+        return rasters_piece();
+      }
+      const auto least = std::min_element(given.begin(), given.end());
+      const double left_s = budget_.left_s(kDrawsShare);
+      if (least == given.end() || *least >= draws || left_s <= 0) return std::nullopt;
+      tell("drawing soils", static_cast<double>(*least) / draws);
+      const auto i = static_cast<std::size_t>(least - given.begin());
+      const DrawRange range{.first = *least, .count = std::min(kDrawsAtOnce, draws - *least)};
+      *least += range.count;
+      return Piece{.work =
+                       [this, i, range] {
+                         ByteWriter writer;
+                         writer(smallest_margins(problem_, chosen_[i].replay, range,
+                                                 problem_.search.seed, 1));
+                         return writer.take();
+                       },
+                   .time_limit_s = budget_.left_s(TimeBudget::kAnswerShare),
+                   .take =
+                       [&drawn, i, range](const std::optional<std::vector<char>>& bytes) {
+                         if (!bytes) return;
+                         ByteReader reader(*bytes);
+                         reader(drawn[i][range.first]);
+                       }};
+    });
+    for (std::size_t i = 0; i < chosen_.size(); ++i) {
+      std::vector<double> smallest;
+      for (const auto& [first, margins] : drawn[i]) {
+        smallest.insert(smallest.end(), margins.begin(), margins.end());
+      }
+      if (smallest.empty()) continue;
+      chosen_[i].candidate.spread = margin_spread(smallest, problem_.limits.margin_min);
+    }
+  }
+
+  Piece bound_piece() {
+    return {.work =
+                [this] {
+                  ByteWriter writer;
+                  writer(least_duration_s(problem_));
+                  return writer.take();
+                },
+            .time_limit_s = budget_.left_s(TimeBudget::kAnswerShare),
+            .take =
+                [this](const std::optional<std::vector<char>>& bytes) {
+                  if (!bytes) return;
+                  ByteReader reader(*bytes);
+                  reader(result_.least_duration_s.emplace());
+                }};
+  }
+
+  Piece rasters_piece() {
+    return {.work = [this] { return bytes_of(terrain_rasters(problem_)); },
+            .time_limit_s = budget_.left_s(TimeBudget::kAnswerShare),
+            .take =
+                [this](const std::optional<std::vector<char>>& bytes) {
+                  if (bytes) result_.rasters = from_bytes<TerrainRasters>(*bytes);
+                }};
+  }
+
+  /// Takes away what does not keep the chance constraint. \returns how many
+  std::size_t drop_improbable() {
+    const double least = problem_.limits.probability_min;
+    return std::erase_if(chosen_, [&](const VerifiedPath& path) {
+      // Not drawn: nothing is known against it, and nothing for it.
+      const auto& spread = path.candidate.spread;
+      return spread ? spread->feasible.low < least : least > 0;
+    });
+  }
+
+  void decide() {
+    const std::size_t left_out = drop_improbable();
+    rank(chosen_);
+    for (const VerifiedPath& path : chosen_) result_.candidates.push_back(path.candidate);
+    const std::string improbable =
+        left_out == 0 ? ""
+                      : fmt::format("{} verified, but not with probability {:.4g} over the soils",
+                                    left_out, problem_.limits.probability_min);
+    if (!chosen_.empty()) {
+      result_.status = PlanStatus::kFeasible;
+      result_.reason = fmt::format("{} verified {}{}{}", chosen_.size(),
+                                   chosen_.size() == 1 ? "path" : "different paths",
+                                   improbable.empty() ? "" : "; ", improbable);
+      result_.interrupted = stopped();
+      session_.on_answer(result_);
+      ask_what_if();
+    } else {
+      const std::string why =
+          improbable.empty() ? why_undecided(problem_, result_, search_end()) : improbable;
+      result_.reason = with_relaxation(why);
+    }
+  }
+
+  SearchEnd search_end() const {
+    SearchEnd end{.found = found_, .cut_short = true};
+    for (const RunResult& run : runs_) {
+      if (run.found() && run.state != RunResult::kJudged) ++end.unverified;
+      constexpr double kShare = 0.98;
+      if (run.outcome && run.run.time_s && run.outcome->time_s < kShare * *run.run.time_s) {
+        end.cut_short = false;
+      }
+    }
+    return end;
+  }
+
+  void ask_what_if() {
+    std::vector<std::optional<WhatIf>> answers(kCircumstances.size());
+    std::size_t next = 0;
+    work_off([&]() -> std::optional<Piece> {
+      const double left_s = budget_.left_s(TimeBudget::kAnswerShare);
+      if (next == kCircumstances.size() || left_s <= 0) return std::nullopt;
+      tell("asking what if", 0);
+      const std::size_t i = next++;
+      return Piece{.work =
+                       [this, i] {
+                         const VerifiedPath& best = chosen_.front();
+                         return bytes_of(what_if(kCircumstances[i], verdict_, best.replay,
+                                                 best.candidate.controls));
+                       },
+                   .time_limit_s = left_s,
+                   .take =
+                       [&answers, i](const std::optional<std::vector<char>>& bytes) {
+                         if (bytes) answers[i] = from_bytes<WhatIf>(*bytes);
+                       }};
+    });
+    for (std::optional<WhatIf>& answer : answers) {
+      if (answer) result_.what_ifs.push_back(std::move(*answer));
+    }
+  }
+
+  /// Why there is no path, and what to give up for one.
+  std::string with_relaxation(const std::string& reason) {
+    tell("looking for what would help", 0);
+    const auto relaxation = relaxation_that_helps(problem_, budget_, session_.stop);
+    return relaxation ? fmt::format("{}; a verified path exists {}", reason, *relaxation) : reason;
+  }
+
+  PlanResult answered() {
+    result_.interrupted = stopped();
+    if (result_.status != PlanStatus::kFeasible) session_.on_answer(result_);
+    return std::move(result_);
+  }
+
+  const PlanningProblem& problem_;
+  const PlanSession& session_;
+  TimeBudget budget_;
+  World verdict_;
+  std::optional<World> searched_;
+  PlanResult result_;
+  std::vector<RunResult> runs_;       ///< by number
+  std::vector<VerifiedPath> paths_;   ///< that passed, by run
+  std::vector<VerifiedPath> chosen_;  ///< the candidates
+  int found_ = 0, verified_ = 0;
+  double search_end_s_ = 0;
+};
 
 }  // namespace
 
-PlanResult plan(const PlanningProblem& problem,
-                const std::function<void(const PlanProgress&)>& on_progress,
-                const std::stop_token& stop) {
+PlanResult plan(const PlanningProblem& problem, const PlanSession& session) {
   validate(problem);
-  PlanResult result;
-  result.seed = problem.search.seed;
-  const World verdict(problem, WorldUse::kVerdict, problem.search.threads);
-  result.certificate = start_certificate(verdict);
-  const bool can_stand = !result.certificate;
-  if (can_stand) result.certificate = certificate_of_infeasibility(problem);
-  if (result.certificate) {
-    result.status = PlanStatus::kInfeasible;
-    // The refusal of a start says itself what would have to give way.
-    result.reason = can_stand ? with_relaxation(*result.certificate, problem, on_progress, stop)
-                              : *result.certificate;
-    result.interrupted = stop.stop_requested();
-    return result;
-  }
-
-  on_progress({.stage = "preparing"});
-  const Clock::time_point search_start = Clock::now();
-  const World world(problem, WorldUse::kSearch, problem.search.threads);
-  RunSchedule schedule(problem, search_start);
-  std::vector<FoundPath> found;
-  const auto report = [&] {
-    const auto count = static_cast<int>(found.size());
-    on_progress({.stage = "searching", .share = schedule.progress(count), .found = count});
-  };
-  search_in_processes(
-      world, problem.search.threads,
-      [&] {
-        report();
-        return schedule.next(static_cast<int>(found.size()));
-      },
-      [&](const SearchRun& run, const std::optional<SearchOutcome>& outcome) {
-        if (!outcome) return;
-        for (std::size_t i = 0; i < outcome->rejected.size(); ++i) {
-          result.rejected[i] += outcome->rejected[i];
-        }
-        result.rejected_states.insert(result.rejected_states.end(),
-                                      outcome->rejected_states.begin(),
-                                      outcome->rejected_states.end());
-        result.propagations += outcome->propagations;
-        if (!outcome->controls.empty()) {
-          found.push_back(
-              {.planner = run.planner, .seed = run.guidance.seed, .controls = outcome->controls});
-        }
-        report();
-      },
-      stop);
-  result.planning_time_s = seconds_since(search_start);
-  result.interrupted = stop.stop_requested();
-
-  const Clock::time_point verification_start = Clock::now();
-  VerifiedPaths verified = verify_all(verdict, world, found, on_progress);
-  result.overturned = std::move(verified.overturned);
-  std::vector<VerifiedPath> chosen = different_paths(verified.passed, problem.search.candidates);
-  if (problem.search.improve && !stop.stop_requested()) {
-    on_progress({.stage = "improving", .found = static_cast<int>(chosen.size())});
-    // The improved stand first among equals; the others fill in where they differ.
-    std::vector<VerifiedPath> all = improved_paths(verdict, world, chosen);
-    std::move(verified.passed.begin(), verified.passed.end(), std::back_inserter(all));
-    chosen = different_paths(std::move(all), problem.search.candidates);
-  }
-  for (std::size_t i = 0; i < chosen.size() && !stop.stop_requested(); ++i) {
-    on_progress({.stage = "drawing soils",
-                 .share = static_cast<double>(i) / static_cast<double>(chosen.size()),
-                 .found = static_cast<int>(chosen.size())});
-    add_spread(problem, chosen[i]);
-  }
-  const std::size_t left_out = drop_improbable(problem, chosen);
-  rank(chosen);
-  if (!chosen.empty()) {
-    result.what_ifs = what_ifs(verdict, chosen.front().replay, chosen.front().candidate.controls);
-  }
-  for (VerifiedPath& path : chosen) result.candidates.push_back(std::move(path.candidate));
-  result.verification_time_s = seconds_since(verification_start);
-  result.status = result.candidates.empty() ? PlanStatus::kUndecided : PlanStatus::kFeasible;
-  result.reason = reason_of(result, static_cast<int>(found.size()));
-  if (left_out > 0) {
-    result.reason += fmt::format("; {} verified, but not with probability {:.4g} over the soils",
-                                 left_out, problem.limits.probability_min);
-  }
-  if (result.candidates.empty()) {
-    result.reason = with_relaxation(result.reason, problem, on_progress, stop);
-  }
-  result.interrupted = result.interrupted || stop.stop_requested();
-  return result;
+  return Planning(problem, session).run();
 }
 
 }  // namespace regoplan

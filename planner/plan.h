@@ -1,25 +1,41 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <stop_token>
+#include <string_view>
 
 #include "planner/plan_result.h"
 #include "planner/planning_problem.h"
 
 namespace regoplan {
 
-/// What a search is doing, for whoever watches.
+/// What a plan is doing, for whoever watches.
 struct PlanProgress {
-  std::string_view stage;  ///< "searching", "verifying", "improving", "drawing soils"
+  std::string_view stage;  ///< "searching", "improving", "drawing soils", ...
   double share = 0;        ///< of this stage, 0 to 1
   int found = 0;           ///< paths found so far
+  int verified = 0;        ///< of them verified
 };
 
-/// Searches, verifies and ranks. A request to stop ends it early with what there is, marked
-/// interrupted. Must be called while the process has one thread: planners run in child processes.
+/// What surrounds a plan: who watches, what ends it, since when its time counts.
+struct PlanSession {
+  std::function<void(const PlanProgress&)> on_progress = [](const PlanProgress&) {};
+  /// Told of each path as soon as it has passed its verification; ranks come later.
+  std::function<void(const Candidate&, double since_start_s)> on_verified = [](const Candidate&,
+                                                                               double) {};
+  /// Told when status, reason and ranks stand; what is worked out after that explains them.
+  std::function<void(const PlanResult&)> on_answer = [](const PlanResult&) {};
+  /// A request ends the plan within moments, with what there is, marked interrupted.
+  std::stop_token stop{};
+  /// `Search::time_s` is the time of the whole answer from here on.
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
+};
+
+/// Searches, verifies and ranks. Searches, verifications and all else that is dear run in child
+/// processes, several at once: a path is verified as soon as it is found, while the search goes
+/// on. Must be called while the process has one thread.
 /// \throws ValueError, InputError as `validate(problem)`
-PlanResult plan(const PlanningProblem& problem,
-                const std::function<void(const PlanProgress&)>& on_progress,
-                const std::stop_token& stop);
+PlanResult plan(const PlanningProblem& problem, const PlanSession& session = {});
 
 }  // namespace regoplan

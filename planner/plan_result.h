@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/margin_spread.h"
 #include "planner/planning_problem.h"
+#include "planner/terrain_rasters.h"
 
 namespace regoplan {
 
@@ -72,8 +74,6 @@ struct Improvement {
 };
 
 struct Candidate {
-  static constexpr double kNotDrawn = std::numeric_limits<double>::quiet_NaN();
-
   int rank = 0;  ///< from 1; 0 of a path that was not ranked
   std::string planner;
   std::uint64_t seed = 0;
@@ -84,9 +84,8 @@ struct Candidate {
   double duration_s = 0;
   double energy_j = 0;
   double margin_min = 0;
-  double margin_p05 = kNotDrawn;            ///< 5 % quantile of margin_min over the soil draws
-  double margin_worst_tenth = 0;            ///< mean over the worst 10 % of the length
-  double probability_feasible = kNotDrawn;  ///< share of the draws in which every limit holds
+  double margin_worst_tenth = 0;       ///< mean over the worst 10 % of the length
+  std::optional<MarginSpread> spread;  ///< over the soils' draws, once there are some
   LimitingPlace limiting;
   Verification verified;
 };
@@ -130,11 +129,22 @@ struct PlanResult {
   std::vector<WhatIf> what_ifs;                          ///< of the best candidate
   std::array<std::int64_t, kRejectionCount> rejected{};  ///< states, by first reason
   std::vector<RejectedState> rejected_states;            ///< an even sample of them for display
+  std::optional<TerrainRasters> rasters;  ///< where a search was made, and time left for them
   std::int64_t propagations = 0;
-  double planning_time_s = 0;      ///< search alone
-  double verification_time_s = 0;  ///< replays and soil draws
+  /// No path of this problem is faster (`least_duration_s`), where that was worked out.
+  std::optional<double> least_duration_s;
+  double planning_time_s = 0;              ///< from the first search's start to the last one's end
+  double verification_time_s = 0;          ///< from then on: replays, improvement and soil draws
+  std::optional<double> first_verified_s;  ///< since the plan's start, of the first verified path
   std::uint64_t seed = 0;
   bool interrupted = false;
 };
+
+/// The shortest time of the candidates; nothing where there are none.
+std::optional<double> fastest_duration_s(const PlanResult& result);
+
+/// How far the fastest candidate may be from the fastest path that there is, as a share of its own
+/// time: (time - bound) / time, as solvers of optimisation problems state it.
+std::optional<double> duration_gap(const PlanResult& result);
 
 }  // namespace regoplan

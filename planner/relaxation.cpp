@@ -2,31 +2,46 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <numbers>
-#include <vector>
 
-#include "planner/candidate.h"
+#include "planner/child_processes.h"
 #include "planner/relaxed_problem.h"
-#include "planner/search_processes.h"
+#include "planner/search_run.h"
+#include "planner/verified_path.h"
 
 namespace regoplan {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-struct Relaxation {
-  std::string words;
-  PlanningProblem problem;
-};
+/// Whether a brief search finds a path, and it passes its verification.
+bool opens_the_way(const PlanningProblem& problem) {
+  const World verdict(problem, WorldUse::kVerdict, 1);
+  if (verdict.rejected(verdict.start(), {}) || certificate_of_infeasibility(problem)) return false;
+  const World searched(problem, WorldUse::kSearch, 1);
+  constexpr std::int64_t kBriefly = 8000;
+  constexpr double kReserve = 0.01;
+  const SearchRun run{.planner = "Lattice",
+                      .guidance = {.margin_min = problem.limits.margin_min + kReserve},
+                      .time_s = {},
+                      .iterations = kBriefly};
+  const SearchOutcome outcome = search(searched, run);
+  if (outcome.controls.empty()) return false;
+  const FoundPath found{.planner = run.planner, .controls = outcome.controls};
+  return verify(verdict, searched, found).candidate.verified.passed;
+}
+
+}  // namespace
 
 std::vector<Relaxation> relaxations_of(const PlanningProblem& problem) {
   std::vector<Relaxation> relaxations;
   PlanningProblem slower = problem;
   slower.speed_max_mps /= 2;
-  slower.start.speed_mps = std::min(slower.start.speed_mps, slower.speed_max_mps);
-  relaxations.push_back(
-      {fmt::format("at half the speed, {:.4g} m/s", slower.speed_max_mps), slower});
+  if (slower.start.speed_mps <= slower.speed_max_mps) {
+    relaxations.push_back(
+        {fmt::format("at half the speed, {:.4g} m/s", slower.speed_max_mps), slower});
+  }
   if (problem.limits.margin_min > 0) {
     PlanningProblem bolder = problem;
     bolder.limits.margin_min = 0;
@@ -43,42 +58,31 @@ std::vector<Relaxation> relaxations_of(const PlanningProblem& problem) {
   return relaxations;
 }
 
-bool opens_the_way(const PlanningProblem& problem, const std::stop_token& stop) {
-  const World verdict(problem, WorldUse::kVerdict, problem.search.threads);
-  if (verdict.rejected(verdict.start(), {}) || certificate_of_infeasibility(problem)) return false;
-  const World searched(problem, WorldUse::kSearch, problem.search.threads);
-  constexpr std::int64_t kBriefly = 8000;
-  constexpr double kReserve = 0.01;
-  bool given = false;
-  std::vector<FoundPath> found;
-  search_in_processes(
-      searched, 1,
-      [&]() -> std::optional<SearchRun> {
-        if (given) return std::nullopt;
-        given = true;
-        return SearchRun{.planner = "Lattice",
-                         .guidance = {.margin_min = problem.limits.margin_min + kReserve},
-                         .time_s = {},
-                         .iterations = kBriefly};
+std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
+                                                 const TimeBudget& budget,
+                                                 const std::stop_token& stop) {
+  const std::vector<Relaxation> relaxations = relaxations_of(problem);
+  std::optional<std::string> helps;
+  std::size_t given = 0;
+  run_in_children(
+      problem.search.threads, AnswerOrder::kAsGiven,
+      [&]() -> std::optional<ChildTask> {
+        if (helps || given == relaxations.size()) return std::nullopt;
+        const double left_s = budget.left_s(TimeBudget::kAnswerShare);
+        if (left_s <= 0) return std::nullopt;
+        const PlanningProblem& relaxed = relaxations[given++].problem;
+        ChildTask task{.work = [&relaxed] {
+          return std::vector<char>(1, opens_the_way(relaxed) ? 'y' : 'n');
+        }};
+        if (std::isfinite(left_s)) task.time_limit_s = left_s;
+        return task;
       },
-      [&](const SearchRun& run, const std::optional<SearchOutcome>& outcome) {
-        if (outcome && !outcome->controls.empty()) {
-          found.push_back({.planner = run.planner, .controls = outcome->controls});
-        }
+      [&](const ChildAnswer& answer) {
+        if (helps || !answer.bytes || answer.bytes->front() != 'y') return;
+        helps = relaxations[answer.task].words;
       },
       stop);
-  return !verify_all(verdict, searched, found, [](const PlanProgress&) {}).passed.empty();
-}
-
-}  // namespace
-
-std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
-                                                 const std::stop_token& stop) {
-  for (const Relaxation& relaxation : relaxations_of(problem)) {
-    if (stop.stop_requested()) return std::nullopt;
-    if (opens_the_way(relaxation.problem, stop)) return relaxation.words;
-  }
-  return std::nullopt;
+  return helps;
 }
 
 }  // namespace regoplan

@@ -3,16 +3,29 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "planner/planning_problem.h"
+#include "planner/time_budget.h"
 
 namespace regoplan {
 
-/// Of a problem without a path: the first single thing to give up that opens the way, in words -
-/// half the speed, no margin to spare, a slope limit 5 deg steeper. Each is planned for briefly and
-/// the path verified, so that what is named is known to help; nothing where none does in that time.
-/// Does not hang on the clock. Call it while the process has one thread.
+/// A problem with one thing given up, and what that is, in words.
+struct Relaxation {
+  std::string words;
+  PlanningProblem problem;
+};
+
+/// What might be given up for a path: half the speed, margin to spare, 5 deg of the slope limit.
+/// Each is a problem that can be asked as it stands.
+std::vector<Relaxation> relaxations_of(const PlanningProblem& problem);
+
+/// Of a problem without a path: the first of its relaxations that opens the way, in words. Each is
+/// planned for briefly and the path verified, so that what is named is known to help; nothing where
+/// none does in that time. Call it while the process has one thread.
+/// \param budget whose share for the answer ends it; without a budget it does not hang on the clock
 std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
+                                                 const TimeBudget& budget,
                                                  const std::stop_token& stop);
 
 }  // namespace regoplan

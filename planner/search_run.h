@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/plain_bytes.h"
 #include "planner/plan_result.h"
 #include "planner/world.h"
 
@@ -35,6 +36,16 @@ struct SearchOutcome {
   std::int64_t propagations = 0;
   double time_s = 0;  ///< wall clock, the field that guides it included
 };
+
+/// Hands every field to an archive (`bytes_of`).
+template <class Archive, FieldsOf<SearchOutcome> Outcome>
+void each_field(Archive& archive, Outcome& outcome) {
+  archive(outcome.controls);
+  archive(outcome.rejected);
+  archive(outcome.rejected_states);
+  archive(outcome.propagations);
+  archive(outcome.time_s);
+}
 
 /// Runs a planner of OMPL in this process. Planners of OMPL's own draw from random numbers that the
 /// process shares: one at a time.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "planner/world.h"
+
 namespace regoplan {
 namespace {
 

@@ -8,28 +8,11 @@
 #include <set>
 
 #include "planner/soil_surrogate.h"
+#include "planner/world.h"
 #include "terramech/parallel_for.h"
 
 namespace regoplan {
 namespace {
-
-/// The judged states that stand for the whole path.
-std::vector<VehicleState> decisive_states(const Replay& verified) {
-  constexpr std::size_t kSmallest = 10, kSpread = 4;
-  std::vector<std::size_t> order(verified.points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return verified.points[a].margin < verified.points[b].margin;
-  });
-  std::set<std::size_t> chosen(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                                  kSmallest, order.size())));
-  for (std::size_t i = 0; i < kSpread; ++i) {
-    chosen.insert(i * (order.size() - 1) / (kSpread - 1));
-  }
-  std::vector<VehicleState> states;
-  for (const std::size_t i : chosen) states.push_back(verified.judged[i].state);
-  return states;
-}
 
 PathMargins counted(const StateMargins& margins) {
   const double cornering = margins.cornering.value_or(-1);
@@ -37,44 +20,6 @@ PathMargins counted(const StateMargins& margins) {
   return {.cornering = cornering,
           .tip_over = margins.tip_over,
           .traction = margins.traction.value_or(std::min(cornering, 0.0))};
-}
-
-PathMargins smallest_of(const std::vector<PathMargins>& places) {
-  PathMargins smallest;
-  for (const PathMargins& place : places) {
-    smallest = {.cornering = std::min(smallest.cornering, place.cornering),
-                .tip_over = std::min(smallest.tip_over, place.tip_over),
-                .traction = std::min(smallest.traction, place.traction)};
-  }
-  return smallest;
-}
-
-/// Where each margin is smallest at the mean soils, a few places apart for each.
-std::vector<std::size_t> decisive_places(const std::vector<VehicleState>& states,
-                                         const std::vector<PathMargins>& at_mean) {
-  constexpr double kApart_m = 2;
-  std::set<std::size_t> chosen;
-  const auto take_smallest = [&](double PathMargins::*kind, std::size_t most) {
-    std::vector<std::size_t> order(states.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return at_mean[a].*kind < at_mean[b].*kind;
-    });
-    std::vector<std::size_t> taken;
-    for (const std::size_t i : order) {
-      if (taken.size() == most) break;
-      const auto near = [&](std::size_t other) {
-        return std::hypot(states[i].x_m - states[other].x_m, states[i].y_m - states[other].y_m) <
-               kApart_m;
-      };
-      if (std::none_of(taken.begin(), taken.end(), near)) taken.push_back(i);
-    }
-    chosen.insert(taken.begin(), taken.end());
-  };
-  take_smallest(&PathMargins::cornering, 3);
-  take_smallest(&PathMargins::traction, 3);
-  take_smallest(&PathMargins::tip_over, 1);
-  return {chosen.begin(), chosen.end()};
 }
 
 std::vector<VehicleState> states_at(const std::vector<VehicleState>& states,
@@ -126,6 +71,51 @@ double PathMargins::smallest() const {
   return std::min({cornering, tip_over, traction});
 }
 
+PathMargins smallest_of(const std::vector<PathMargins>& places) {
+  PathMargins smallest;
+  for (const PathMargins& place : places) {
+    smallest = {.cornering = std::min(smallest.cornering, place.cornering),
+                .tip_over = std::min(smallest.tip_over, place.tip_over),
+                .traction = std::min(smallest.traction, place.traction)};
+  }
+  return smallest;
+}
+
+std::vector<std::size_t> decisive_places(const std::vector<VehicleState>& states,
+                                         const std::vector<PathMargins>& at_mean) {
+  constexpr double kApart_m = 2;
+  std::set<std::size_t> chosen;
+  const auto take_smallest = [&](double PathMargins::*kind, std::size_t most) {
+    std::vector<std::size_t> order(states.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return at_mean[a].*kind < at_mean[b].*kind;
+    });
+    std::vector<std::size_t> taken;
+    for (const std::size_t i : order) {
+      if (taken.size() == most) break;
+      const auto near = [&](std::size_t other) {
+        return std::hypot(states[i].x_m - states[other].x_m, states[i].y_m - states[other].y_m) <
+               kApart_m;
+      };
+      if (std::none_of(taken.begin(), taken.end(), near)) taken.push_back(i);
+    }
+    chosen.insert(taken.begin(), taken.end());
+  };
+  take_smallest(&PathMargins::cornering, 3);
+  take_smallest(&PathMargins::traction, 3);
+  take_smallest(&PathMargins::tip_over, 1);
+  return {chosen.begin(), chosen.end()};
+}
+
+PathMargins margins_at(const TrajectoryPoint& point) {
+  const auto or_else = [](double value, double other) { return std::isnan(value) ? other : value; };
+  const double cornering = or_else(point.cornering_margin, -1);
+  return {.cornering = cornering,
+          .tip_over = or_else(point.tip_over_margin, -1),
+          .traction = or_else(point.traction_margin, std::min(cornering, 0.0))};
+}
+
 SoilDraw soil_draw(const std::vector<MapSoil>& soils, std::uint64_t seed, int number) {
   std::seed_seq sequence{seed, static_cast<std::uint64_t>(number)};
   std::mt19937_64 random(sequence);
@@ -153,40 +143,6 @@ std::vector<PathMargins> margins_on(const PlanningProblem& problem,
     margins.push_back(counted(margins_of(dynamics, polygon, question, supply.answer(question))));
   }
   return margins;
-}
-
-MarginSpread margin_spread(const PlanningProblem& problem, const Replay& verified, int draws,
-                           std::uint64_t seed, int threads) {
-  const std::vector<VehicleState> states = decisive_states(verified);
-  std::vector<double> smallest(static_cast<std::size_t>(draws));
-  parallel_for(smallest.size(), threads, [&](std::size_t i) {
-    const SoilDraw soils = soil_draw(problem.map.soils(), seed, static_cast<int>(i));
-    smallest[i] = smallest_of(margins_on(problem, states, soils)).smallest();
-  });
-  const auto allowed = std::count_if(smallest.begin(), smallest.end(), [&](double margin) {
-    return margin >= problem.limits.margin_min;
-  });
-  return {.p05 = quantiles_of(smallest).p05,
-          .probability_feasible = static_cast<double>(allowed) / draws};
-}
-
-Probability probability_of(int successes, int draws) {
-  constexpr double kZ = 1.959963984540054;  // 97.5 % quantile of the normal distribution
-  const double n = draws, p = successes / n;
-  const double middle = (p + kZ * kZ / (2 * n)) / (1 + kZ * kZ / n);
-  const double half = kZ / (1 + kZ * kZ / n) * std::sqrt(p * (1 - p) / n + kZ * kZ / (4 * n * n));
-  return {.share = p,
-          .low = successes == 0 ? 0 : std::max(0.0, middle - half),
-          .high = successes == draws ? 1 : std::min(1.0, middle + half)};
-}
-
-Quantiles quantiles_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    const auto below = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-    return values[std::min(below, values.size() - 1)];
-  };
-  return {.p05 = at(0.05), .p50 = at(0.5), .p95 = at(0.95)};
 }
 
 SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,

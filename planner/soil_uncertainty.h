@@ -5,24 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "planner/replay.h"
+#include "planner/draw_statistics.h"
+#include "planner/plan_result.h"
+#include "terramech/vehicle_dynamics.h"
 
 namespace regoplan {
-
-/// How a candidate's smallest stability margin spreads over what is known of the soils.
-struct MarginSpread {
-  double p05 = 0;                   ///< 5 % quantile of the smallest margin
-  double probability_feasible = 0;  ///< share of draws whose smallest margin is allowed
-};
-
-/// Draws the soils of the map, one draw for each soil and path, the numbers independent and
-/// truncated to their valid ranges; the same draws for every candidate of a seed. Speed, commanded
-/// curvature and acceleration are held; the margins are judged at the places where they are
-/// smallest at the mean soils and at a few spread along the path. No steady trim at all counts as a
-/// margin of -1.
-/// \param draws at least 1
-MarginSpread margin_spread(const PlanningProblem& problem, const Replay& verified, int draws,
-                           std::uint64_t seed, int threads);
 
 /// One draw of each soil of a map, in their order.
 using SoilDraw = std::vector<Soil>;
@@ -39,23 +26,20 @@ struct PathMargins {
   bool operator==(const PathMargins&) const = default;
 };
 
+/// The smallest of each margin over several places.
+PathMargins smallest_of(const std::vector<PathMargins>& places);
+
+/// The margins of a point, what is missing counted as above.
+PathMargins margins_at(const TrajectoryPoint& point);
+
+/// Where each margin is smallest at the mean soils: indices of a few places, 2 m apart, for each.
+/// \param at_mean of each state
+std::vector<std::size_t> decisive_places(const std::vector<VehicleState>& states,
+                                         const std::vector<PathMargins>& at_mean);
+
 /// Margins of states on one draw of the soils, by the direct wheel model at its fast accuracy.
 std::vector<PathMargins> margins_on(const PlanningProblem& problem,
                                     const std::vector<VehicleState>& states, const SoilDraw& soils);
-
-/// A share of draws with the interval that holds the true probability in 95 % of cases, by Wilson's
-/// score.
-struct Probability {
-  double share = 0;
-  double low = 0, high = 1;
-};
-Probability probability_of(int successes, int draws);
-
-struct Quantiles {
-  double p05 = 0, p50 = 0, p95 = 0;
-};
-/// By the nearest rank; `values` not empty.
-Quantiles quantiles_of(std::vector<double> values);
 
 /// How much one soil number decides.
 struct SoilInfluence {

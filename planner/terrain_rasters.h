@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "planner/plain_bytes.h"
 #include "planner/planning_problem.h"
 
 namespace regoplan {
@@ -19,6 +20,22 @@ struct TerrainRasters {
   /// tightest turn to either side that keeps every margin at that speed, the slope across the path.
   std::vector<std::vector<float>> supply_n;
 };
+
+/// Hands every field to an archive (`bytes_of`).
+template <class Archive, FieldsOf<TerrainRasters> Rasters>
+void each_field(Archive& archive, Rasters& rasters) {
+  auto& frame = rasters.frame;
+  archive(frame.columns);
+  archive(frame.rows);
+  archive(frame.west_m);
+  archive(frame.north_m);
+  archive(frame.cell_width_m);
+  archive(frame.cell_height_m);
+  archive(frame.crs_wkt);
+  archive(rasters.margin);
+  archive(rasters.speeds_mps);
+  archive(rasters.supply_n);
+}
 
 /// By the direct wheel model at its fast accuracy on planes of whole degrees (supply: every fifth)
 /// of each soil, linear between them; the ground of a cell is the plane under the vehicle

@@ -45,6 +45,32 @@ WhatIf same_path(std::string question, const World& world, const Replay& verifie
   return result;
 }
 
+/// Whether a vehicle's wheels turn and it does not move: on ground that does not carry it on, every
+/// further step is dear and changes nothing.
+bool stands(const VehicleState& state) {
+  constexpr double kShare = 0.01;  // of the rims' speed
+  return state.rim_acceleration_mps2 == 0 && std::hypot(state.motion.vx_mps, state.motion.vy_mps) <
+                                                 kShare * std::abs(state.rim_speed_mps);
+}
+
+/// Where controls lead, limits aside: to their end, or to where the vehicle stands.
+VehicleState driven_out(const World& world, const std::vector<ControlSegment>& controls,
+                        double longest_s) {
+  VehicleState state = world.start();
+  double time_s = 0;
+  const double step_s = world.search_step_s();
+  for (const ControlSegment& segment : controls) {
+    const auto count = std::lround(segment.duration_s / step_s);
+    for (long i = 0; i < count && time_s < longest_s; ++i, time_s += step_s) {
+      const StepResult step = world.dynamics().step(
+          state, {segment.speed_target_mps, segment.curvature_target_1pm}, step_s);
+      state = step.state;
+      if (!step.converged || stands(state)) return state;
+    }
+  }
+  return state;
+}
+
 WhatIf same_controls(std::string question, const World& world, const Replay& verified,
                      const std::vector<ControlSegment>& controls) {
   const Replay driven = replay(world, controls, verification_steps(world));
@@ -61,18 +87,7 @@ WhatIf same_controls(std::string question, const World& world, const Replay& ver
     result.y_m = driven.rejection->y_m;
     result.time_s = driven.rejection_time_s;
   }
-  VehicleState state = world.start();
-  double time_s = 0;
-  const double step_s = world.search_step_s();
-  for (const ControlSegment& segment : controls) {
-    const auto count = std::lround(segment.duration_s / step_s);
-    for (long i = 0; i < count && time_s < verified.duration_s; ++i, time_s += step_s) {
-      const StepResult step = world.dynamics().step(
-          state, {segment.speed_target_mps, segment.curvature_target_1pm}, step_s);
-      if (!step.converged) break;
-      state = step.state;
-    }
-  }
+  const VehicleState state = driven_out(world, controls, verified.duration_s);
   const VehicleState& end = verified.end;
   result.end_shift_m = std::hypot(state.x_m - end.x_m, state.y_m - end.y_m);
   return result;
@@ -86,25 +101,27 @@ Soil with_scaled_strength(Soil soil, double factor) {
   return soil;
 }
 
-std::vector<WhatIf> what_ifs(const World& world, const Replay& verified,
-                             const std::vector<ControlSegment>& controls) {
-  const PlanningProblem weaker_problem = on_weaker_soils(world.problem(), 0.5);
-  const World weaker(weaker_problem, WorldUse::kVerdict, 1);
-  const PlanningProblem faster_problem = without_speed_limit(world.problem());
-  const World faster(faster_problem, WorldUse::kVerdict, 1);
-  const auto twice_as_fast = [](VehicleState state) {
-    state.motion.vx_mps *= 2;
-    state.motion.vy_mps *= 2;
-    state.motion.yaw_rate_rad_s *= 2;
-    state.rim_speed_mps *= 2;
-    return state;
-  };
-  const auto as_it_is = [](VehicleState state) { return state; };
-  return {same_path("the same path at twice its speeds", faster, verified, twice_as_fast),
-          same_path("the same path and speeds on soils with cohesion and tan(phi) halved", weaker,
-                    verified, as_it_is),
-          same_controls("the same controls on soils with cohesion and tan(phi) halved", weaker,
-                        verified, controls)};
+WhatIf what_if(Circumstance circumstance, const World& world, const Replay& verified,
+               const std::vector<ControlSegment>& controls) {
+  if (circumstance == Circumstance::kTwiceTheSpeed) {
+    const PlanningProblem problem = without_speed_limit(world.problem());
+    return same_path("the same path at twice its speeds", World(problem, WorldUse::kVerdict, 1),
+                     verified, [](VehicleState state) {
+                       state.motion.vx_mps *= 2;
+                       state.motion.vy_mps *= 2;
+                       state.motion.yaw_rate_rad_s *= 2;
+                       state.rim_speed_mps *= 2;
+                       return state;
+                     });
+  }
+  const PlanningProblem problem = on_weaker_soils(world.problem(), 0.5);
+  const World weaker(problem, WorldUse::kVerdict, 1);
+  if (circumstance == Circumstance::kWeakerSoil) {
+    return same_path("the same path and speeds on soils with cohesion and tan(phi) halved", weaker,
+                     verified, [](const VehicleState& state) { return state; });
+  }
+  return same_controls("the same controls on soils with cohesion and tan(phi) halved", weaker,
+                       verified, controls);
 }
 
 }  // namespace regoplan

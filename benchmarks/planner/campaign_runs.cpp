@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "planner/candidate.h"
 #include "planner/search_processes.h"
+#include "planner/verified_path.h"
 
 namespace regoplan {
 
@@ -45,9 +45,7 @@ TimedOutcome timed(const World& world, const SearchRun& run) {
 
 bool passes(const World& verdict, const World& searched,
             const std::vector<ControlSegment>& controls) {
-  return !verify_all(verdict, searched, {{.planner = {}, .controls = controls}},
-                     [](const PlanProgress&) {})
-              .passed.empty();
+  return verify(verdict, searched, {.planner = {}, .controls = controls}).candidate.verified.passed;
 }
 
 }  // namespace regoplan

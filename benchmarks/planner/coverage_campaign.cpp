@@ -7,7 +7,7 @@
 #include "benchmarks/planner/campaign_text.h"
 #include "benchmarks/planner/campaigns.h"
 #include "planner/plan.h"
-#include "planner/soil_uncertainty.h"
+#include "planner/replay.h"
 
 namespace regoplan {
 
@@ -25,7 +25,7 @@ void coverage_campaign(const CampaignSettings& settings) {
       problem.search.time_s = settings.time_s;
       problem.search.candidates = 1;
       problem.search.soil_draws = 1000;  // of 100, 99 that hold show .946
-      const PlanResult result = plan(problem, [](const PlanProgress&) {}, {});
+      const PlanResult result = plan(problem);
       double kept = 0, draws = 0;
       if (!result.candidates.empty()) {
         const World verdict(problem, WorldUse::kVerdict, 2);
@@ -34,10 +34,10 @@ void coverage_campaign(const CampaignSettings& settings) {
         // Draws that the plan has not seen.
         constexpr std::uint64_t kOther = 1000000007;
         draws = kDraws;
+        const std::vector<double> smallest = smallest_margins(
+            problem, path, {.count = kDraws}, kOther + problem.search.seed, problem.search.threads);
         kept =
-            std::round(kDraws * margin_spread(problem, path, kDraws, kOther + problem.search.seed,
-                                              problem.search.threads)
-                                    .probability_feasible);
+            std::round(kDraws * margin_spread(smallest, problem.limits.margin_min).feasible.share);
       }
       rows.add(key, {kept, draws});
     }

@@ -5,8 +5,8 @@
 #include <functional>
 #include <random>
 
-#include "planner/candidate.h"
 #include "planner/search_processes.h"
+#include "planner/verified_path.h"
 #include "terramech/input_error.h"
 #include "tests/planner/flat_problem.h"
 
@@ -80,8 +80,7 @@ PlanningProblem random_problem(std::uint64_t seed) {
 bool verified_path_found(const PlanningProblem& problem, const std::string& planner,
                          std::int64_t iterations) {
   const World searched(problem, WorldUse::kSearch, 1), verdict(problem, WorldUse::kVerdict, 1);
-  std::vector<FoundPath> found;
-  bool given = false;
+  bool given = false, passed = false;
   search_in_processes(
       searched, 1,
       [&]() -> std::optional<SearchRun> {
@@ -94,10 +93,11 @@ bool verified_path_found(const PlanningProblem& problem, const std::string& plan
       },
       [&](const SearchRun& run, const std::optional<SearchOutcome>& outcome) {
         if (!outcome || outcome->controls.empty()) return;
-        found.push_back({.planner = run.planner, .controls = outcome->controls});
+        passed = verify(verdict, searched, {.planner = run.planner, .controls = outcome->controls})
+                     .candidate.verified.passed;
       },
       {});
-  return !verify_all(verdict, searched, found, [](const PlanProgress&) {}).passed.empty();
+  return passed;
 }
 
 }  // namespace regoplan

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/csv_cells.h"
+#include "planner/terrain_rasters.h"
 #include "tests/app/flat_map.h"
 
 namespace regoplan {
@@ -52,6 +53,15 @@ PlanResult result_with(int candidates) {
   result.reason = "found";
   for (int rank = 1; rank <= candidates; ++rank) result.candidates.push_back(candidate(rank));
   result.rejected[static_cast<std::size_t>(Rejection::kCornering)] = 7;
+  return result;
+}
+
+/// The same of a plan that had time for rasters.
+PlanResult result_with_rasters(int candidates) {
+  PlanResult result = result_with(candidates);
+  PlanningProblem problem = flat_problem();
+  problem.limits = default_limits(problem.vehicle);
+  result.rasters = terrain_rasters(problem);
   return result;
 }
 
@@ -108,7 +118,7 @@ TEST(PlanFiles, RejectionsStandInTheOrderInWhichTheyAreTested) {
 
 TEST(PlanFiles, NumbersReadBackBitForBitAndNanIsNeverWritten) {
   PlanResult result = result_with(1);
-  result.candidates[0].margin_p05 = std::numeric_limits<double>::quiet_NaN();
+  result.candidates[0].spread.reset();
   const std::string text = plan_json(flat_problem(), result);
   const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json["candidates"][0]["length_m"], 0.1 + 0.2);
@@ -122,12 +132,14 @@ TEST(PlanFiles, TimesSpentAreAllThatTellTwoEqualRunsApart) {
   PlanResult slow = result_with(2);
   slow.planning_time_s = 9;
   slow.verification_time_s = 8;
+  slow.first_verified_s = 7;
   auto a = nlohmann::json::parse(plan_json(flat_problem(), result_with(2)));
   auto b = nlohmann::json::parse(plan_json(flat_problem(), slow));
   EXPECT_NE(a, b);
   for (auto* json : {&a, &b}) {
     json->erase("planning_time_s");
     json->erase("verification_time_s");
+    json->erase("first_verified_s");
   }
   EXPECT_EQ(a, b);
 }
@@ -165,10 +177,12 @@ TEST(PlanFiles, GeoJsonIsInMapCoordinatesAndNamesTheirCrs) {
 TEST(PlanFiles, AFolderHoldsTheCandidatesOfOnePlanOnly) {
   const ScratchFolder folder;
   folder.write("candidate-notes.csv", "mine");
-  write_plan_files(flat_problem(), result_with(3), folder.path(""));
+  write_plan_files(flat_problem(), result_with_rasters(3), folder.path(""));
   EXPECT_EQ(folder.count(), 1 + 4 + 3 * 2);
-  write_plan_files(flat_problem(), result_with(1), folder.path(""));
+  write_plan_files(flat_problem(), result_with_rasters(1), folder.path(""));
   EXPECT_EQ(folder.count(), 1 + 4 + 1 * 2);
+  write_plan_files(flat_problem(), result_with(1), folder.path(""));
+  EXPECT_EQ(folder.count(), 1 + 2 + 1 * 2) << "rasters of an earlier plan";
   EXPECT_EQ(folder.read("plan.json"), plan_json(flat_problem(), result_with(1)));
 }
 
@@ -176,7 +190,7 @@ TEST(PlanFiles, MarginAndSupplyLieInTheMapsPlace) {
   const ScratchFolder folder;
   PlanningProblem problem = flat_problem();
   problem.limits = default_limits(problem.vehicle);
-  write_plan_files(problem, result_with(1), folder.path("out"));
+  write_plan_files(problem, result_with_rasters(1), folder.path("out"));
   for (const char* name : {"out/margin.tif", "out/supply.tif"}) {
     const ElevationRaster read = read_elevation(folder.path(name));  // band 1
     EXPECT_EQ(read.frame, problem.map.elevation().frame) << name;
@@ -186,7 +200,7 @@ TEST(PlanFiles, MarginAndSupplyLieInTheMapsPlace) {
 
 TEST(PlanFiles, WhereNothingWasSearchedThereAreNoRastersNotEvenOlderOnes) {
   const ScratchFolder folder;
-  write_plan_files(flat_problem(), result_with(1), folder.path(""));
+  write_plan_files(flat_problem(), result_with_rasters(1), folder.path(""));
   EXPECT_TRUE(std::filesystem::exists(folder.path("margin.tif")));
   PlanResult refused;
   refused.status = PlanStatus::kInfeasible;

@@ -33,7 +33,8 @@ TEST_F(PlanReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {
   for (std::size_t i = 0; i < best.points.size(); i += 2)
     best.points[i].margin = best.points[i].cornering_margin = best.points[i].supply_max_n = kNaN;
   best.points[2].x_m = best.points[2].time_s = best.points[2].yaw_rad = kNaN;
-  best.margin_p05 = best.energy_j = best.verified.margin_min = best.limiting.x_m = kNaN;
+  best.spread.reset();
+  best.energy_j = best.verified.margin_min = best.limiting.x_m = kNaN;
   for (TrajectoryPoint& point : result_.candidates[1].points) point = {.x_m = kNaN, .margin = kNaN};
   result_.rejected_states.front().x_m = result_.rejected_states.front().value = kNaN;
   result_.what_ifs.front().x_m = kNaN;

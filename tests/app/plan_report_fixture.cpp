@@ -107,9 +107,13 @@ Candidate made_up_path(const PlanningProblem& problem, int rank, double bow_m, d
   candidate.duration_s = candidate.points.back().time_s;
   candidate.energy_j = 118.25 * candidate.length_m;
   candidate.margin_min = worst->margin + 0.003;
-  candidate.margin_p05 = worst->margin - 0.041;
   candidate.margin_worst_tenth = worst->margin + 0.02;
-  candidate.probability_feasible = 1 - 0.03 * rank;
+  const double p05 = worst->margin - 0.041;
+  candidate.spread = MarginSpread{.draws = 100,
+                                  .p05 = p05,
+                                  .p05_low = p05 - 0.01,
+                                  .p05_high = p05 + 0.01,
+                                  .feasible = probability_of(100 - 3 * rank, 100)};
   candidate.limiting = {.margin = worst->margin == worst->cornering_margin ? MarginKind::kCornering
                                                                            : MarginKind::kTraction,
                         .x_m = worst->x_m,

@@ -66,8 +66,8 @@ TEST_F(PlanReport, HoldsTheNumbersOfTheCandidatesToTheLastBit) {
     EXPECT_EQ(row["duration_s"], candidate.duration_s);
     EXPECT_EQ(row["energy_j"], candidate.energy_j);
     EXPECT_EQ(row["margin_min"], candidate.margin_min);
-    EXPECT_EQ(row["margin_p05"], candidate.margin_p05);
-    EXPECT_EQ(row["probability_feasible"], candidate.probability_feasible);
+    EXPECT_EQ(row["margin_p05"], candidate.spread->p05);
+    EXPECT_EQ(row["probability_feasible"], candidate.spread->feasible.share);
     EXPECT_EQ(row["verified"]["margin_min"], candidate.verified.margin_min);
     EXPECT_EQ(row["verified"]["max_deviation_m"], candidate.verified.deviation_max_m);
     EXPECT_EQ(row["limiting"]["margin"], name(candidate.limiting.margin));
@@ -116,7 +116,8 @@ TEST_F(PlanReport, WritesWhatIsNotKnownAsNull) {
   point.margin = point.cornering_margin = kNaN;
   point.supply_max_n = std::numeric_limits<double>::infinity();
   Candidate& best = result_.candidates.front();
-  best.margin_p05 = best.probability_feasible = best.verified.margin_min = kNaN;
+  best.spread.reset();
+  best.verified.margin_min = kNaN;
   best.limiting.x_m = kNaN;
   result_.rejected_states.front().value = kNaN;
   result_.what_ifs.front().margin_min = kNaN;
@@ -181,8 +182,18 @@ TEST(PlanHeadline, FeasibleNamesTheMarginAndWhatBindsWhereAndWhen) {
       .margin = MarginKind::kTipOver, .x_m = 12.34, .y_m = 56, .time_s = 7.25};
   result.candidates[0].verified.margin_min = 0.213;
   EXPECT_EQ(plan_headline(result),
-            "Feasible: 2 verified paths; the best keeps a stability margin of 0.21 (tip over binds "
-            "at x = 12.3 m, y = 56.0 m, t = 7.2 s).");
+            "Feasible: 2 verified paths; the best keeps a stability margin of 0.21 at the "
+            "mean soils; tip over binds at x = 12.3 m, y = 56.0 m, t = 7.2 s.");
+  result.candidates[0].spread = MarginSpread{.draws = 100,
+                                             .p05 = -1,
+                                             .p05_low = -1,
+                                             .p05_high = 0.02,
+                                             .feasible = probability_of(58, 100)};
+  EXPECT_EQ(
+      plan_headline(result),
+      "Feasible: 2 verified paths; the best keeps a stability margin of -1.00 in 95 % of the "
+      "draws of the soils and enough in 58 of 100 (0.21 at the mean soils); tip over binds at "
+      "x = 12.3 m, y = 56.0 m, t = 7.2 s.");
 }
 
 TEST(PlanHeadline, OnePathIsNotSeveral) {

@@ -20,7 +20,7 @@ TEST(MariasPass, ACuriosityClassRoverDrivesFromOneOfItsStopsToAnother) {
   problem.search.iterations = 2500;
   problem.search.candidates = 1;
   problem.search.soil_draws = 20;
-  const PlanResult result = plan(problem, [](const PlanProgress&) {}, {});
+  const PlanResult result = plan(problem);
   ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
   const Candidate& best = result.candidates.front();
   EXPECT_TRUE(best.verified.passed);

@@ -251,7 +251,7 @@ TEST(Evaluation, SameSeedSameResultWhateverTheThreads) {
 
 TEST(Evaluation, ACandidateIsConfirmed) {
   const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
-  const PlanResult planned = plan(problem, [](const PlanProgress&) {}, {});
+  const PlanResult planned = plan(problem);
   ASSERT_FALSE(planned.candidates.empty());
   const Candidate& candidate = planned.candidates.front();
   std::vector<PathPoint> points;

@@ -171,7 +171,7 @@ TEST(Plan, CandidatesThatWereImprovedSayByHowMuchAndStillPass) {
   problem.search.candidates = 3;
   const auto planned = [&](bool improve) {
     problem.search.improve = improve;
-    return plan(problem, [](const PlanProgress&) {}, {});
+    return plan(problem);
   };
   const PlanResult plain = planned(false), better = planned(true);
   ASSERT_EQ(better.status, PlanStatus::kFeasible) << better.reason;

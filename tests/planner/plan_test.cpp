@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "planner/replay.h"
@@ -12,9 +13,8 @@
 namespace regoplan {
 namespace {
 
-PlanResult planned(const PlanningProblem& problem, std::stop_token stop = {}) {
-  return plan(
-      problem, [](const PlanProgress&) {}, stop);
+PlanResult planned(const PlanningProblem& problem) {
+  return plan(problem);
 }
 
 std::int64_t count(const PlanResult& result, Rejection reason) {
@@ -31,7 +31,7 @@ std::string fingerprint(const PlanResult& result) {
         text += std::to_string(std::bit_cast<std::uint64_t>(value)) + ",";
       }
     }
-    text += std::to_string(std::bit_cast<std::uint64_t>(c.margin_p05));
+    text += std::to_string(std::bit_cast<std::uint64_t>(c.spread->p05));
   }
   for (const auto n : result.rejected) text += std::to_string(n) + ";";
   return text + std::to_string(result.propagations);
@@ -158,13 +158,13 @@ TEST(Plan, UncertainSoilLowersTheMarginThatMostDrawsKeep) {
   const PlanResult result = planned(problem);
   ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
   const Candidate& best = result.candidates.front();
-  EXPECT_LT(best.margin_p05, best.margin_min);
-  EXPECT_GT(best.probability_feasible, 0.5);
+  EXPECT_LT(best.spread->p05, best.margin_min);
+  EXPECT_GT(best.spread->feasible.share, 0.5);
 
   const PlanResult certain = planned(lrv_problem(one_soil_map(50, firm_regolith(), flat)));
   ASSERT_EQ(certain.status, PlanStatus::kFeasible) << certain.reason;
-  EXPECT_NEAR(certain.candidates.front().margin_p05, certain.candidates.front().margin_min, 2e-3);
-  EXPECT_EQ(certain.candidates.front().probability_feasible, 1);
+  EXPECT_NEAR(certain.candidates.front().spread->p05, certain.candidates.front().margin_min, 2e-3);
+  EXPECT_EQ(certain.candidates.front().spread->feasible.share, 1);
 }
 
 TEST(Plan, AChanceConstraintLeavesOutWhatTheSoilMayNotHold) {
@@ -176,7 +176,7 @@ TEST(Plan, AChanceConstraintLeavesOutWhatTheSoilMayNotHold) {
   problem.limits.probability_min = 0.9;  // 40 of 40 draws show 0.91
   const PlanResult kept = planned(problem);
   for (const Candidate& candidate : kept.candidates) {
-    EXPECT_EQ(candidate.probability_feasible, 1) << kept.reason;
+    EXPECT_EQ(candidate.spread->feasible.share, 1) << kept.reason;
   }
   // As much margin as the mean soil gives: half of the draws give less.
   problem.limits.probability_min = 0;
@@ -193,17 +193,39 @@ TEST(Plan, AStopRequestEndsItWithWhatThereIs) {
   problem.search.time_s = 600;
   problem.search.candidates = 100;
   std::stop_source stop;
-  int found = 0;
-  const PlanResult result = plan(
-      problem,
-      [&](const PlanProgress& progress) {
-        found = progress.found;
-        if (found > 0) stop.request_stop();
-      },
-      stop.get_token());
+  const PlanResult result =
+      plan(problem, {.on_verified = [&](const Candidate&, double) { stop.request_stop(); },
+                     .stop = stop.get_token()});
   EXPECT_TRUE(result.interrupted);
   EXPECT_LT(result.planning_time_s, 60);
   EXPECT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+}
+
+TEST(Plan, TheTimeGivenIsThatOfTheWholeAnswer) {
+  UncertainSoil uncertain = firm_regolith();
+  uncertain.standard_deviation.friction_angle_rad = 4 * kTestDegree;
+  PlanningProblem problem = lrv_problem(one_soil_map(50, uncertain, flat));
+  problem.search.planner = "Lattice";
+  problem.search.iterations.reset();
+  problem.search.time_s = 4;
+  problem.search.candidates = 20;
+  problem.search.soil_draws = 100000;  // for which there is no time
+  const auto start = std::chrono::steady_clock::now();
+  const PlanResult result = plan(problem, {.started = start});
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  EXPECT_LT(taken.count(), 4.5);
+  EXPECT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+  ASSERT_TRUE(result.first_verified_s);
+  EXPECT_LT(*result.first_verified_s, 0.5 * 4);
+}
+
+TEST(Plan, WantOfTimeIsSaidFirstWithATimeThatMayDo) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.search.iterations.reset();
+  problem.search.time_s = 0.06;
+  const PlanResult result = planned(problem);
+  EXPECT_EQ(result.status, PlanStatus::kUndecided);
+  EXPECT_TRUE(result.reason.starts_with("0.06 s did not suffice, give it 0.2 s")) << result.reason;
 }
 
 TEST(PlanningProblem, WhatCannotBeAskedNamesFieldAndRange) {

@@ -46,7 +46,7 @@ TEST(RejectionText, AStartThatIsTooSteepIsRefusedInDegrees) {
   PlanningProblem problem = lrv_problem(one_soil_map(
       50, firm_regolith(), [slope](double x_m, double /*y_m*/) { return slope * x_m; }));
   problem.limits.slope_max_rad = 20 * kTestDegree;
-  const PlanResult result = plan(problem, [](const PlanProgress&) {}, {});
+  const PlanResult result = plan(problem);
   ASSERT_TRUE(result.certificate);
   EXPECT_NE(result.certificate->find("slope 30 deg (allowed: at most 20 deg)"), std::string::npos)
       << *result.certificate;
@@ -58,7 +58,7 @@ TEST(Plan, ARefusedStartSaysWhatRefusesItAndLooksForNothingElse) {
       50, firm_regolith(), [slope](double /*x_m*/, double y_m) { return slope * y_m; }));
   problem.goal.x_m = 20;
   problem.limits.slope_max_rad = 10 * kTestDegree;  // a search at 15 deg would find a path
-  const PlanResult result = plan(problem, [](const PlanProgress&) {}, {});
+  const PlanResult result = plan(problem);
   EXPECT_EQ(result.status, PlanStatus::kInfeasible);
   EXPECT_EQ(result.reason,
             "the vehicle may not stand at its start: slope 12 deg (allowed: at most 10 deg) at "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/world.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "planner/candidate.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

@@ -1,0 +1,96 @@
+#include "planner/ranking.h"
+
+#include <gtest/gtest.h>
+
+namespace regoplan {
+namespace {
+
+/// A straight path, so far aside of the x axis.
+VerifiedPath path(const char* name, double margin_min, double duration_s, double aside_m = 0) {
+  VerifiedPath made;
+  made.candidate.planner = name;
+  made.candidate.margin_min = margin_min;
+  made.candidate.duration_s = duration_s;
+  made.candidate.length_m = 40;
+  for (double x = 0; x <= 40; x += 10) {
+    made.candidate.points.push_back({.x_m = x, .y_m = aside_m});
+  }
+  return made;
+}
+
+VerifiedPath drawn(VerifiedPath path, double p05, double p05_high,
+                   Probability feasible = {1, 1, 1}) {
+  path.candidate.spread =
+      MarginSpread{.draws = 100, .p05 = p05, .p05_high = p05_high, .feasible = feasible};
+  return path;
+}
+
+std::string order_of(std::vector<VerifiedPath> paths) {
+  rank(paths);
+  std::string names;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    EXPECT_EQ(paths[i].candidate.rank, static_cast<int>(i) + 1);
+    names += paths[i].candidate.planner;
+  }
+  return names;
+}
+
+TEST(Ranking, GoesByTheQuantileOverTheDrawsNotByTheMarginAtTheMeanSoils) {
+  EXPECT_EQ(
+      order_of({drawn(path("a", 0.30, 50), 0.05, 0.06), drawn(path("b", 0.20, 50), 0.10, 0.11)}),
+      "ba");
+}
+
+TEST(Ranking, WhoLiesWithinItsOwnSamplingErrorOfTheBestIsTiedAndTimeDecides) {
+  const VerifiedPath best = drawn(path("a", 0.2, 90), 0.103, 0.12);
+  EXPECT_EQ(order_of({best, drawn(path("b", 0.2, 60), 0.100, 0.11)}), "ba");
+  EXPECT_EQ(order_of({best, drawn(path("b", 0.2, 60), 0.100, 0.102)}), "ab");
+}
+
+TEST(Ranking, ABinsEdgeDecidesNothing) {
+  // A thousandth apart, on either side of what would be a bin's edge of a hundredth.
+  for (const double p05 : {0.1045, 0.1055, 0.1095}) {
+    EXPECT_EQ(order_of({drawn(path("a", 0.2, 90), p05 + 0.001, 0.2),
+                        drawn(path("b", 0.2, 60), p05, 0.2)}),
+              "ba");
+  }
+}
+
+TEST(Ranking, GroupsAreFormedFromTheBestDown) {
+  // c reaches b, which reaches a; c does not reach a, which leads.
+  EXPECT_EQ(order_of({drawn(path("c", 0.2, 10), 0.06, 0.09), drawn(path("b", 0.2, 20), 0.08, 0.11),
+                      drawn(path("a", 0.2, 30), 0.10, 0.12)}),
+            "bac");
+}
+
+TEST(Ranking, AmongEquallyFastPathsTheShorterIsFirst) {
+  VerifiedPath longer = drawn(path("a", 0.2, 60), 0.1, 0.12);
+  longer.candidate.length_m = 250;
+  EXPECT_EQ(order_of({longer, drawn(path("b", 0.2, 60), 0.1, 0.12)}), "ba");
+}
+
+TEST(Ranking, WhereLimitsBreakTheShareOfDrawsThatHoldRanksFirst) {
+  const double broken = MarginSpread::kBroken;
+  const VerifiedPath seldom = drawn(path("a", 0.3, 10), broken, 0.1, {0.58, 0.48, 0.67});
+  const VerifiedPath mostly = drawn(path("b", 0.1, 90), broken, 0.1, {0.90, 0.83, 0.94});
+  const VerifiedPath holds = drawn(path("c", 0.1, 99), 0.01, 0.02);
+  EXPECT_EQ(order_of({seldom, mostly, holds}), "cba");
+}
+
+TEST(Ranking, WhatWasNotDrawnComesLastByItsMarginAtTheMeanSoils) {
+  EXPECT_EQ(order_of({path("a", 0.2, 10), path("b", 0.3, 20), drawn(path("c", 0.1, 99), 0, 0.01)}),
+            "cba");
+}
+
+TEST(DifferentPaths, KeepTheWidestThenTheFastestAndNoneTwice) {
+  const std::vector<VerifiedPath> chosen = different_paths(
+      {path("slow", 0.25, 90, 10), path("fast", 0.08, 50, 20), path("twin", 0.29, 60, 0.5),
+       path("widest", 0.30, 80, 0), path("fourth", 0.20, 70, 30)},
+      3);
+  std::string names;
+  for (const VerifiedPath& one : chosen) names += one.candidate.planner + " ";
+  EXPECT_EQ(names, "widest fast slow ");
+}
+
+}  // namespace
+}  // namespace regoplan
