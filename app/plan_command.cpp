@@ -16,8 +16,8 @@ Command add_plan_command(CLI::App& program) {
   CLI::App* parser =
       program.add_subcommand("plan",
                              "Find, verify and rank paths.\n"
-                             "Writes plan.json, candidate-K.csv, candidate-K.geojson, margin.tif, "
-                             "supply.tif and report.html.");
+                             "Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, "
+                             "and, unless infeasible, margin.tif and supply.tif.");
   parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, start, goal, limits")
       ->required();
   parser->add_option("--out", options->output.folder, "folder for the results")
