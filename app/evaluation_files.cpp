@@ -6,7 +6,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 
 #include "app/evaluation_report.h"
 #include "app/model_settings.h"
@@ -130,13 +129,10 @@ bool EvaluationResult::any_feasible() const {
 }
 
 void rank(EvaluationResult& result) {
-  std::vector<RankKey> keys;
-  for (const EvaluatedPath& path : result.paths) keys.push_back(rank_key(path.evaluation));
-  std::vector<std::size_t> order(keys.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&keys](std::size_t i) { return keys[i]; });
+  std::vector<Standing> standings;
+  for (const EvaluatedPath& path : result.paths) standings.push_back(standing_of(path.evaluation));
   std::vector<EvaluatedPath> ranked;
-  for (const std::size_t i : order) {
+  for (const std::size_t i : rank_order(standings)) {
     ranked.push_back(std::move(result.paths[i]));
     ranked.back().evaluation.rank = static_cast<int>(ranked.size());
   }

@@ -139,6 +139,8 @@ Candidate as_candidate(const EvaluatedPath& path) {
           .margin_worst_tenth = e.margin_worst_tenth,
           .spread = MarginSpread{.draws = e.spread.draws,
                                  .p05 = e.spread.margin.p05,
+                                 .p05_low = e.spread.margin_p05_interval.low,
+                                 .p05_high = e.spread.margin_p05_interval.high,
                                  .feasible = e.spread.feasible},
           .limiting = e.limiting,
           .verified = {.passed = e.feasible,

@@ -45,7 +45,7 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
       ->check(in_range(kAtLeast0));
   CLI::Option* time = parser
                           .add_option("--time", overrides.time_s,
-                                      else_as("seconds to search for", kSearchTimeDefault_s))
+                                      else_as("seconds of the whole answer", kSearchTimeDefault_s))
                           ->type_name("S")
                           ->check(in_range(kAbove0));
   parser

@@ -241,6 +241,7 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
                          .tip_over = none,
                          .traction = none,
                          .margin = none,
+                         .margin_p05_interval = {-1, -1},
                          .feasible = {.share = 0, .low = 0, .high = 0}};
   }
   // What the soils cannot mend.
@@ -252,10 +253,12 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   return evaluation;
 }
 
-RankKey rank_key(const PathEvaluation& evaluation) {
-  constexpr double kTie = 0.01;
-  return {!evaluation.feasible, -std::round(evaluation.spread.margin.p05 / kTie),
-          -evaluation.margin_worst_tenth, evaluation.duration_s, evaluation.tracking.energy_j};
+Standing standing_of(const PathEvaluation& evaluation) {
+  Standing standing{.duration_s = evaluation.duration_s, .length_m = evaluation.length_m};
+  const SoilSpread& spread = evaluation.spread;
+  set_by_draws(standing, spread.margin.p05, spread.margin_p05_interval.high, spread.feasible);
+  if (!evaluation.feasible) standing.tier = Standing::kInfeasible;
+  return standing;
 }
 
 }  // namespace regoplan

@@ -3,11 +3,11 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "planner/path_tracking.h"
 #include "planner/soil_uncertainty.h"
+#include "planner/standing.h"
 
 namespace regoplan {
 
@@ -94,10 +94,7 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings);
 
-/// What evaluations rank by, smaller before larger: feasible ones first, then as candidates rank,
-/// by the 5 % quantile of the smallest margin in steps of 0.01, the mean margin over the worst
-/// tenth of the length, time, energy.
-using RankKey = std::tuple<bool, double, double, double, double>;
-RankKey rank_key(const PathEvaluation& evaluation);
+/// What evaluations rank by: feasible ones first, then as candidates do.
+Standing standing_of(const PathEvaluation& evaluation);
 
 }  // namespace regoplan

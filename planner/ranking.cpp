@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <tuple>
+#include <utility>
+
+#include "planner/standing.h"
 
 namespace regoplan {
 namespace {
@@ -28,21 +29,15 @@ bool differ(const Candidate& path, const Candidate& other) {
   return apart >= std::max(kLeast_m, kShareOfWay * other.length_m);
 }
 
-/// What a path is ranked by, before time and length: first the kind, the smaller the better, then
-/// the value, the larger the better.
-struct Standing {
-  enum Kind { kQuantile, kShareOfDraws, kMarginAtMean } kind = kMarginAtMean;
-  double value = 0;
-  double high = 0;  ///< upper end of the value's sampling error
-};
-
 Standing standing_of(const Candidate& candidate) {
-  const std::optional<MarginSpread>& spread = candidate.spread;
-  if (!spread) return {Standing::kMarginAtMean, candidate.margin_min, candidate.margin_min};
-  if (spread->p05 > MarginSpread::kBroken) {
-    return {Standing::kQuantile, spread->p05, spread->p05_high};
+  Standing standing{.value = candidate.margin_min,
+                    .high = candidate.margin_min,
+                    .duration_s = candidate.duration_s,
+                    .length_m = candidate.length_m};
+  if (const auto& spread = candidate.spread) {
+    set_by_draws(standing, spread->p05, spread->p05_high, spread->feasible);
   }
-  return {Standing::kShareOfDraws, spread->feasible.share, spread->feasible.high};
+  return standing;
 }
 
 }  // namespace
@@ -71,26 +66,14 @@ std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int m
 }
 
 void rank(std::vector<VerifiedPath>& paths) {
-  const auto better = [](const VerifiedPath& a, const VerifiedPath& b) {
-    const Standing one = standing_of(a.candidate), other = standing_of(b.candidate);
-    return std::tuple(one.kind, -one.value) < std::tuple(other.kind, -other.value);
-  };
-  const auto sooner = [](const VerifiedPath& a, const VerifiedPath& b) {
-    return std::tuple(a.candidate.duration_s, a.candidate.length_m) <
-           std::tuple(b.candidate.duration_s, b.candidate.length_m);
-  };
-  for (auto group = paths.begin(); group != paths.end();) {
-    const Standing leader = standing_of(std::min_element(group, paths.end(), better)->candidate);
-    const auto rest = std::stable_partition(group, paths.end(), [&](const VerifiedPath& path) {
-      const Standing standing = standing_of(path.candidate);
-      return standing.kind == leader.kind && standing.high >= leader.value;
-    });
-    std::stable_sort(group, rest, sooner);
-    group = rest;
+  std::vector<Standing> standings;
+  for (const VerifiedPath& path : paths) standings.push_back(standing_of(path.candidate));
+  std::vector<VerifiedPath> ranked;
+  for (const std::size_t i : rank_order(standings)) {
+    ranked.push_back(std::move(paths[i]));
+    ranked.back().candidate.rank = static_cast<int>(ranked.size());
   }
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    paths[i].candidate.rank = static_cast<int>(i) + 1;
-  }
+  paths = std::move(ranked);
 }
 
 }  // namespace regoplan

@@ -94,12 +94,12 @@ Replay replay(const World& world, const std::vector<ControlSegment>& controls,
 }
 
 ReplaySteps verification_steps(const World& world) {
-  constexpr double kMarginsEvery_s = 0.5;
+  constexpr double kMarginsEvery_s = 0.5, kMarginsEvery_m = 0.25;
   const double coarse = world.search_step_s();
-  return {
-      .coarse_s = coarse,
-      .fine_per_coarse = 10,
-      .coarse_per_margin = std::max(1, static_cast<int>(std::lround(kMarginsEvery_s / coarse)))};
+  const double every_s = std::max(kMarginsEvery_s, kMarginsEvery_m / world.problem().speed_max_mps);
+  return {.coarse_s = coarse,
+          .fine_per_coarse = 10,
+          .coarse_per_margin = std::max(1, static_cast<int>(std::lround(every_s / coarse)))};
 }
 
 double deviation_max_m(const Replay& a, const Replay& b) {

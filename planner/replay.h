@@ -40,8 +40,9 @@ struct Replay {
 Replay replay(const World& world, const std::vector<ControlSegment>& controls,
               const ReplaySteps& steps, bool with_margins = true);
 
-/// The verdict's steps: ten times finer than the search's, margins every half second or every step
-/// of the search where that is longer.
+/// The verdict's steps: ten times finer than the search's, margins every half second or, of slow
+/// vehicles, every quarter of a metre at top speed, or every step of the search where that is
+/// longer.
 ReplaySteps verification_steps(const World& world);
 
 /// Largest distance between two replays at equal times, over the time that both last.

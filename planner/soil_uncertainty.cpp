@@ -41,6 +41,9 @@ void summarize(SoilSpread& spread, const PlanningProblem& problem, const SoilNum
   spread.tip_over = quantiles([](const PathMargins& m) { return m.tip_over; });
   spread.traction = quantiles([](const PathMargins& m) { return m.traction; });
   spread.margin = quantiles([](const PathMargins& m) { return m.smallest(); });
+  std::vector<double> smallest_margins;
+  for (const PathMargins& one : margins) smallest_margins.push_back(one.smallest());
+  spread.margin_p05_interval = quantile_interval(smallest_margins, 0.05, {.low = -1, .high = 1});
   const auto allowed = std::count_if(margins.begin(), margins.end(), [&](const PathMargins& m) {
     return m.smallest() >= problem.limits.margin_min;
   });
@@ -160,6 +163,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
     spread.tip_over = fixed(known.tip_over);
     spread.traction = fixed(known.traction);
     spread.margin = fixed(known.smallest());
+    spread.margin_p05_interval = {.low = known.smallest(), .high = known.smallest()};
     const double share = known.smallest() >= problem.limits.margin_min ? 1 : 0;
     spread.feasible = {.share = share, .low = share, .high = share};
     return spread;

@@ -59,7 +59,8 @@ struct SoilSpread {
   PathMargins surrogate_error{.cornering = 0, .tip_over = 0, .traction = 0};
   int places = 0;  ///< of the path that were judged in each draw
   Quantiles cornering, tip_over, traction, margin;
-  Probability feasible;  ///< that the smallest margin is allowed
+  QuantileInterval margin_p05_interval;  ///< what sampling leaves open of `margin.p05`
+  Probability feasible;                  ///< that the smallest margin is allowed
   /// The largest first; empty where the draws are fewer than `kDrawsANumber` for each uncertain
   /// number: a regression on so few says nothing.
   std::vector<SoilInfluence> influences;
