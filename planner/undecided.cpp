@@ -67,12 +67,14 @@ std::string why_undecided(const PlanningProblem& problem, const PlanResult& resu
     time = fmt::format("{:.4g} s did not suffice, give it {:.4g} s", *problem.search.time_s,
                        more_time_s(*problem.search.time_s));
   }
+  const std::string found =
+      fmt::format("{} {}", end.found, end.found == 1 ? "path was" : "paths were");
   std::string text;
   if (!result.overturned.empty()) {
-    text = fmt::format("{} paths were found, none passed its verification: {}", end.found,
+    text = fmt::format("{} found, none passed its verification: {}", found,
                        result.overturned.front().verified.reason);
   } else if (end.found > 0) {
-    text = fmt::format("{} paths were found and not yet verified", end.found);
+    text = found + " found and not yet verified";
   } else {
     text = "no path was found";
     const std::string place =

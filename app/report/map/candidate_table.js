@@ -60,7 +60,7 @@ function limitingCell(path) {
 function candidateTable(host) {
   if (!view.paths.length) {
     host.append(element(
-        'p', {}, 'No path was found. The map shows where the search met the edge of feasibility.'));
+        'p', {}, 'No path was verified. The map shows where the search met the edge of feasibility.'));
     return;
   }
   let sorted = {column: 0, descending: false};

@@ -91,8 +91,8 @@ function facts(host) {
             ['Propagations', `${integer(PLAN.propagations)} integrator steps of the vehicle`],
             [
               'Time',
-              `${SECONDS(PLAN.planning_time_s)} searching, ${
-                  SECONDS(PLAN.verification_time_s)} verifying and drawing soils`
+              `${SECONDS(PLAN.planning_time_s)} searching and verifying, ${
+                  SECONDS(PLAN.verification_time_s)} more improving and drawing soils`
             ],
             ['Threads', integer(search.threads)], ['Program', `regoplan ${PLAN.version}`]
           ]),

@@ -1,0 +1,53 @@
+#include "planner/undecided.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/planner/flat_problem.h"
+
+namespace regoplan {
+namespace {
+
+PlanningProblem problem_with(std::optional<double> time_s) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.search.time_s = time_s;
+  if (time_s) problem.search.iterations.reset();
+  return problem;
+}
+
+TEST(Undecided, ASearchThatTheTimeCutShortIsGivenMore) {
+  const std::string why = why_undecided(problem_with(2), {}, {.found = 0, .cut_short = true});
+  EXPECT_EQ(why, "2 s did not suffice, give it 5 s: no path was found");
+}
+
+TEST(Undecided, ASearchThatCameToItsEndIsNotSentOnForTime) {
+  EXPECT_EQ(why_undecided(problem_with(2), {}, {}), "no path was found");
+  EXPECT_EQ(why_undecided(problem_with({}), {}, {.cut_short = true}), "no path was found");
+}
+
+TEST(Undecided, APathThatWaitsForItsVerificationIsSaid) {
+  const std::string why =
+      why_undecided(problem_with(1), {}, {.found = 1, .unverified = 1, .cut_short = false});
+  EXPECT_EQ(why, "1 s did not suffice, give it 5 s: 1 path was found and not yet verified");
+}
+
+TEST(Undecided, NamesTheNarrowestPlaceNearestToTheGoal) {
+  PlanResult result;
+  const auto add = [&](Rejection reason, double x_m, double value) {
+    result.rejected_states.push_back(
+        {.reason = reason, .x_m = x_m, .y_m = 25, .value = value, .limit = 0.05});
+  };
+  add(Rejection::kTraction, 12, 0.049);  // far from the goal at 40 m: not what stops it
+  add(Rejection::kTraction, 12, 0.049);
+  add(Rejection::kTraction, 12, 0.049);
+  add(Rejection::kCornering, 30, -0.2);
+  add(Rejection::kCornering, 30, 0.03);  // this one misses by least
+  add(Rejection::kSlip, 30, 0.9);
+  const std::string why = why_undecided(problem_with({}), result, {});
+  EXPECT_NE(why.find("cornering margin 0.03 (allowed: at least 0.05) at (30.00, 25.00)"),
+            std::string::npos)
+      << why;
+  EXPECT_NE(why.find("with at least 7 m to go"), std::string::npos) << why;
+}
+
+}  // namespace
+}  // namespace regoplan
