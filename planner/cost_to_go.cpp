@@ -9,13 +9,16 @@
 #include <queue>
 #include <random>
 
-#include "planner/obstacles.h"
+#include "planner/room_to_pass.h"
+#include "planner/world.h"
 
 namespace regoplan {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-constexpr double kAcrossObstacle = 30;  // times the length: rather around it
+// Times the length: rather around what cannot be passed, by the side of what hardly can.
+constexpr double kAcrossObstacle = 100, kNarrow = 4;
+constexpr double kFinest_m = 1;  // cells
 
 /// Smooth noise from 0 to 1: random values on a coarse lattice, bilinear between.
 class SmoothVariety {
@@ -44,17 +47,30 @@ class SmoothVariety {
 
 }  // namespace
 
-CostToGo::CostToGo(const PlanningProblem& problem, double variety, std::uint64_t seed)
+CostToGo::CostToGo(const PlanningProblem& problem,
+                   const std::vector<std::optional<double>>& climbs_rad, double variety,
+                   std::uint64_t seed)
     : goal_{problem.goal.x_m, problem.goal.y_m} {
   const GridFrame& frame = problem.map.elevation().frame;
   const double width = frame.east_m() - frame.west_m, height = frame.north_m - frame.south_m();
-  constexpr double kFinest_m = 1, kMostCells = 512;
+  constexpr double kMostCells = 512;
   west_m_ = frame.west_m;
   south_m_ = frame.south_m();
   cell_m_ = std::max(kFinest_m, std::max(width, height) / kMostCells);
   columns_ = std::max(1, static_cast<int>(std::ceil(width / cell_m_)));
   rows_ = std::max(1, static_cast<int>(std::ceil(height / cell_m_)));
-  spread(dearness(problem, variety, seed));
+  const SmoothVariety noise(columns_ * cell_m_, rows_ * cell_m_, seed);
+  const std::vector<double> narrow = settle(problem);
+  std::vector<double> dear = dearness(problem, climbs_rad);
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      const Place at = centre({column, row});
+      double& value = dear[index({column, row})];
+      value = std::min(value + narrow[index({column, row})], std::max(value, kAcrossObstacle)) +
+              variety * noise.at(at.x_m - west_m_, at.y_m - south_m_);
+    }
+  }
+  spread(dear);
 }
 
 CostToGo::Cell CostToGo::cell_at(double x_m, double y_m) const {
@@ -66,40 +82,49 @@ CostToGo::Place CostToGo::centre(const Cell& cell) const {
   return {west_m_ + (cell.column + 0.5) * cell_m_, south_m_ + (cell.row + 0.5) * cell_m_};
 }
 
-std::vector<double> CostToGo::dearness(const PlanningProblem& problem, double variety,
-                                       std::uint64_t seed) const {
-  const TerrainMap& map = problem.map;
-  const Vehicle& vehicle = problem.vehicle;
-  const double half_width = std::max(vehicle.body.y_max_m, -vehicle.body.y_min_m);
-  const double reach = half_width + 0.5 * cell_m_;
-  // Slopes at the vehicle's own scale.
-  const double span = std::max(half_width, cell_m_);
-  const SmoothVariety noise(columns_ * cell_m_, rows_ * cell_m_, seed);
-  std::vector<double> dear(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+std::vector<double> CostToGo::settle(const PlanningProblem& problem) {
+  // Places of coarse cells are too far apart to tell what lies between them.
+  const double needed_m = World::kSearchClearance_m + (cell_m_ - kFinest_m) / 2;
+  RoomToPass room(problem);
+  std::vector<double> narrow(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  places_.resize(narrow.size());
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      const Place at = centre({column, row});
-      double& value = dear[index({column, row})];
-      const double across =
-          map.height_m(at.x_m + span, at.y_m) - map.height_m(at.x_m - span, at.y_m);
-      const double along =
-          map.height_m(at.x_m, at.y_m + span) - map.height_m(at.x_m, at.y_m - span);
-      const double slope = std::atan(std::hypot(across, along) / (2 * span));
-      if (std::isnan(slope) || !map.soil_index(at.x_m, at.y_m)) {
-        value = kFar;
-        continue;
-      }
-      const double steepness = slope / problem.limits.slope_max_rad;
-      const bool blocked =
-          steepness > 1 || map.any_rock(at.x_m - reach, at.x_m + reach, at.y_m - reach,
-                                        at.y_m + reach, [&](const Rock& rock) {
-                                          return std::hypot(rock.x_m - at.x_m, rock.y_m - at.y_m) <
-                                                     rock.radius_m + reach &&
-                                                 in_the_way(map, vehicle, rock);
-                                        });
-      value = (blocked ? kAcrossObstacle : 1 + 3 * steepness * steepness) +
-              variety * noise.at(at.x_m - west_m_, at.y_m - south_m_);
+      const Place middle = centre({column, row});
+      const RoomToPass::Place at = room.roomiest(middle.x_m, middle.y_m, cell_m_ / 2);
+      places_[index({column, row})] = {at.x_m, at.y_m};
+      const double share = (at.room_m - needed_m) / (RoomToPass::kPlenty_m - needed_m);
+      narrow[index({column, row})] =
+          at.room_m < needed_m ? kAcrossObstacle : kNarrow * std::max(0.0, 1 - share);
     }
+  }
+  return narrow;
+}
+
+std::vector<double> CostToGo::dearness(const PlanningProblem& problem,
+                                       const std::vector<std::optional<double>>& climbs_rad) const {
+  const TerrainMap& map = problem.map;
+  const BodyBox& body = problem.vehicle.body;
+  // Slopes at the vehicle's own scale.
+  const double span = std::max({body.y_max_m, -body.y_min_m, cell_m_});
+  std::vector<double> dear(places_.size(), kFar);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Place& at = places_[i];
+    const double across = map.height_m(at.x_m + span, at.y_m) - map.height_m(at.x_m - span, at.y_m);
+    const double along = map.height_m(at.x_m, at.y_m + span) - map.height_m(at.x_m, at.y_m - span);
+    const double slope = std::atan(std::hypot(across, along) / (2 * span));
+    const std::optional<int> soil = map.soil_index(at.x_m, at.y_m);
+    if (std::isnan(slope) || !soil) continue;
+    const std::optional<double>& climb = climbs_rad[static_cast<std::size_t>(*soil)];
+    // Down it may go where it cannot climb.
+    const double allowed = problem.limits.slope_max_rad;
+    if (!climb || slope > allowed) {
+      dear[i] = kAcrossObstacle;
+      continue;
+    }
+    constexpr double kLeastShare = 0.05;
+    const double steepness = slope / std::max(*climb, kLeastShare * allowed);
+    dear[i] = std::min(1 + 3 * steepness * steepness, kAcrossObstacle);
   }
   return dear;
 }
@@ -151,7 +176,7 @@ CostToGo::Place CostToGo::ahead(double x_m, double y_m, double distance_m) const
     at = next;
   }
   if (at == goal) return goal_;
-  return centre({static_cast<int>(at % columns), static_cast<int>(at / columns)});
+  return places_[at];
 }
 
 double CostToGo::cost_m(double x_m, double y_m) const {

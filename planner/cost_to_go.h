@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -9,13 +10,17 @@
 namespace regoplan {
 
 /// Rough cost of the way from everywhere to the goal, by Dijkstra's algorithm over a grid of about
-/// a metre: length, dearer on slopes, near obstacles and across them. It knows nothing of the
-/// vehicle's dynamics; searches use it to choose where to steer, and nothing is decided by it.
+/// a metre: length, dearer on slopes that the soil hardly lets it climb, in narrow places, and most
+/// of all where it can neither climb nor pass. Each cell's place is the roomiest in it, so that the
+/// way leads through the middle of gates. It knows nothing of the vehicle's dynamics; searches use
+/// it to choose where to steer, and nothing is decided by it.
 class CostToGo {
  public:
+  /// \param climbs_rad the steepest slope that each soil lets the vehicle climb; nothing: none
   /// \param variety 0: the cheapest way; above: cells are made dearer at random by up to so many
   /// times, smoothly over some metres, so that other ways round become the cheapest
-  CostToGo(const PlanningProblem& problem, double variety, std::uint64_t seed);
+  CostToGo(const PlanningProblem& problem, const std::vector<std::optional<double>>& climbs_rad,
+           double variety, std::uint64_t seed);
 
   struct Place {
     double x_m = 0;
@@ -40,13 +45,17 @@ class CostToGo {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(cell.column);
   }
-  std::vector<double> dearness(const PlanningProblem& problem, double variety,
-                               std::uint64_t seed) const;
+  /// Finds the roomiest place in each cell. \returns how dear the narrow ones are, 0 where there is
+  /// plenty of room
+  std::vector<double> settle(const PlanningProblem& problem);
+  std::vector<double> dearness(const PlanningProblem& problem,
+                               const std::vector<std::optional<double>>& climbs_rad) const;
   void spread(const std::vector<double>& dearness);
 
   Place goal_;
   double west_m_, south_m_, cell_m_;
   int columns_, rows_;
+  std::vector<Place> places_;  ///< of the cells
   std::vector<double> cost_m_;
   std::vector<std::uint32_t> next_;  ///< the cell after each on the way
 };

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "planner/path_cost.h"
+#include "planner/steepest_climb.h"
 #include "planner/steering_samplers.h"
 #include "planner/vehicle_space.h"
 
@@ -128,7 +129,7 @@ oc::SpaceInformationPtr space_of(const PlanningProblem& problem,
 
 OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
     : world_(world),
-      way_(world.problem(), guidance.variety, guidance.seed),
+      way_(world.problem(), steepest_climbs_rad(world), guidance.variety, guidance.seed),
       steps_(world, guidance.margin_min, guidance.seed),
       seed_(ompl_seed(guidance.seed)),
       improves_(guidance.improve),

@@ -119,6 +119,7 @@ World::World(const PlanningProblem& problem, WorldUse use, int threads)
       laws_(views_of(models_, force_tables_)),
       edge_reach_m_(edge_reach_m(problem)),
       ground_(problem.map, problem.vehicle),
+      known_(problem.map),
       dynamics_(
           problem.vehicle, laws_,
           [this](double x_m, double y_m, double yaw_rad) { return ground_.at(x_m, y_m, yaw_rad); },
@@ -215,10 +216,7 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
 
 bool World::beside_the_edge(const VehicleState& state) const {
   const double x = state.x_m, y = state.y_m;
-  if (problem_.map.inside(x - edge_reach_m_, y - edge_reach_m_) &&
-      problem_.map.inside(x + edge_reach_m_, y + edge_reach_m_)) {
-    return false;
-  }
+  if (known_.around(x, y, edge_reach_m_)) return false;
   const auto ends = [&](double dx_m, double dy_m) {
     return !ground_.at(x + dx_m, y + dy_m, state.yaw_rad).known;
   };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "maps/ground_finder.h"
+#include "planner/known_ground.h"
 #include "planner/obstacles.h"
 #include "planner/plan_result.h"
 #include "planner/planning_problem.h"
@@ -91,6 +92,7 @@ class World {
   /// From the vehicle's origin to its farthest corner, a cell of the map and a search's clearance.
   double edge_reach_m_;
   GroundFinder ground_;
+  KnownGround known_;
   VehicleDynamics dynamics_;
   SupportPolygon polygon_;
   Obstacles obstacles_;

@@ -37,6 +37,27 @@ TEST(Lattice, AFewThousandStepsLeadThroughStaggeredGaps) {
   EXPECT_FALSE(driven.rejection);
 }
 
+TEST(Lattice, AnAlleyNarrowerThanTheVehicleAtFullLockIsDrivenThrough) {
+  // 2.5 m wide and 10 m long, off the straight way; at full lock the wheels span 2.6 m.
+  std::vector<Rock> rocks;
+  for (const double side : {-1.0, 1.0}) {
+    const double edge_m = 33.3 + side * (1.25 + 0.5);
+    for (double x = 20; x <= 30; x += 0.8) rocks.push_back({x, edge_m, 0.5, 1.5});
+    for (double away = 0.8; away <= 40; away += 0.8) {
+      rocks.push_back({20, edge_m + side * away, 0.5, 1.5});
+    }
+  }
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, rocks));
+  const World world(problem, WorldUse::kSearch, 2);
+  PlannerRun run(world, "Lattice");
+  ASSERT_EQ(run.solve(50000), ob::PlannerStatus::EXACT_SOLUTION);
+  const World verdict(problem, WorldUse::kVerdict, 2);
+  const Replay driven =
+      replay(verdict, exact_solution(*run.definition), verification_steps(verdict));
+  EXPECT_TRUE(driven.reached_goal);
+  EXPECT_FALSE(driven.rejection);
+}
+
 TEST(Lattice, AllowingMoreSpeedThanTurnsBearTakesNoWayAway) {
   PlanningProblem problem =
       lrv_problem(one_soil_map(50, firm_regolith(), flat, two_rows_of_rocks()));

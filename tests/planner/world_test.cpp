@@ -74,6 +74,18 @@ TEST(World, ASearchKeepsAReserveToTheEdgeOfTheMap) {
   EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.15), {})), std::nullopt);
 }
 
+TEST(World, ASearchKeepsTheSameReserveToUnknownGroundInsideTheMap) {
+  const auto hole = [](double /*x*/, double y) { return std::abs(y - 15) < 5 ? NAN : 0.0; };
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), hole));
+  const World world(problem, WorldUse::kSearch, 1), verdict(problem, WorldUse::kVerdict, 1);
+  const auto at = [&](double y_m) { return world.dynamics().rolling_state(25, y_m, 0, 1); };
+  double lowest_m = 25;  // that the verdict accepts
+  while (!verdict.rejected(at(lowest_m), {})) lowest_m -= 0.01;
+  EXPECT_EQ(reason(verdict.rejected(at(lowest_m), {})), Rejection::kUnknownTerrain);
+  EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.05), {})), Rejection::kUnknownTerrain);
+  EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.15), {})), std::nullopt);
+}
+
 TEST(World, ASteepSlopeIsRejectedForSlopeAndASofterLimitForTraction) {
   const auto slope = [](double x, double /*y*/) { return std::tan(28 * kTestDegree) * x; };
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), slope));
