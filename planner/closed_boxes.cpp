@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace regoplan {
 namespace {
@@ -22,10 +23,40 @@ struct HeightRange {
   double low = INFINITY, high = -INFINITY;
 };
 
+/// Of every raster cell that a height in the square can come from; nothing where one that lies on
+/// the map is unknown.
+std::optional<HeightRange> heights_around(const TerrainMap& map, double x_m, double y_m,
+                                          double half_m) {
+  const ElevationRaster& raster = map.elevation();
+  const GridFrame& frame = raster.frame;
+  const auto column_of = [&](double x) {
+    return std::clamp(static_cast<int>(std::floor((x - frame.west_m) / frame.cell_width_m - 0.5)),
+                      0, frame.columns - 1);
+  };
+  const auto row_of = [&](double y) {
+    return std::clamp(static_cast<int>(std::floor((frame.north_m - y) / frame.cell_height_m - 0.5)),
+                      0, frame.rows - 1);
+  };
+  const int last_column = std::min(column_of(x_m + half_m) + 1, frame.columns - 1);
+  const int last_row = std::min(row_of(y_m - half_m) + 1, frame.rows - 1);
+  HeightRange range;
+  for (int row = row_of(y_m + half_m); row <= last_row; ++row) {
+    for (int column = column_of(x_m - half_m); column <= last_column; ++column) {
+      const double height =
+          raster.height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.columns) +
+                          static_cast<std::size_t>(column)];
+      if (std::isnan(height)) return std::nullopt;
+      range.low = std::min(range.low, height);
+      range.high = std::max(range.high, height);
+    }
+  }
+  return range;
+}
+
 }  // namespace
 
 ClosedBoxes::ClosedBoxes(const PlanningProblem& problem)
-    : problem_(problem), too_high_(problem.map.rocks().size(), Answer::kNotAsked) {
+    : problem_(problem), bounds_(problem.map.rocks().size()) {
   const Vehicle& vehicle = problem.vehicle;
   const auto count = static_cast<Eigen::Index>(vehicle.wheels.size());
   Eigen::Matrix<double, Eigen::Dynamic, 3> place(count, 3);
@@ -119,61 +150,74 @@ bool ClosedBoxes::too_steep(const PoseBox& box) const {
   return std::hypot(east, north) - turned > std::tan(problem_.limits.slope_max_rad);
 }
 
-bool ClosedBoxes::too_high(const Rock& rock) const {
-  Answer& answer = too_high_[static_cast<std::size_t>(&rock - problem_.map.rocks().data())];
-  if (answer == Answer::kNotAsked) answer = stands_too_high(rock) ? Answer::kYes : Answer::kNo;
-  return answer == Answer::kYes;
+const ClosedBoxes::RockBound& ClosedBoxes::bound(const Rock& rock) const {
+  RockBound& known = bounds_[static_cast<std::size_t>(&rock - problem_.map.rocks().data())];
+  if (!known.asked) known = looked_at(rock);
+  return known;
 }
 
-bool ClosedBoxes::stands_too_high(const Rock& rock) const {
+ClosedBoxes::RockBound ClosedBoxes::looked_at(const Rock& rock) const {
+  const double reach_m = rock.radius_m + body_reach_m_ + wheel_reach_m_;
+  const auto ground = heights_around(problem_.map, rock.x_m, rock.y_m, reach_m);
+  const double base = problem_.map.height_m(rock.x_m, rock.y_m);
+  if (!ground || std::isnan(base)) return {.asked = true};
   // The body stands on the plane through its contacts, which lies nowhere below the body higher
   // than the highest ground around by more than that ground's relief.
-  const ElevationRaster& raster = problem_.map.elevation();
-  const double reach_m = rock.radius_m + body_reach_m_ + wheel_reach_m_;
-  const double spacing = std::min(raster.frame.cell_width_m, raster.frame.cell_height_m);
-  HeightRange ground;
-  bool known = true;
-  all_between(rock.y_m - reach_m, rock.y_m + reach_m, spacing, [&](double y) {
-    return all_between(rock.x_m - reach_m, rock.x_m + reach_m, spacing, [&](double x) {
-      const double height = problem_.map.height_m(x, y);
-      if (std::isnan(height)) {
-        if (problem_.map.inside(x, y)) known = false;
-        return known;
-      }
-      ground.low = std::min(ground.low, height);
-      ground.high = std::max(ground.high, height);
-      return true;
-    });
-  });
-  const double base = problem_.map.height_m(rock.x_m, rock.y_m);
-  if (!known || std::isnan(base)) return false;
   const BodyBox& body = problem_.vehicle.body;
-  const double relief = ground.high - ground.low;
-  const double underside = ground.high + 2 * relief + body.clearance_m;
-  const double top = ground.low - 2 * relief + body.clearance_m + body.height_m;
-  return base + rock.height_m >= underside && base - rock.height_m <= top;
+  const double relief = ground->high - ground->low;
+  const double underside = ground->high + 2 * relief + body.clearance_m;
+  const double top = ground->low - 2 * relief + body.clearance_m + body.height_m;
+  // Steeper poses than the limit are forbidden whatever they cover.
+  return {.asked = true,
+          .too_high = base + rock.height_m >= underside && base - rock.height_m <= top,
+          .tilt_rad = std::min(problem_.limits.slope_max_rad,
+                               std::atan(slope_per_deviation_1pm_ * relief / 2))};
 }
 
-bool ClosedBoxes::on_rock(const PoseBox& box) const {
+bool ClosedBoxes::covers_rock(const PoseBox& box) const {
   const BodyBox& body = problem_.vehicle.body;
-  const double lean = std::cos(problem_.limits.slope_max_rad);
-  // What of the underside's outline every pose of the box covers, seen from the middle pose. An
-  // underside that leans is seen shorter, and aside by what it stands above the contacts.
-  const double shrink_m = std::numbers::sqrt2 * box.half_m + body_reach_m_ * box.half_rad +
-                          body.clearance_m * std::sin(problem_.limits.slope_max_rad);
-  const double x_min = body.x_min_m * lean + shrink_m, x_max = body.x_max_m * lean - shrink_m;
-  const double y_min = body.y_min_m * lean + shrink_m, y_max = body.y_max_m * lean - shrink_m;
-  if (x_min > x_max || y_min > y_max) return false;
+  const double moved_m = std::numbers::sqrt2 * box.half_m + body_reach_m_ * box.half_rad;
   const double c = std::cos(box.heading_rad), s = std::sin(box.heading_rad);
   return problem_.map.any_rock(
       box.x_m - body_reach_m_, box.x_m + body_reach_m_, box.y_m - body_reach_m_,
       box.y_m + body_reach_m_, [&](const Rock& rock) {
+        const RockBound& known = bound(rock);
+        if (!known.too_high) return false;
+        // What of the underside's outline every pose of the box covers, seen from the middle pose.
+        // An underside that leans is seen shorter, and aside by what it stands above the contacts.
+        const double lean = std::cos(known.tilt_rad);
+        const double shrink_m = moved_m + body.clearance_m * std::sin(known.tilt_rad);
+        const double x_min = body.x_min_m * lean + shrink_m, x_max = body.x_max_m * lean - shrink_m;
+        const double y_min = body.y_min_m * lean + shrink_m, y_max = body.y_max_m * lean - shrink_m;
+        if (x_min > x_max || y_min > y_max) return false;
         const double dx = rock.x_m - box.x_m, dy = rock.y_m - box.y_m;
         const double ahead = c * dx + s * dy, left = c * dy - s * dx;
         const double beyond_x = ahead - std::clamp(ahead, x_min, x_max);
         const double beyond_y = left - std::clamp(left, y_min, y_max);
-        return std::hypot(beyond_x, beyond_y) < rock.radius_m && too_high(rock);
+        return std::hypot(beyond_x, beyond_y) < rock.radius_m;
       });
+}
+
+bool ClosedBoxes::on_rock(const PoseBox& box) const {
+  // The middle pose belongs to parts of the box however it is divided: where it is free, they are.
+  if (!covers_rock({box.x_m, box.y_m, box.heading_rad, 0, 0})) return false;
+  constexpr int kHalvings = 2;
+  return closed_by_rocks(box, kHalvings);
+}
+
+bool ClosedBoxes::closed_by_rocks(const PoseBox& box, int halvings) const {
+  if (covers_rock(box)) return true;
+  if (halvings == 0) return false;
+  const double half_m = box.half_m / 2, half_rad = box.half_rad / 2;
+  for (const double x : {-half_m, half_m}) {
+    for (const double y : {-half_m, half_m}) {
+      for (const double turn : {-half_rad, half_rad}) {
+        const PoseBox part{box.x_m + x, box.y_m + y, box.heading_rad + turn, half_m, half_rad};
+        if (!closed_by_rocks(part, halvings - 1)) return false;
+      }
+    }
+  }
+  return true;
 }
 
 bool ClosedBoxes::far_from_rocks(const PoseBox& box) const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
 
 #include "planner/planning_problem.h"
@@ -35,10 +34,20 @@ class ClosedBoxes {
 
  private:
   bool wheel_off_ground(const PoseBox& box) const;
+  /// What is known of a rock whatever the pose: of a vehicle whose body covers some of it.
+  struct RockBound {
+    bool asked = false;
+    bool too_high = false;  ///< the body passes over it nowhere
+    double tilt_rad = 0;    ///< the vehicle leans by no more
+  };
+
   bool on_rock(const PoseBox& box) const;
-  /// Whether the body passes over the rock nowhere.
-  bool too_high(const Rock& rock) const;
-  bool stands_too_high(const Rock& rock) const;
+  /// The same of a box or of all parts that it is halved into so often: smaller ones show more.
+  bool closed_by_rocks(const PoseBox& box, int halvings) const;
+  /// Whether every pose of the box covers some of one rock that is too high.
+  bool covers_rock(const PoseBox& box) const;
+  const RockBound& bound(const Rock& rock) const;
+  RockBound looked_at(const Rock& rock) const;
 
   const PlanningProblem& problem_;
   double wheel_reach_m_ = 0;  ///< farthest contact from the vehicle's origin
@@ -46,8 +55,7 @@ class ClosedBoxes {
   /// How much a deviation of the ground by a metre at the contacts can turn their plane: bounds of
   /// its slopes, |forward| and |left|.
   double slope_per_deviation_1pm_ = 0;
-  enum class Answer : std::int8_t { kNotAsked, kNo, kYes };
-  mutable std::vector<Answer> too_high_;  ///< of each rock of the map
+  mutable std::vector<RockBound> bounds_;  ///< of each rock of the map
 };
 
 }  // namespace regoplan

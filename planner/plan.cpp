@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "planner/child_processes.h"
+#include "planner/crash_ahead.h"
 #include "planner/least_duration.h"
 #include "planner/plain_bytes.h"
 #include "planner/ranking.h"
@@ -338,7 +339,8 @@ class Planning {
     } else {
       const std::string why =
           improbable.empty() ? why_undecided(problem_, result_, search_end()) : improbable;
-      result_.reason = with_relaxation(why);
+      const std::optional<std::string> crash = crash_ahead(verdict_);
+      result_.reason = with_relaxation(crash ? fmt::format("{}; {}", *crash, why) : why);
     }
   }
 

@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 std::map<std::string, Scenario> feasible_scenarios(const CampaignSettings& settings) {
   std::map<std::string, Scenario> scenarios;
   for (const auto& entry : fs::directory_iterator(settings.scenarios)) {
+    if (!entry.is_regular_file()) continue;
     const std::string name = entry.path().stem();
     const auto& wanted = settings.names;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), name) == wanted.end()) continue;

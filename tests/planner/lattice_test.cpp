@@ -41,7 +41,7 @@ TEST(Lattice, AnAlleyNarrowerThanTheVehicleAtFullLockIsDrivenThrough) {
   // 2.5 m wide and 10 m long, off the straight way; at full lock the wheels span 2.6 m.
   std::vector<Rock> rocks;
   for (const double side : {-1.0, 1.0}) {
-    const double edge_m = 33.3 + side * (1.25 + 0.5);
+    const double edge_m = 27.3 + side * (1.25 + 0.5);
     for (double x = 20; x <= 30; x += 0.8) rocks.push_back({x, edge_m, 0.5, 1.5});
     for (double away = 0.8; away <= 40; away += 0.8) {
       rocks.push_back({20, edge_m + side * away, 0.5, 1.5});

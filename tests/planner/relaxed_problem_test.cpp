@@ -38,6 +38,7 @@ TEST(RelaxedProblem, AClosedRingOfRocksIsCertifiedAndAGapThatTheVehicleFitsIsNot
   };
   EXPECT_NE(behind(ring_of_rocks(40, 25, 7)).find("rocks"), std::string::npos);
   EXPECT_NE(behind(wall_with_gap(0.8)).find("rocks"), std::string::npos);
+  EXPECT_NE(behind(wall_with_gap(1.6)).find("rocks"), std::string::npos);
   EXPECT_EQ(behind(wall_with_gap(2.3)), "");  // the vehicle is 2.06 m wide
 }
 
