@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "app/number_text.h"
@@ -23,9 +25,7 @@ struct SettingsTree {
                                         : fmt::format("{}:{}: {}", *file, mark.line + 1, what));
   }
 
-  SettingsNode convert(const YAML::Node& yaml, const std::string& path, int depth) const {
-    constexpr int kDepthMax = 20;  // an alias may contain itself
-    if (depth > kDepthMax) throw error(yaml.Mark(), "nested too deeply");
+  SettingsNode convert(const YAML::Node& yaml, const std::string& path) const {
     SettingsNode node;
     node.file_ = file;
     node.line_ = yaml.Mark().line + 1;
@@ -37,28 +37,29 @@ struct SettingsTree {
     } else if (yaml.IsSequence()) {
       node.kind_ = SettingsNode::Kind::kList;
       for (std::size_t i = 0; i < yaml.size(); ++i) {
-        node.list_.push_back(convert(yaml[i], fmt::format("{}[{}]", path, i), depth + 1));
+        node.list_.push_back(convert(yaml[i], fmt::format("{}[{}]", path, i)));
       }
     } else if (yaml.IsMap()) {
       node.kind_ = SettingsNode::Kind::kMapping;
-      for (const auto& entry : yaml) add_entry(node, entry.first, entry.second, depth);
+      std::map<std::string_view, int> lines;
+      for (const auto& entry : yaml) add_entry(node, entry.first, entry.second, lines);
     }
     return node;
   }
 
+  /// \param lines where the keys before it stand
   void add_entry(SettingsNode& mapping, const YAML::Node& key, const YAML::Node& value,
-                 int depth) const {
+                 std::map<std::string_view, int>& lines) const {
     if (!key.IsScalar()) throw error(key.Mark(), "a key must be a plain word");
     const std::string& name = key.Scalar();
     const int line = key.Mark().line + 1;
     const std::string path = mapping.path_.empty() ? name : mapping.path_ + "." + name;
-    for (const SettingsEntry& earlier : mapping.mapping_) {
-      if (earlier.key == name) {
-        throw error(key.Mark(),
-                    fmt::format("{}: given twice (first in line {})", path, earlier.line));
-      }
+    const auto [earlier, is_new] = lines.emplace(name, line);
+    if (!is_new) {
+      throw error(key.Mark(),
+                  fmt::format("{}: given twice (first in line {})", path, earlier->second));
     }
-    SettingsEntry entry{.key = name, .line = line, .value = convert(value, path, depth + 1)};
+    SettingsEntry entry{.key = name, .line = line, .value = convert(value, path)};
     // yaml-cpp marks a list or a mapping where its first element stands.
     if (entry.value.kind_ != SettingsNode::Kind::kScalar) entry.value.line_ = line;
     mapping.mapping_.push_back(std::move(entry));
@@ -66,6 +67,57 @@ struct SettingsTree {
 };
 
 namespace {
+
+constexpr std::size_t kBytesMax = 1 << 20;
+
+/// Refuses, before anything is built of it, what costs far more than its length: aliases, which
+/// nine levels deep stand for 10^9 values, nesting and sheer number.
+class BoundsOfYaml : public YAML::EventHandler {
+ public:
+  explicit BoundsOfYaml(const SettingsTree& tree) : tree_(tree) {}
+
+  void OnDocumentStart(const YAML::Mark&) override { depth_ = 0; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    count(mark);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuse_alias(mark); }
+  void OnAnchor(const YAML::Mark& mark, const std::string&) override { refuse_alias(mark); }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    descend(mark);
+  }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    descend(mark);
+  }
+  void OnMapEnd() override { --depth_; }
+
+ private:
+  void refuse_alias(const YAML::Mark& mark) const {
+    throw tree_.error(mark, "anchors and aliases (&name, *name) are not allowed; write it out");
+  }
+  void descend(const YAML::Mark& mark) {
+    constexpr int kDepthMax = 20;
+    if (++depth_ > kDepthMax) {
+      throw tree_.error(mark, fmt::format("nested too deeply (allowed: {} levels)", kDepthMax));
+    }
+    count(mark);
+  }
+  void count(const YAML::Mark& mark) {
+    constexpr int kMost = 100000;
+    if (++values_ > kMost) {
+      throw tree_.error(mark, fmt::format("too many values (allowed: {})", kMost));
+    }
+  }
+
+  const SettingsTree& tree_;
+  int depth_ = 0;
+  int values_ = 0;
+};
 
 std::string kind_text(SettingsNode::Kind kind) {
   switch (kind) {
@@ -181,7 +233,15 @@ const SettingsNode* SettingsNode::find(std::string_view field) const {
 
 SettingsNode parse_settings(const std::string& text, const std::string& file) {
   const SettingsTree tree{std::make_shared<const std::string>(file)};
+  if (text.size() > kBytesMax) {
+    throw SettingsError(fmt::format("{}: too long (allowed: {} bytes)", file, kBytesMax));
+  }
   try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    BoundsOfYaml bounds(tree);
+    while (parser.HandleNextDocument(bounds)) {
+    }
     const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.size() > 1) {
       throw SettingsError(
@@ -190,7 +250,7 @@ SettingsNode parse_settings(const std::string& text, const std::string& file) {
     if (documents.empty() || documents.front().IsNull()) {
       throw SettingsError(file + ": empty");
     }
-    return tree.convert(documents.front(), "", 0);
+    return tree.convert(documents.front(), "");
   } catch (const YAML::Exception& bad) {
     throw tree.error(bad.mark, "not valid YAML: " + bad.msg);
   }
@@ -199,15 +259,14 @@ SettingsNode parse_settings(const std::string& text, const std::string& file) {
 SettingsNode read_settings(const std::string& file) {
   if (!std::filesystem::exists(file)) throw SettingsError(file + ": no such file");
   std::ifstream stream(file, std::ios::binary);
-  std::stringstream text;
-  if (!std::filesystem::is_regular_file(file) || !stream || !(text << stream.rdbuf())) {
-    // An empty file sets failbit as well.
-    if (std::filesystem::is_regular_file(file) && std::filesystem::file_size(file) == 0) {
-      throw SettingsError(file + ": empty");
-    }
+  // One byte more tells a file that is too long; a pipe does not say its size.
+  std::string text(kBytesMax + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (std::filesystem::is_directory(file) || stream.bad() || !stream.is_open()) {
     throw SettingsError(file + ": cannot be read");
   }
-  return parse_settings(text.str(), file);
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return parse_settings(text, file);
 }
 
 }  // namespace regoplan

@@ -75,8 +75,9 @@ struct SettingsEntry {
   SettingsNode value;
 };
 
-/// \throws SettingsError where the file cannot be read, is not one YAML document, is empty, or
-/// gives a key twice
+/// \throws SettingsError where the file cannot be read, is not one YAML document, is empty, gives a
+/// key twice, has an anchor or alias, is nested deeper than 20 levels, or has more than a million
+/// bytes or 100 000 values
 SettingsNode read_settings(const std::string& file);
 
 /// As `read_settings`, for text that stands in `file`.

@@ -1,5 +1,6 @@
 #include "app/settings_node.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/app/error_text.h"
@@ -104,6 +105,37 @@ TEST(SettingsNode, WhatIsNotOneYamlDocumentIsAnError) {
   EXPECT_EQ(error_text([] { parse_settings("a: 1\n---\nb: 2\n", "f.yaml"); }),
             "f.yaml: 2 YAML documents (allowed: one)");
   EXPECT_NE(error_text([] { parse_settings("a: &x [*x]\n", "f.yaml"); }), "");
+}
+
+TEST(SettingsNode, AliasesAreRefusedBeforeTheyAreFollowed) {
+  // Nine levels of ten aliases: 271 bytes that stand for 10^9 values.
+  std::string levels = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int level = 1; level < 9; ++level) {
+    levels += fmt::format("a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", level,
+                          level - 1);
+  }
+  EXPECT_EQ(error_text([&] { parse_settings(levels, "f.yaml"); }),
+            "f.yaml:1: anchors and aliases (&name, *name) are not allowed; write it out");
+  EXPECT_EQ(error_text([] { parse_settings("a: 1\nb:\n  - c: &x 1\n", "f.yaml"); }),
+            "f.yaml:3: anchors and aliases (&name, *name) are not allowed; write it out");
+}
+
+TEST(SettingsNode, DepthNumberAndLengthAreBounded) {
+  const auto nested = [](std::size_t depth) {
+    return "a:\n  " + std::string(depth, '[') + std::string(depth, ']');
+  };
+  EXPECT_EQ(error_text([&] { parse_settings(nested(19), "f.yaml"); }), "");
+  for (const std::size_t depth : {20, 400, 100000}) {
+    EXPECT_TRUE(
+        error_text([&] { parse_settings(nested(depth), "f.yaml"); }).starts_with("f.yaml:2: "))
+        << depth;
+  }
+  std::string many = "a: [";
+  for (int i = 0; i < 200000; ++i) many += "1,";
+  EXPECT_EQ(error_text([&] { parse_settings(many + "1]", "f.yaml"); }),
+            "f.yaml:1: too many values (allowed: 100000)");
+  EXPECT_EQ(error_text([] { parse_settings("a: " + std::string(1 << 20, 'x'), "f.yaml"); }),
+            "f.yaml: too long (allowed: 1048576 bytes)");
 }
 
 TEST(SettingsNode, AFileThatCannotBeReadIsAnError) {
