@@ -25,6 +25,33 @@ void check_above_0(const std::string& field, double value) {
   if (!(value > 0 && value < kInfinity)) throw ValueError(field, value, "above 0");
 }
 
+double gaps_of(const DrawnRockRow& row) {
+  const double length_m = std::hypot(row.to_x_m - row.from_x_m, row.to_y_m - row.from_y_m);
+  return std::max(1.0, std::ceil(length_m / row.spacing_m - 1e-9));
+}
+
+/// Every feature is looked at for every cell; the noise of a cell costs as much as six.
+void require_bounded_work(const DrawnTerrain& drawn) {
+  constexpr double kVisitsMax = 5e8, kNoise = 6, kRocksMax = 1e6;
+  const double cells = drawn.width_m * drawn.height_m / (drawn.cell_m * drawn.cell_m);
+  const auto features = static_cast<double>(drawn.craters.size() + drawn.zones.size());
+  const double cells_max = kVisitsMax / (kNoise + features);
+  if (cells > cells_max) {
+    throw InputError(
+        fmt::format("{:.3g} cells are too many (allowed with {} craters and zones: {:.3g})", cells,
+                    features, cells_max));
+  }
+  double rocks = 0;
+  for (const DrawnRockRow& row : drawn.rock_rows) {
+    check_above_0("rock_rows.spacing_m", row.spacing_m);
+    rocks += 1 + gaps_of(row);
+  }
+  if (!(rocks <= kRocksMax)) {
+    throw InputError(
+        fmt::format("rock_rows: {:.3g} rocks are too many (allowed: {})", rocks, kRocksMax));
+  }
+}
+
 void validate(const DrawnTerrain& drawn) {
   check("cell_m", drawn.cell_m, 0.01, 100);
   check("width_m", drawn.width_m, 16 * drawn.cell_m, 20000 * drawn.cell_m);
@@ -42,8 +69,7 @@ void validate(const DrawnTerrain& drawn) {
     check("zones.east_m", zone.east_m, zone.west_m, kInfinity);
     check("zones.north_m", zone.north_m, zone.south_m, kInfinity);
   }
-  for (const DrawnRockRow& row : drawn.rock_rows)
-    check_above_0("rock_rows.spacing_m", row.spacing_m);
+  require_bounded_work(drawn);
 }
 
 double height_m(const DrawnCrater& crater, double x_m, double y_m) {
@@ -70,8 +96,7 @@ bool holds(const DrawnZone& zone, double x_m, double y_m) {
 std::vector<Rock> all_rocks(const DrawnTerrain& drawn) {
   std::vector<Rock> rocks = drawn.rocks;
   for (const DrawnRockRow& row : drawn.rock_rows) {
-    const double length_m = std::hypot(row.to_x_m - row.from_x_m, row.to_y_m - row.from_y_m);
-    const int gaps = std::max(1, static_cast<int>(std::ceil(length_m / row.spacing_m - 1e-9)));
+    const auto gaps = static_cast<int>(gaps_of(row));
     for (int i = 0; i <= gaps; ++i) {
       const double share = static_cast<double>(i) / gaps;
       rocks.push_back({.x_m = row.from_x_m + share * (row.to_x_m - row.from_x_m),

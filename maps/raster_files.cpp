@@ -1,5 +1,6 @@
 #include "maps/raster_files.h"
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <fmt/format.h>
@@ -13,7 +14,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "maps/available_memory.h"
 #include "maps/grid_table.h"
+#include "maps/raster_opening.h"
 #include "maps/raster_units.h"
 #include "maps/undeclared_nodata.h"
 #include "maps/whole_file.h"
@@ -26,34 +29,6 @@ namespace {
 /// No elevation lies further from its datum; what does is a nodata value that nobody declared.
 constexpr double kHeightMax_m = 1e6;
 constexpr double kCellsMax = 1e9;
-
-/// While it lives GDAL keeps its remarks to itself; the last one goes into our message.
-class QuietGdal {
- public:
-  QuietGdal() {
-    static const bool registered = [] {
-      GDALAllRegister();
-      return true;
-    }();
-    static_cast<void>(registered);
-    CPLPushErrorHandler(CPLQuietErrorHandler);
-    CPLErrorReset();
-  }
-  ~QuietGdal() { CPLPopErrorHandler(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
-
-[[noreturn]] void fail(const std::string& file, std::string_view what) {
-  throw InputError(fmt::format("{}: {}", file, what));
-}
-
-/// `what`, and GDAL's own words where it has any, on one line.
-[[noreturn]] void fail_with_gdal(const std::string& file, std::string_view what) {
-  std::string words = CPLGetLastErrorMsg();
-  std::ranges::replace(words, '\n', ' ');
-  fail(file, words.empty() ? std::string(what) : fmt::format("{} ({})", what, words));
-}
 
 OGRSpatialReference crs_of(const std::string& wkt) {
   OGRSpatialReference crs;
@@ -77,40 +52,59 @@ std::string metric_crs(const OGRSpatialReference& crs, const std::array<double, 
                      crs.GetSemiMinor());
 }
 
+/// Before anything is read: a small file may stand for any number of cells.
+void require_bearable_size(const GridFrame& frame, const std::string& file) {
+  constexpr const char* kRemedy =
+      "remedy: cut out the part needed with gdal_translate -projwin, or make its cells larger with "
+      "gdal_translate -tr";
+  // Its cells as they are stored, their mask, and what is made of them afterwards.
+  constexpr double kBytesACell = 16, kGigabyte = 1e9;
+  const double cells = static_cast<double>(frame.columns) * frame.rows;
+  if (cells > kCellsMax) {
+    fail_raster(file, fmt::format("{} x {} cells are too many (allowed: {}); {}", frame.columns,
+                                  frame.rows, kCellsMax, kRemedy));
+  }
+  const double available = available_memory_bytes();
+  if (cells * kBytesACell > available) {
+    fail_raster(file, fmt::format("{} x {} cells take {:.1f} GB of memory (there are {:.1f}); {}",
+                                  frame.columns, frame.rows, cells * kBytesACell / kGigabyte,
+                                  available / kGigabyte, kRemedy));
+  }
+}
+
 GridFrame read_frame(GDALDataset& dataset, const std::string& file) {
   GridFrame frame;
   frame.columns = dataset.GetRasterXSize();
   frame.rows = dataset.GetRasterYSize();
-  if (static_cast<double>(frame.columns) * frame.rows > kCellsMax) {
-    fail(file, fmt::format("{} x {} cells are too many (allowed: {}); remedy: cut out the part "
-                           "needed with gdal_translate -projwin",
-                           frame.columns, frame.rows, kCellsMax));
-  }
+  require_bearable_size(frame, file);
   std::array<double, 6> transform{};
   if (dataset.GetGeoTransform(transform.data()) != CE_None) {
-    fail(file,
-         "says nowhere where its cells lie (no georeference); remedy: gdal_translate -a_ullr "
-         "WEST NORTH EAST SOUTH in.tif out.tif");
+    fail_raster(
+        file,
+        "says nowhere where its cells lie (no georeference); remedy: gdal_translate -a_ullr "
+        "WEST NORTH EAST SOUTH in.tif out.tif");
   }
   const OGRSpatialReference* crs = dataset.GetSpatialRef();
   if (crs != nullptr && crs->IsGeographic()) {
-    fail(file,
-         fmt::format("its CRS \"{}\" is geographic (degrees), metres are needed; remedy: "
-                     "gdalwarp -t_srs \"{}\" {} out.tif",
-                     crs->GetName(), metric_crs(*crs, transform, frame.columns, frame.rows), file));
+    fail_raster(
+        file,
+        fmt::format("its CRS \"{}\" is geographic (degrees), metres are needed; remedy: "
+                    "gdalwarp -t_srs \"{}\" {} out.tif",
+                    crs->GetName(), metric_crs(*crs, transform, frame.columns, frame.rows), file));
   }
   if (crs != nullptr) check_crs_unit(*crs, transform, frame.columns, frame.rows, file);
   // Below a thousandth of a cell over the whole raster, a rotation is rounding.
   const bool rotated = std::abs(transform[2]) * frame.rows > 1e-3 * std::abs(transform[1]) ||
                        std::abs(transform[4]) * frame.columns > 1e-3 * std::abs(transform[5]);
   if (rotated) {
-    fail(file, fmt::format("is rotated against its CRS; remedy: gdalwarp {} out.tif", file));
+    fail_raster(file, fmt::format("is rotated against its CRS; remedy: gdalwarp {} out.tif", file));
   }
   if (!(transform[1] > 0 && transform[5] < 0)) {
-    fail(file,
-         fmt::format("is not north-up (its rows do not run from north to south, or its columns "
-                     "not from west to east); remedy: gdalwarp {} out.tif",
-                     file));
+    fail_raster(
+        file,
+        fmt::format("is not north-up (its rows do not run from north to south, or its columns "
+                    "not from west to east); remedy: gdalwarp {} out.tif",
+                    file));
   }
   frame.west_m = transform[0];
   frame.north_m = transform[3];
@@ -123,17 +117,6 @@ GridFrame read_frame(GDALDataset& dataset, const std::string& file) {
     CPLFree(wkt);
   }
   return frame;
-}
-
-GDALDatasetUniquePtr open(const std::string& file) {
-  if (!file.starts_with("/vsi") && !std::filesystem::exists(file)) fail(file, "no such file");
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
-  if (dataset == nullptr) fail_with_gdal(file, "is not a raster that GDAL can read");
-  if (dataset->GetRasterCount() == 0) fail(file, "holds no raster band");
-  if (GDALDataTypeIsComplex(dataset->GetRasterBand(1)->GetRasterDataType())) {
-    fail(file, "holds complex numbers");
-  }
-  return dataset;
 }
 
 template <typename Number>
@@ -217,7 +200,7 @@ void write_raster(const GridFrame& frame, const std::vector<Layer<Number>>& laye
   if (count == 0 || layers.empty() || std::ranges::any_of(layers, [&](const Layer<Number>& layer) {
         return layer.cells.size() != count;
       })) {
-    fail(file, "cannot be written: the cells do not fill the grid");
+    fail_raster(file, "cannot be written: the cells do not fill the grid");
   }
   write_whole_file(file, [&](const std::string& unfinished) {
     // No side file: what a GeoTIFF cannot hold would stay behind under the unfinished name.
@@ -253,22 +236,22 @@ void write_raster(const GridFrame& frame, const std::vector<Layer<Number>>& laye
 ElevationRaster read_elevation(const std::string& file, const HeightReading& reading) {
   if (is_grid_table(file) && std::filesystem::exists(file)) return read_grid_table(file, reading);
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset = open(file);
+  const GDALDatasetUniquePtr dataset = open_raster(file);
   GDALRasterBand& band = *dataset->GetRasterBand(1);
   const GDALColorInterp colour = band.GetColorInterpretation();
   if (colour == GCI_RedBand || colour == GCI_PaletteIndex) {
-    fail(file, "is a picture of colours, heights in metres are needed");
+    fail_raster(file, "is a picture of colours, heights in metres are needed");
   }
   check_height_unit(band, dataset->GetSpatialRef(), reading, file);
   ElevationRaster raster{.frame = read_frame(*dataset, file), .height_m = {}};
   bool known = false;
   const auto height = [&](double value, std::size_t cell) {
     if (!(std::abs(value) <= kHeightMax_m)) {
-      fail(file,
-           fmt::format("height {} m at {} is not valid (allowed: -{} to {}); remedy, where it "
-                       "marks unknown cells: gdal_translate -a_nodata {} {} out.tif",
-                       value, cell_place(cell, raster.frame), kHeightMax_m, kHeightMax_m, value,
-                       file));
+      fail_raster(
+          file, fmt::format("height {} m at {} is not valid (allowed: -{} to {}); remedy, where it "
+                            "marks unknown cells: gdal_translate -a_nodata {} {} out.tif",
+                            value, cell_place(cell, raster.frame), kHeightMax_m, kHeightMax_m,
+                            value, file));
     }
     known = true;
     return static_cast<float>(value);
@@ -281,7 +264,7 @@ ElevationRaster read_elevation(const std::string& file, const HeightReading& rea
       float_holds_it
           ? convert_cells<float, float>(band, GDT_Float32, file, reading, kUnknown, height)
           : convert_cells<double, float>(band, GDT_Float64, file, reading, kUnknown, height);
-  if (!known) fail(file, "no cell is known: every cell is nodata");
+  if (!known) fail_raster(file, "no cell is known: every cell is nodata");
   check_for_undeclared_nodata(raster, reading.scale.value_or(band.GetScale()),
                               reading.offset_m.value_or(band.GetOffset()), file);
   return raster;
@@ -289,15 +272,16 @@ ElevationRaster read_elevation(const std::string& file, const HeightReading& rea
 
 ClassRaster read_classes(const std::string& file) {
   const QuietGdal quiet;
-  const GDALDatasetUniquePtr dataset = open(file);
+  const GDALDatasetUniquePtr dataset = open_raster(file);
   GDALRasterBand& band = *dataset->GetRasterBand(1);
   ClassRaster raster{.frame = read_frame(*dataset, file), .code = {}};
   bool known = false;
   const auto code = [&](double value, std::size_t cell) {
     if (!(value > INT32_MIN && value <= INT32_MAX) || value != std::floor(value)) {
-      fail(file, fmt::format("class code {} at {} is not valid (allowed: integers of 32 bits; "
-                             "remedy, where it was resampled: gdalwarp -r near)",
-                             value, cell_place(cell, raster.frame)));
+      fail_raster(file,
+                  fmt::format("class code {} at {} is not valid (allowed: integers of 32 bits; "
+                              "remedy, where it was resampled: gdalwarp -r near)",
+                              value, cell_place(cell, raster.frame)));
     }
     known = true;
     return static_cast<std::int32_t>(value);
@@ -309,7 +293,7 @@ ClassRaster read_classes(const std::string& file) {
                                      band, GDT_Int32, file, {}, ClassRaster::kNoData, code)
                                : convert_cells<double, std::int32_t>(band, GDT_Float64, file, {},
                                                                      ClassRaster::kNoData, code);
-  if (!known) fail(file, "no cell has a class: every cell is nodata");
+  if (!known) fail_raster(file, "no cell has a class: every cell is nodata");
   return raster;
 }
 
@@ -330,19 +314,21 @@ std::string adopt_crs(ClassRaster& classes, const GridFrame& elevation,
         "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
     const OGRSpatialReference elevation_crs = crs_of(elevation.crs_wkt);
     if (!crs_of(own).IsSame(&elevation_crs, options.data())) {
-      fail(classes_file,
-           fmt::format("its CRS \"{}\" is not the elevation's, \"{}\"; remedy: gdalwarp -r near "
-                       "-t_srs THE_ELEVATION'S_CRS {} out.tif",
-                       crs_name(own), crs_name(elevation.crs_wkt), classes_file));
+      fail_raster(
+          classes_file,
+          fmt::format("its CRS \"{}\" is not the elevation's, \"{}\"; remedy: gdalwarp -r near "
+                      "-t_srs THE_ELEVATION'S_CRS {} out.tif",
+                      crs_name(own), crs_name(elevation.crs_wkt), classes_file));
     }
   }
   if (!overlap(classes.frame, elevation)) {
-    fail(classes_file,
-         fmt::format("lies elsewhere than the elevation: x {} to {} m, y {} to {} m against x {} "
-                     "to {} m, y {} to {} m",
-                     classes.frame.west_m, classes.frame.east_m(), classes.frame.south_m(),
-                     classes.frame.north_m, elevation.west_m, elevation.east_m(),
-                     elevation.south_m(), elevation.north_m));
+    fail_raster(
+        classes_file,
+        fmt::format("lies elsewhere than the elevation: x {} to {} m, y {} to {} m against x {} "
+                    "to {} m, y {} to {} m",
+                    classes.frame.west_m, classes.frame.east_m(), classes.frame.south_m(),
+                    classes.frame.north_m, elevation.west_m, elevation.east_m(),
+                    elevation.south_m(), elevation.north_m));
   }
   classes.frame.crs_wkt = elevation.crs_wkt;
   return notice;

@@ -9,12 +9,13 @@
 
 namespace regoplan {
 
-/// Reads band 1 of any raster that GDAL knows, or a table of points (`read_grid_table`); scale and
-/// offset of the band are applied where `reading` gives none. Nodata, masked and NaN cells become
-/// NaN: unknown.
-/// \throws InputError naming the file, what is wrong with it and the remedy: missing, not a raster,
-/// rotated or south-up, a CRS in degrees or feet, heights in feet or of a picture, no numbers, no
-/// known cell, a height that cannot be one (beyond 1000 km), a nodata value that is not declared
+/// Reads band 1 of any raster of local files that GDAL knows (others: `maps/network_rasters.h`), or
+/// a table of points (`read_grid_table`); scale and offset of the band are applied where `reading`
+/// gives none. Nodata, masked and NaN cells become NaN: unknown. \throws InputError naming the
+/// file, what is wrong with it and the remedy: missing, not a raster, rotated or south-up, a CRS in
+/// degrees or feet, heights in feet or of a picture, no numbers, no known cell, a height that
+/// cannot be one (beyond 1000 km), a nodata value that is not declared, more cells than the memory
+/// holds, a VRT that names files outside of its folder
 ElevationRaster read_elevation(const std::string& file, const HeightReading& reading = {});
 
 /// Reads band 1 of any raster of integers that GDAL knows, whatever number type holds them; nodata,

@@ -22,6 +22,9 @@ struct Column {
   bool positive;
 };
 
+/// Farther out, differences of coordinates mean nothing.
+constexpr double kNumberMax = 1e12;
+
 constexpr std::array<Column, 4> kColumns{{{"x_m", &Rock::x_m, false},
                                           {"y_m", &Rock::y_m, false},
                                           {"radius_m", &Rock::radius_m, true},
@@ -69,10 +72,11 @@ double number(std::string_view text, const Column& column, const std::string& fi
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool valid = error == std::errc() && end == text.data() + text.size() &&
-                     std::isfinite(value) && (!column.positive || value > 0);
+                     std::abs(value) <= kNumberMax && (!column.positive || value > 0);
   if (!valid) {
-    throw InputError(fmt::format("{}:{}: {}: \"{}\" is not valid (allowed: a finite number{})",
-                                 file, line, column.name, text, column.positive ? " above 0" : ""));
+    throw InputError(fmt::format(
+        "{}:{}: {}: \"{}\" is not valid (allowed: a number, {} to {})", file, line, column.name,
+        text, column.positive ? "above 0" : fmt::format("{}", -kNumberMax), kNumberMax));
   }
   return value;
 }
