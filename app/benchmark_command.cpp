@@ -25,7 +25,7 @@ namespace {
 
 struct BenchmarkOptions {
   std::string suite;
-  std::filesystem::path out;
+  ResultFolder out;
   std::string shard = "1/1";
   int processes = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::vector<std::filesystem::path> parts;
@@ -107,21 +107,21 @@ void print_outcome(const SuiteResults& results, const BenchmarkOptions& options)
     fmt::print("{}", benchmark_json(results));
   } else if (!options.quiet) {
     fmt::print("{}\nreport: {}\n", benchmark_headline(results),
-               (options.out / "report.html").string());
+               (options.out.path / "report.html").string());
   }
 }
 
 ExitStatus run_benchmark(const BenchmarkOptions& options) {
-  if (options.suite.empty() || options.out.empty()) {
+  if (options.suite.empty() || options.out.path.empty()) {
     throw InputError("SUITE.yaml and --out DIR are needed, or merge");
   }
   const Shard shard = shard_of(options.shard);
   const Suite suite = read_suite(options.suite);
-  require_writable_folder(options.out);
+  require_results_fit(options.out, benchmark_file_names());
   const ReadScenarios read = read_scenarios(suite);
   const std::stop_token stop = stop_on_interrupt();
   {
-    RunJournal journal(options.out, origin_of(suite, read));
+    RunJournal journal(options.out.path, origin_of(suite, read));
     SuiteProgressLine line(options.quiet);
     run_suite(
         suite, runs_of(suite, shard), journal, options.processes,
@@ -131,7 +131,7 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
         },
         [&line](const SuiteProgress& progress) { line.show(progress); }, stop);
   }
-  const SuiteResults results{.journal = read_journal(options.out),
+  const SuiteResults results{.journal = read_journal(options.out.path),
                              .interrupted = stop.stop_requested()};
   write_benchmark_files(results, read.maps, options.out);
   print_outcome(results, options);
@@ -139,16 +139,16 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
 }
 
 ExitStatus run_merge(const BenchmarkOptions& options) {
-  require_writable_folder(options.out);
+  require_results_fit(options.out, benchmark_file_names());
   std::vector<JournalContents> parts;
-  if (std::filesystem::exists(options.out / "runs.jsonl")) {
-    throw InputError(options.out.string() + ": holds a benchmark already (runs.jsonl)");
+  if (std::filesystem::exists(options.out.path / "runs.jsonl")) {
+    throw InputError(options.out.path.string() + ": holds a benchmark already (runs.jsonl)");
   }
   for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
   const SuiteResults results{.journal = merged(parts)};
-  std::filesystem::create_directories(options.out);
+  std::filesystem::create_directories(options.out.path);
   write_benchmark_files(results, {}, options.out);
-  write_journal(options.out, results.journal);
+  write_journal(options.out.path, results.journal);
   print_outcome(results, options);
   return kYes;
 }
@@ -164,18 +164,23 @@ Command add_benchmark_command(CLI::App& program) {
                              "Started again with the\n"
                              "same folder after a kill, it goes on where it was.");
   parser->add_option("SUITE.yaml", options->suite, "scenarios, planners, seeds, bounds, sweep");
-  parser->add_option("--out", options->out, "folder for the results")->type_name("DIR");
+  parser->add_option("--out", options->out.path, "folder for the results")->type_name("DIR");
   parser->add_option("--shard", options->shard, "the I-th of N disjoint parts")
       ->type_name("I/N")
       ->capture_default_str();
   parser->add_option("--processes", options->processes, "runs at once; default: all cores")
       ->type_name("N")
       ->check(in_range({.min = 1, .max = kThreadsMax}));
+  add_force_flag(*parser, options->out);
+  add_network_flag(*parser);
   add_output_flags(*parser, options->json, options->quiet);
 
   CLI::App* merge = parser->add_subcommand("merge", "Join the results of shards.");
   merge->add_option("DIR", options->parts, "folders of shards")->required();
-  merge->add_option("--out", options->out, "folder for the whole")->type_name("DIR")->required();
+  merge->add_option("--out", options->out.path, "folder for the whole")
+      ->type_name("DIR")
+      ->required();
+  add_force_flag(*merge, options->out);
   add_output_flags(*merge, options->json, options->quiet);
   return {parser, [options, merge] {
             return merge->parsed() ? run_merge(*options) : run_benchmark(*options);

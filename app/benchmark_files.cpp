@@ -70,8 +70,12 @@ std::string benchmark_json(const SuiteResults& results) {
   return json.dump(2) + "\n";
 }
 
+std::vector<std::string> benchmark_file_names() {
+  return {"benchmark.db", "benchmark.json", "report.html"};
+}
+
 void write_benchmark_files(const SuiteResults& results, const ScenarioMaps& maps,
-                           const std::filesystem::path& folder) {
+                           const ResultFolder& folder) {
   StagedFiles staged(folder);
   for (const BenchmarkExperiment& experiment : results.experiments) {
     staged.write({.name = log_name(experiment.name), .content = ompl_log(experiment)});

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/benchmark_report.h"
+#include "app/staged_files.h"
 #include "benchmarking/experiment.h"
 
 namespace regoplan {
@@ -16,6 +17,7 @@ std::string benchmark_json(const SuiteResults& results);
 /// benchmark.json and report.html, which draws the maps that are given.
 /// \throws InputError where the folder takes no files
 void write_benchmark_files(const SuiteResults& results, const ScenarioMaps& maps,
-                           const std::filesystem::path& folder);
+                           const ResultFolder& folder);
+std::vector<std::string> benchmark_file_names();  ///< those that every suite has
 
 }  // namespace regoplan

@@ -202,10 +202,14 @@ std::string picture(const ChartSettings& settings, const FeasibilityChart& chart
 
 }  // namespace
 
+std::vector<std::string> chart_file_names() {
+  return {"feasibility.svg", "safe-curvature.csv", "side-slope.csv"};
+}
+
 std::vector<RenderedFile> render_chart(const ChartSettings& settings,
                                        const FeasibilityChart& chart) {
   const auto soil_name = [&](int soil) {
-    return text_cell(settings.soils[static_cast<std::size_t>(soil)].name);
+    return own_text_cell(settings.soils[static_cast<std::size_t>(soil)].name);
   };
   std::string curvatures =
       "soil,slope_deg,speed_mps,curvature_max_1pm,radius_min_m,centrifugal_per_weight,limited_by\n";

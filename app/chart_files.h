@@ -11,4 +11,6 @@ namespace regoplan {
 std::vector<RenderedFile> render_chart(const ChartSettings& settings,
                                        const FeasibilityChart& chart);
 
+std::vector<std::string> chart_file_names();
+
 }  // namespace regoplan

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "app/number_text.h"
+#include "app/printable_text.h"
 
 namespace regoplan {
 
@@ -30,8 +31,12 @@ CLI::Validator one_of(std::vector<std::string> words) {
           ""};
 }
 
+void print_line(std::string_view text) {
+  std::fputs(fmt::format("regoplan: {}\n", printable(text)).c_str(), stderr);
+}
+
 void notify(const std::string& notice, bool quiet) {
-  if (!quiet) fmt::print(stderr, "regoplan: {}\n", notice);
+  if (!quiet) print_line(notice);
 }
 
 }  // namespace regoplan

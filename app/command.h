@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "app/value_range.h"
 
@@ -13,7 +14,7 @@ enum ExitStatus : int {
   kYes = 0,
   kFailure = 1,  ///< bad input
   kNo = 2,
-  kInterrupted = 130,
+  kInterrupted = 130,  ///< 143 where it was SIGTERM
 };
 
 /// A command of the program: its options, and what it does once they are read.
@@ -37,6 +38,10 @@ CLI::Validator in_range(const ValueRange& allowed);
 
 /// An option takes one of these words only.
 CLI::Validator one_of(std::vector<std::string> words);
+
+/// Prints one line to standard error, whatever stands in it. Where standard error takes nothing,
+/// nobody can be told.
+void print_line(std::string_view text);
 
 /// Prints a notice to standard error unless `quiet`.
 void notify(const std::string& notice, bool quiet);

@@ -20,6 +20,12 @@ std::string text_cell(std::string_view text) {
   return quoted + "\"";
 }
 
+std::string own_text_cell(std::string_view text) {
+  const bool formula =
+      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+  return text_cell(formula ? fmt::format("'{}", text) : std::string(text));
+}
+
 std::optional<std::vector<std::string>> split_cells(std::string_view line) {
   std::vector<std::string> cells(1);
   bool quoted = false;

@@ -13,6 +13,10 @@ std::string number_cell(double value);
 /// Text as a CSV cell, quoted where it must be.
 std::string text_cell(std::string_view text);
 
+/// As `text_cell`, for text that this program writes of its own accord, as the name of a soil:
+/// where a spreadsheet would take it for a formula, an apostrophe stands in front.
+std::string own_text_cell(std::string_view text);
+
 /// The cells of one line, quotes taken off. Nothing where a quote is not closed.
 std::optional<std::vector<std::string>> split_cells(std::string_view line);
 

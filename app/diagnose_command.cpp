@@ -22,7 +22,7 @@ namespace {
 struct Options {
   std::string recording;
   std::string setup;
-  std::filesystem::path folder;
+  ResultFolder folder;
   std::uint64_t seed = 1;
   std::optional<int> threads;
   bool json = false;
@@ -51,7 +51,7 @@ Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options
 }
 
 ExitStatus run_diagnosis(const Options& options) {
-  require_writable_folder(options.folder);
+  require_results_fit(options.folder, diagnosis_file_names());
   DiagnosisRun run{.setup_file = options.setup, .seed = options.seed};
   run.setup = read_setup_file(options.setup);
   run.recording = read_recording(options.recording);
@@ -83,7 +83,8 @@ ExitStatus run_diagnosis(const Options& options) {
   if (options.json) {
     fmt::print("{}", diagnosis_json(run));
   } else if (!options.quiet) {
-    fmt::print("{}report: {}\n", diagnosis_summary(run), (options.folder / "report.html").string());
+    fmt::print("{}report: {}\n", diagnosis_summary(run),
+               (options.folder.path / "report.html").string());
   }
   if (run.diagnosis.interrupted) return kInterrupted;
   return run.diagnosis.verdict == Verdict::kUnexplained ? kNo : kYes;
@@ -108,7 +109,7 @@ Command add_diagnose_command(CLI::App& program) {
                    "model, wheel, gravity_mps2, soil with priors {mean, std}, optional noise")
       ->type_name("SETUP.yaml")
       ->required();
-  parser->add_option("--out", options->folder, "folder for the results")
+  parser->add_option("--out", options->folder.path, "folder for the results")
       ->type_name("DIR")
       ->required();
   parser->add_option("--seed", options->seed, "of all that is drawn")
@@ -118,6 +119,7 @@ Command add_diagnose_command(CLI::App& program) {
   parser->add_option("--threads", options->threads, "default: all cores; changes no result")
       ->type_name("N")
       ->check(in_range({.min = 1, .max = kThreadsMax}));
+  add_force_flag(*parser, options->folder);
   add_output_flags(*parser, options->json, options->quiet);
   return {parser, [options] { return run_diagnosis(*options); }};
 }

@@ -231,7 +231,11 @@ std::string residuals_csv(const DiagnosisRun& run) {
   return text;
 }
 
-void write_diagnosis_files(const DiagnosisRun& run, const std::filesystem::path& folder) {
+std::vector<std::string> diagnosis_file_names() {
+  return {"report.html", "corrected-model.yaml", "residuals.csv", "diagnosis.json"};
+}
+
+void write_diagnosis_files(const DiagnosisRun& run, const ResultFolder& folder) {
   StagedFiles staged(folder);
   staged.write({"report.html", diagnosis_report(run)});
   staged.write({"corrected-model.yaml", corrected_model_text(run)});

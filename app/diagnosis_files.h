@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "app/diagnosis_setup.h"
 #include "app/recording_file.h"
+#include "app/staged_files.h"
 
 namespace regoplan {
 
@@ -35,6 +36,7 @@ std::string residuals_csv(const DiagnosisRun& run);
 
 /// Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html, all or none.
 /// \throws InputError where the folder takes no files
-void write_diagnosis_files(const DiagnosisRun& run, const std::filesystem::path& folder);
+void write_diagnosis_files(const DiagnosisRun& run, const ResultFolder& folder);
+std::vector<std::string> diagnosis_file_names();
 
 }  // namespace regoplan

@@ -35,7 +35,8 @@ std::string conditions_text(const Experiment& experiment) {
 
 std::string diagnosis_summary(const DiagnosisRun& run) {
   const Diagnosis& diagnosis = run.diagnosis;
-  std::string text = fmt::format("{}: {}\n", name(diagnosis.verdict), diagnosis_headline(run));
+  std::string text = fmt::format("{}{}: {}\n", diagnosis.interrupted ? "interrupted; by then " : "",
+                                 name(diagnosis.verdict), diagnosis_headline(run));
   for (std::size_t i = 0; i < std::min(kShown, diagnosis.where.size()); ++i) {
     const MismatchRegion& at = diagnosis.where[i];
     text += fmt::format("{:>8} {} off by {:.3g} ({:.3g} to {:.3g}) at {}\n", i == 0 ? "where:" : "",

@@ -74,10 +74,11 @@ ChartSettings chart_settings(const Options& options) {
 }
 
 ExitStatus draw_chart(const Options& options) {
-  require_writable_folder(*options.chart_folder);
+  const ResultFolder folder{*options.chart_folder, options.request.folder.force};
+  require_results_fit(folder, chart_file_names());
   const ChartSettings settings = chart_settings(options);
   const FeasibilityChart chart = feasibility_chart(settings);
-  StagedFiles staged(*options.chart_folder);
+  StagedFiles staged(folder);
   for (const RenderedFile& file : render_chart(settings, chart)) staged.write(file);
   staged.commit();
   if (!options.request.quiet) {
@@ -97,7 +98,7 @@ ExitStatus run(const Options& options) {
     throw InputError("--vehicle, --soils and --gravity-mps2 go with --chart only");
   }
   if (!options.scenario) throw InputError("SCENARIO.yaml is required (regoplan evaluate --help)");
-  if (options.request.folder.empty()) {
+  if (options.request.folder.path.empty()) {
     throw InputError("--out is required (regoplan evaluate --help)");
   }
   if (options.request.path_files.empty() && !options.request.manoeuvre_file) {
@@ -119,7 +120,7 @@ Command add_evaluate_command(CLI::App& program) {
   parser->add_option("PATH.csv", request.path_files,
                      "points x_m, y_m, optional speed_mps (negative: all of it in reverse); or a "
                      "candidate-K.csv of plan");
-  parser->add_option("--out", request.folder, "folder for the results")->type_name("DIR");
+  parser->add_option("--out", request.folder.path, "folder for the results")->type_name("DIR");
   parser
       ->add_option("--manoeuvres", request.manoeuvre_file,
                    "list of {kind: steady_turn | lane_change | slalom | slope_traverse | "
@@ -168,6 +169,8 @@ Command add_evaluate_command(CLI::App& program) {
       ->type_name("MPS")
       ->check(in_range(kAbove0))
       ->capture_default_str();
+  add_force_flag(*parser, request.folder);
+  add_network_flag(*parser);
   add_output_flags(*parser, request.json, request.quiet);
   return {parser, [options] { return run(*options); }};
 }

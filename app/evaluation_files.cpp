@@ -180,7 +180,7 @@ std::string evaluation_json(const PlanningProblem& problem, const EvaluationResu
 }
 
 void write_evaluation_files(const PlanningProblem& problem, const EvaluationResult& result,
-                            const std::filesystem::path& folder) {
+                            const ResultFolder& folder) {
   const RenderedFile report{"report.html", evaluation_report(problem, result)};
   const RenderedFile json{"evaluation.json", evaluation_json(problem, result)};
   StagedFiles staged(folder);

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/staged_files.h"
 #include "planner/evaluation.h"
 
 namespace regoplan {
@@ -40,6 +40,6 @@ std::string steering_law_text(const SteeringLaw& law);
 /// Writes evaluation.json and report.html, both or none.
 /// \throws InputError where the folder takes no files
 void write_evaluation_files(const PlanningProblem& problem, const EvaluationResult& result,
-                            const std::filesystem::path& folder);
+                            const ResultFolder& folder);
 
 }  // namespace regoplan

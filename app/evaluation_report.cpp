@@ -185,16 +185,18 @@ nlohmann::json picture_data(const PlanningProblem& problem, const EvaluationResu
 }  // namespace
 
 std::string evaluation_headline(const EvaluationResult& result) {
-  if (result.paths.empty()) return "Nothing was evaluated.";
+  const std::string by_then = result.interrupted ? "Interrupted; by then: " : "";
+  if (result.paths.empty()) return by_then + "Nothing was evaluated.";
   const auto feasible = std::ranges::count_if(
       result.paths, [](const EvaluatedPath& path) { return path.evaluation.feasible; });
   const EvaluatedPath& best = result.paths.front();
   const PathEvaluation& e = best.evaluation;
   if (feasible == 0) {
-    return fmt::format("None of {} feasible; first: {} fails for {}.", result.paths.size(),
-                       short_name(best), sentence(*e.refusal));
+    return by_then + fmt::format("None of {} feasible; first: {} fails for {}.",
+                                 result.paths.size(), short_name(best), sentence(*e.refusal));
   }
-  return fmt::format("{} of {} feasible; the best, {}, keeps a stability margin of {:.2f} ({}).",
+  return by_then +
+         fmt::format("{} of {} feasible; the best, {}, keeps a stability margin of {:.2f} ({}).",
                      feasible, result.paths.size(), short_name(best), e.margin_min,
                      limiting_text(e));
 }

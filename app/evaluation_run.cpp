@@ -77,7 +77,7 @@ EvaluatedPath evaluated(PathEvaluation evaluation, const PlanningProblem& proble
 }  // namespace
 
 ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& request) {
-  require_writable_folder(request.folder);
+  require_results_fit(request.folder, {"evaluation.json", "report.html"});
   const PlanningProblem& problem = scenario.problem;
   const double speed_max_mps = checked_speed_mps(request, problem);
   // Everything is read before anything is judged.
@@ -97,7 +97,8 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
   EvaluationResult result{.settings = {.deviation_max_m = request.deviation_max_m,
                                        .soil_draws = request.soil_draws,
                                        .seed = problem.search.seed,
-                                       .threads = problem.search.threads}};
+                                       .threads = problem.search.threads,
+                                       .stop = stop}};
   {
     ProgressLine line(request.quiet);
     const std::size_t count = paths.size() + manoeuvres.size();
@@ -114,7 +115,9 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
     for (const GivenPath& path : paths) {
       if (stop.stop_requested()) break;
       show();
-      result.paths.push_back(evaluated(evaluate(world, path.path, result.settings), problem));
+      PathEvaluation evaluation = evaluate(world, path.path, result.settings);
+      if (stop.stop_requested()) break;
+      result.paths.push_back(evaluated(std::move(evaluation), problem));
       result.paths.back().recorded_margin_min = path.recorded_margin_min;
     }
     for (const Manoeuvre& manoeuvre : manoeuvres) {
@@ -131,6 +134,7 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
       PathEvaluation evaluation =
           std::visit([&](const auto& course) { return evaluate(plane, course, result.settings); },
                      prepared.course);
+      if (stop.stop_requested()) break;
       result.paths.push_back(evaluated(std::move(evaluation), prepared.problem));
       result.paths.back().on_the_map = false;
     }
@@ -143,7 +147,7 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
   if (request.json) {
     fmt::print("{}", evaluation_json(problem, result));
   } else if (!request.quiet) {
-    fmt::print("{}report: {}\n", summary(result), (request.folder / "report.html").string());
+    fmt::print("{}report: {}\n", summary(result), (request.folder.path / "report.html").string());
   }
   if (result.interrupted) return kInterrupted;
   return result.any_feasible() ? kYes : kNo;

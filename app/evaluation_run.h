@@ -1,12 +1,12 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/command.h"
 #include "app/scenario_settings.h"
+#include "app/staged_files.h"
 
 namespace regoplan {
 
@@ -17,7 +17,7 @@ struct EvaluationRequest {
   std::optional<double> speed_mps;  ///< in place of the scenario's largest
   std::optional<double> deviation_max_m;
   int soil_draws = 1000;
-  std::filesystem::path folder;
+  ResultFolder folder;
   bool json = false;   ///< evaluation.json to standard output as well
   bool quiet = false;  ///< neither notices, progress nor the table
 };

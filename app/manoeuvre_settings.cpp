@@ -121,6 +121,13 @@ std::vector<Manoeuvre> read_one(const SettingsNode& node, const PlanningProblem&
       base.to_the_right = turn->choice({"left", "right"}) == 1;
     }
     read_shape(mapping, base);
+    constexpr std::size_t kMost = 10000;
+    const std::size_t count =
+        all_vehicles.size() * all_soils.size() * slopes.size() * speeds.size();
+    if (count > kMost) {
+      throw mapping.node().error(
+          fmt::format("{} combinations are too many (allowed: {})", count, kMost));
+    }
     std::vector<Manoeuvre> all;
     for (const Vehicle& vehicle : all_vehicles) {
       for (const MapSoil& soil : all_soils) {

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "app/command.h"
+#include "app/interrupt.h"
 #include "app/map_folder.h"
 #include "app/map_notices.h"
 #include "app/map_summary.h"
@@ -21,13 +22,13 @@ struct MapImportOptions {
   std::string soils;
   std::optional<std::string> rocks;
   ScenarioStub stub{.vehicle = "lrv"};
-  std::filesystem::path out;
+  ResultFolder out;
   bool json = false;
   bool quiet = false;
 };
 
 ExitStatus run_map_import(const MapImportOptions& options) {
-  require_writable_folder(options.out);
+  require_writable_folder(options.out.path);
   if (options.heights.scale == 0) {
     throw InputError("--scale: 0 is not valid (allowed: any number but 0)");
   }
@@ -44,11 +45,11 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   if (options.rocks) rocks = read_rocks(*options.rocks);
   const TerrainMap map(std::move(elevation), std::move(classes), std::move(soils),
                        std::move(rocks));
-  write_map_folder(map, options.stub, options.out);
+  if (!write_map_folder(map, options.stub, options.out, stop_on_interrupt())) return kInterrupted;
   for (const std::string& notice : map_notices(map, stub_vehicle(options.stub))) {
     notify(notice, options.quiet);
   }
-  print_map_written(map, options.out, options.json, options.quiet);
+  print_map_written(map, options.out.path, options.json, options.quiet);
   return kYes;
 }
 
@@ -81,9 +82,11 @@ Command add_map_import_command(CLI::App& map) {
       ->required();
   parser->add_option("--rocks", options->rocks, "x_m, y_m, radius_m, height_m")
       ->type_name("FILE.csv");
-  parser->add_option("--out", options->out, "folder for the map")->type_name("DIR")->required();
+  parser->add_option("--out", options->out.path, "folder for the map")->type_name("DIR")->required();
   add_stub_options(*parser, options->stub);
   parser->get_option("--gravity-mps2")->required();
+  add_force_flag(*parser, options->out);
+  add_network_flag(*parser);
   add_output_flags(*parser, options->json, options->quiet);
   return {parser, [options] { return run_map_import(*options); }};
 }

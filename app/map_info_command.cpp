@@ -52,6 +52,7 @@ Command add_map_info_command(CLI::App& map) {
   CLI::App* parser =
       map.add_subcommand("info", "Describe the maps of scenarios, or bare elevation rasters.");
   parser->add_option("FILE", options->files, "SCENARIO.yaml, or a raster")->required();
+  add_network_flag(*parser);
   add_output_flags(*parser, options->json, options->quiet);
   return {parser, [options] { return run_map_info(*options); }};
 }

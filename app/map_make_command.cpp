@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "app/command.h"
+#include "app/interrupt.h"
 #include "app/map_folder.h"
 #include "app/map_summary.h"
 #include "app/plan_options.h"
@@ -21,7 +23,8 @@ struct MapMakeOptions {
   SyntheticTerrainSettings terrain;
   std::string soils = share_file("scenarios/demo/soils.yaml");
   ScenarioStub stub{.vehicle = "lrv", .gravity_mps2 = 1.62};
-  std::filesystem::path out;
+  std::vector<std::string> given;  ///< the options of the terrain that were
+  ResultFolder out;
   bool json = false;
   bool quiet = false;
 };
@@ -32,16 +35,23 @@ std::string option_name(std::string field) {
   return "--" + field;
 }
 
-SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings) {
+/// \param given options that stand on the command line
+SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings,
+                              const std::vector<std::string>& given) {
   try {
     return make_synthetic_terrain(settings);
   } catch (const ValueError& bad) {
-    throw ValueError(option_name(bad.field()), bad.value(), bad.allowed());
+    const std::string option = option_name(bad.field());
+    const ValueError error(option, bad.value(), bad.allowed());
+    if (given.empty() || std::ranges::find(given, option) != given.end()) throw error;
+    // A default that does not go with what was given.
+    throw InputError(fmt::format("{}: does not go with the default of {}; give that as well",
+                                 fmt::join(given, ", "), error.what()));
   }
 }
 
 ExitStatus run_map_make(const MapMakeOptions& options) {
-  require_writable_folder(options.out);
+  require_results_fit(options.out, map_file_names());
   SoilCatalogue soils =
       read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
   for (int code = 1; code <= options.terrain.soil_zones; ++code) {
@@ -51,11 +61,11 @@ ExitStatus run_map_make(const MapMakeOptions& options) {
                                    options.soils, code, options.terrain.soil_zones));
     }
   }
-  SyntheticTerrain terrain = make_terrain(options.terrain);
+  SyntheticTerrain terrain = make_terrain(options.terrain, options.given);
   const TerrainMap map(std::move(terrain.elevation), std::move(terrain.classes), std::move(soils),
                        std::move(terrain.rocks));
-  write_map_folder(map, options.stub, options.out);
-  print_map_written(map, options.out, options.json, options.quiet);
+  if (!write_map_folder(map, options.stub, options.out, stop_on_interrupt())) return kInterrupted;
+  print_map_written(map, options.out.path, options.json, options.quiet);
   return kYes;
 }
 
@@ -67,7 +77,9 @@ Command add_map_make_command(CLI::App& map) {
       "make",
       "Make a synthetic terrain: craters, rocks and zones of soil. Same settings, same terrain.\n"
       "Writes dem.tif, classes.tif, rocks.csv, soils.yaml and scenario.yaml.");
-  parser->add_option("--out", options->out, "folder for the map")->type_name("DIR")->required();
+  parser->add_option("--out", options->out.path, "folder for the map")
+      ->type_name("DIR")
+      ->required();
   parser->add_option("--seed", options->terrain.seed, "of all that is drawn")
       ->type_name("N")
       ->check(in_range(kAtLeast0))
@@ -98,8 +110,15 @@ Command add_map_make_command(CLI::App& map) {
   parser->add_option("--soils", options->soils, "soils of the zones; default: lunar soils")
       ->type_name("FILE.yaml");
   add_stub_options(*parser, options->stub);
+  add_force_flag(*parser, options->out);
   add_output_flags(*parser, options->json, options->quiet);
-  return {parser, [options] { return run_map_make(*options); }};
+  return {parser, [options, parser] {
+            for (const CLI::Option* option : parser->get_options()) {
+              const std::string name = option->get_name();
+              if (option->count() > 0 && name.ends_with("-m")) options->given.push_back(name);
+            }
+            return run_map_make(*options);
+          }};
 }
 
 }  // namespace regoplan

@@ -12,6 +12,7 @@
 #include "app/csv_cells.h"
 #include "app/number_text.h"
 #include "app/value_range.h"
+#include "planner/course_bounds.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -112,16 +113,25 @@ bool is_candidate(const PathTable& table) {
                              [&](const char* column) { return table.has(column); });
 }
 
-PathCurve curve_of(const PathTable& table) {
+/// A point beyond the map is out of bounds, a verdict; one beyond its surroundings is a mistake.
+PathCurve curve_of(const PathTable& table, const GridFrame& map) {
+  constexpr const char* kWhy = ", the map and as far around it as its diagonal";
+  const double diagonal_m = std::hypot(map.east_m() - map.west_m, map.north_m - map.south_m());
+  const ValueRange x{.min = map.west_m - diagonal_m, .max = map.east_m() + diagonal_m};
+  const ValueRange y{.min = map.south_m() - diagonal_m, .max = map.north_m + diagonal_m};
   std::vector<PathPoint> points;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     points.push_back(
-        {.x_m = table.number(i, "x_m", kAnyNumber), .y_m = table.number(i, "y_m", kAnyNumber)});
+        {.x_m = table.number(i, "x_m", x, kWhy), .y_m = table.number(i, "y_m", y, kWhy)});
   }
+  const int last_line = table.rows() == 0 ? 1 : table.line(table.rows() - 1);
   try {
-    return PathCurve(points);
+    PathCurve curve(points);
+    if (curve.length_m() <= kCourseLengthMax_m) return curve;
+    throw InputError(fmt::format("the path is {:.4g} m long (allowed: at most {} m)",
+                                 curve.length_m(), kCourseLengthMax_m));
   } catch (const InputError& bad) {
-    throw table.error(table.rows() == 0 ? 1 : table.line(table.rows() - 1), bad.what());
+    throw table.error(last_line, bad.what());
   }
 }
 
@@ -185,8 +195,10 @@ void add_accelerations(std::vector<RecordedMoment>& moments, double most_mps2) {
   }
 }
 
-GivenPath candidate_path(const PathTable& table, const Vehicle& vehicle, double speed_max_mps) {
-  PathCurve curve = curve_of(table);
+GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
+                         double speed_max_mps) {
+  const Vehicle& vehicle = problem.vehicle;
+  PathCurve curve = curve_of(table, problem.map.elevation().frame);
   std::vector<RecordedMoment> moments;
   std::vector<SpeedProfile::Node> nodes;
   double margin_min = std::numeric_limits<double>::infinity();
@@ -267,7 +279,7 @@ SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const V
 }
 
 GivenPath point_path(const PathTable& table, const PlanningProblem& problem, double speed_max_mps) {
-  PathCurve curve = curve_of(table);
+  PathCurve curve = curve_of(table, problem.map.elevation().frame);
   std::vector<std::string> notices;
   if (curve.thinned() > 0) {
     notices.push_back(fmt::format("{}: {} points nearer than {} m to the one before are left out",
@@ -298,8 +310,15 @@ GivenPath point_path(const PathTable& table, const PlanningProblem& problem, dou
 
 GivenPath read_path(const std::string& file, const PlanningProblem& problem, double speed_max_mps) {
   const PathTable table(file);
-  return is_candidate(table) ? candidate_path(table, problem.vehicle, speed_max_mps)
-                             : point_path(table, problem, speed_max_mps);
+  GivenPath given = is_candidate(table) ? candidate_path(table, problem, speed_max_mps)
+                                        : point_path(table, problem, speed_max_mps);
+  const ReferencePath& path = given.path;
+  if (!(drive_steps(path) <= kDriveStepsMax)) {
+    throw InputError(fmt::format("{}: at its speeds it takes {:.3g} s (allowed: at most {:.3g} s)",
+                                 file, path.speed.duration_s(path.curve.length_m()),
+                                 drive_time_max_s(path.speed.speed_max_mps())));
+  }
+  return given;
 }
 
 }  // namespace regoplan

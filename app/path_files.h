@@ -21,7 +21,8 @@ struct GivenPath {
 /// driven as fast as `speed_max_mps` and the vehicle's acceleration allow, from the problem's start
 /// speed to rest. A table with the columns of a candidate of `plan` is that candidate: its own
 /// record of curvature, speed and acceleration is what is judged. \throws InputError naming file,
-/// line, column and value: NaN, a speed above `speed_max_mps`, a single point, no length
+/// line, column and value: NaN, a point farther from the map than its diagonal, a speed above
+/// `speed_max_mps`, a single point, no length, more way or time than an evaluation takes on
 GivenPath read_path(const std::string& file, const PlanningProblem& problem, double speed_max_mps);
 
 }  // namespace regoplan

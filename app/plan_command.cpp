@@ -20,7 +20,7 @@ Command add_plan_command(CLI::App& program) {
                              "and, unless infeasible, margin.tif and supply.tif.");
   parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, start, goal, limits")
       ->required();
-  parser->add_option("--out", options->output.folder, "folder for the results")
+  parser->add_option("--out", options->output.folder.path, "folder for the results")
       ->type_name("DIR")
       ->required();
   parser
@@ -29,6 +29,8 @@ Command add_plan_command(CLI::App& program) {
           "wheel model: its variant and mechanisms everywhere, its soil numbers under soil_name")
       ->type_name("FILE.yaml");
   add_search_options(*parser, options->overrides);
+  add_force_flag(*parser, options->output.folder);
+  add_network_flag(*parser);
   add_output_flags(*parser, options->output.json, options->output.quiet);
   return {parser, [options] {
             return run_plan(read_scenario(options->scenario, options->overrides), options->output);

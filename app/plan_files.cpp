@@ -183,7 +183,7 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
           degrees(point.slip_angle_max_rad), point.sinkage_max_m}) {
       text += fmt::format("{},", number_cell(value));
     }
-    text += text_cell(soil_name(problem, point.soil));
+    text += own_text_cell(soil_name(problem, point.soil));
     for (const double value : {point.demand_n, point.supply_min_n, point.supply_max_n,
                                point.cornering_margin, point.tip_over_margin, point.traction_margin,
                                point.margin, point.curvature_1pm, point.acceleration_mps2}) {
@@ -231,8 +231,17 @@ void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
 
 }  // namespace
 
+std::vector<std::string> plan_file_names(const PlanningProblem& problem) {
+  std::vector<std::string> names{"plan.json", "report.html", "margin.tif", "supply.tif"};
+  for (int rank = 1; rank <= problem.search.candidates; ++rank) {
+    for (const char* extension : {"csv", "geojson"})
+      names.push_back(candidate_file(rank, extension));
+  }
+  return names;
+}
+
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
-                      const std::filesystem::path& folder) {
+                      const ResultFolder& folder) {
   std::vector<RenderedFile> files{{"report.html", plan_report(problem, result)}};
   for (const Candidate& candidate : result.candidates) {
     files.push_back({candidate_file(candidate.rank, "csv"), candidate_csv(problem, candidate)});
@@ -245,12 +254,12 @@ void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
   for (const RenderedFile& file : files) staged.write(file);
   staged.commit();
   for (const char* raster : {kMarginFile, kSupplyFile}) {
-    if (!result.rasters) std::filesystem::remove(folder / raster);
+    if (!result.rasters) staged.remove(raster);
   }
   for (std::size_t rank = result.candidates.size() + 1;; ++rank) {
     bool found = false;
     for (const std::string_view extension : {"csv", "geojson"}) {
-      found |= std::filesystem::remove(folder / candidate_file(static_cast<int>(rank), extension));
+      found |= staged.remove(candidate_file(static_cast<int>(rank), extension));
     }
     if (!found) break;
   }

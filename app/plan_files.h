@@ -20,12 +20,15 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
 /// A candidate's path in map coordinates, GeoJSON with a `crs` member: candidate-K.geojson.
 std::string candidate_geojson(const PlanningProblem& problem, const Candidate& candidate);
 
+/// The files that a plan of this problem may come to.
+std::vector<std::string> plan_file_names(const PlanningProblem& problem);
+
 /// Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, and where the plan has them
 /// as GeoTIFF in the map's place margin.tif and supply.tif, a band for each speed (see
 /// `TerrainRasters`), all or none. Takes away the candidate files and rasters of an earlier plan in
 /// the same folder that are not written again.
-/// 	hrows InputError where the folder takes no files
+/// \throws InputError where the folder takes no files
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
-                      const std::filesystem::path& folder);
+                      const ResultFolder& folder);
 
 }  // namespace regoplan

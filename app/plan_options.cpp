@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "app/command.h"
+#include "maps/network_rasters.h"
 #include "terramech/vehicle.h"
 
 namespace regoplan {
@@ -94,6 +95,15 @@ void add_stub_options(CLI::App& parser, ScenarioStub& stub) {
       ->type_name("NUMBER")
       ->check(in_range(kAbove0))
       ->capture_default_str();
+}
+
+void add_network_flag(CLI::App& parser) {
+  parser.add_flag_callback("--allow-network", allow_network_rasters,
+                           "rasters may name network file systems and services of GDAL");
+}
+
+void add_force_flag(CLI::App& parser, ResultFolder& folder) {
+  parser.add_flag("--force", folder.force, "replace files that others wrote or edited as well");
 }
 
 void add_output_flags(CLI::App& parser, bool& json, bool& quiet) {

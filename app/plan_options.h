@@ -13,6 +13,12 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides);
 /// `--vehicle` and `--gravity-mps2` of the scenario that is written beside a map.
 void add_stub_options(CLI::App& parser, ScenarioStub& stub);
 
+/// `--allow-network`: rasters may be read over a network.
+void add_network_flag(CLI::App& parser);
+
+/// `--force`: files that others wrote or edited are replaced.
+void add_force_flag(CLI::App& parser, ResultFolder& folder);
+
 /// `--json` and `--quiet`.
 void add_output_flags(CLI::App& parser, bool& json, bool& quiet);
 

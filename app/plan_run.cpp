@@ -67,7 +67,7 @@ ExitStatus status_of(const PlanResult& result) {
 }  // namespace
 
 ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
-  require_writable_folder(output.folder);
+  require_results_fit(output.folder, plan_file_names(scenario.problem));
   for (const std::string& notice : scenario.notices) notify(notice, output.quiet);
   ProgressLine line(output.quiet);
   const auto say = [&](const std::string& text) {
@@ -87,7 +87,7 @@ ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
   line.wipe();
   write_plan_files(scenario.problem, result, output.folder);
   if (output.json) fmt::print("{}", plan_json(scenario.problem, result));
-  say(fmt::format("report: {}\n", (output.folder / "report.html").string()));
+  say(fmt::format("report: {}\n", (output.folder.path / "report.html").string()));
   return status_of(result);
 }
 

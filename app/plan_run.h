@@ -1,14 +1,13 @@
 #pragma once
 
-#include <filesystem>
-
 #include "app/command.h"
 #include "app/scenario_settings.h"
+#include "app/staged_files.h"
 
 namespace regoplan {
 
 struct PlanOutput {
-  std::filesystem::path folder;
+  ResultFolder folder;
   bool json = false;   ///< plan.json to standard output as well
   bool quiet = false;  ///< neither notices, progress nor the table of candidates
 };

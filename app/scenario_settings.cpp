@@ -170,8 +170,8 @@ Search overridden(Search search, const ScenarioOverrides& overrides) {
 ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& folder,
                      WheelVariant variant) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
-    const auto file = [&folder](const SettingsNode& name) {
-      return named_file(name, folder).string();
+    const auto read_named = [&folder](const SettingsNode& name, auto read) {
+      return placed(name, [&] { return with_named_file(name, folder, read); });
     };
     std::vector<std::string> notices;
 
@@ -179,11 +179,11 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
     SoilCatalogue catalogue =
         soils.kind() == SettingsNode::Kind::kMapping
             ? read_soil_catalogue(soils, variant)
-            : placed(soils, [&] {
-                if (!std::filesystem::exists(file(soils))) {
-                  throw InputError(file(soils) + ": no such file");
+            : read_named(soils, [&](const NamedFile& file) {
+                if (!std::filesystem::exists(file.path)) {
+                  throw InputError(file.path.string() + ": no such file");
                 }
-                return read_soil_catalogue(read_settings(file(soils)), variant);
+                return read_soil_catalogue(read_settings(file.path.string()), variant);
               });
 
     if (const SettingsNode* drawn = mapping.optional("terrain")) {
@@ -193,14 +193,14 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
                          .notices = {}};
     }
     const SettingsNode& elevation_file = mapping.required("elevation");
-    ElevationRaster elevation =
-        placed(elevation_file, [&] { return read_elevation(file(elevation_file)); });
+    ElevationRaster elevation = read_named(
+        elevation_file, [](const NamedFile& file) { return read_elevation(file.path.string()); });
 
     std::optional<ClassRaster> classes;
     if (const SettingsNode* name = mapping.optional("soil_class")) {
-      placed(*name, [&] {
-        classes = read_classes(file(*name));
-        std::string notice = adopt_crs(*classes, elevation.frame, file(*name));
+      read_named(*name, [&](const NamedFile& file) {
+        classes = read_classes(file.path.string());
+        std::string notice = adopt_crs(*classes, elevation.frame, file.shown.string());
         if (!notice.empty()) notices.push_back(std::move(notice));
         return true;
       });
@@ -211,7 +211,8 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
 
     std::vector<Rock> rocks;
     if (const SettingsNode* name = mapping.optional("rocks")) {
-      rocks = placed(*name, [&] { return read_rocks(file(*name)); });
+      rocks =
+          read_named(*name, [](const NamedFile& file) { return read_rocks(file.path.string()); });
     }
     return ScenarioMap{.map = TerrainMap(std::move(elevation), std::move(classes),
                                          std::move(catalogue), std::move(rocks)),

@@ -12,14 +12,20 @@ struct RenderedFile {
   std::string content;
 };
 
+/// Where results go.
+struct ResultFolder {
+  std::filesystem::path path;
+  bool force = false;  ///< files that others wrote or edited are replaced as well
+};
+
 /// Files on their way into a folder: written to a hidden folder inside it, moved to their names by
 /// `commit()`, and gone without a trace where that is never reached. So there are whole files or
-/// none.
+/// none. Hidden folders that killed processes have left are swept.
 class StagedFiles {
  public:
   /// Makes the folder where it is missing.
   /// \throws InputError where it cannot be made or written to
-  explicit StagedFiles(const std::filesystem::path& folder);
+  explicit StagedFiles(const ResultFolder& folder);
   ~StagedFiles();
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
@@ -30,12 +36,20 @@ class StagedFiles {
   /// \throws InputError where the file cannot be written
   void write(const RenderedFile& file);
 
-  /// \throws InputError where a file cannot be moved to its name
+  /// \throws InputError where a file cannot be moved to its name, or would replace one that is not
+  /// regoplan's own
   void commit();
 
+  /// Takes away a result of an earlier run. \returns whether there was one of regoplan's own
+  bool remove(const std::string& name);
+
  private:
-  std::filesystem::path folder_;
+  void write_manifest(const std::string& text);
+  void move(const std::string& name) const;
+
+  ResultFolder folder_;
   std::filesystem::path staging_;
+  int lock_ = -1;               ///< says to others that the staging folder is in use
   std::filesystem::path made_;  ///< the topmost folder that was missing, empty where none was
   std::vector<std::string> names_;
 };
@@ -43,5 +57,9 @@ class StagedFiles {
 /// \throws InputError where `folder` could never take files: it, or what it would stand in, is no
 /// folder or not writable. Asked before long work.
 void require_writable_folder(const std::filesystem::path& folder);
+
+/// \throws InputError also where one of these files could not be replaced: it is no regular file,
+/// or not as regoplan left it
+void require_results_fit(const ResultFolder& folder, const std::vector<std::string>& names);
 
 }  // namespace regoplan

@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "app/content_digest.h"
 #include "app/settings_mapping.h"
 #include "app/settings_path.h"
 
@@ -65,9 +66,10 @@ void require_new(std::set<std::string>& seen, const SettingsNode& node, const st
 
 SuiteScenario read_suite_scenario(const SettingsNode& node, const std::filesystem::path& folder) {
   const auto file_of = [&](const SettingsNode& name) {
-    const std::filesystem::path file = named_file(name, folder);
-    if (!std::filesystem::exists(file)) throw name.error(file.string() + ": no such file");
-    return file.string();
+    const NamedFile file = named_file(name, folder);
+    if (!std::filesystem::exists(file.path))
+      throw name.error(file.shown.string() + ": no such file");
+    return file.path.string();
   };
   if (node.kind() != SettingsNode::Kind::kMapping) {
     const std::string file = file_of(node);
@@ -146,6 +148,10 @@ std::vector<SweepPoint> read_sweep(const SettingsNode& node) {
       throw entry.value.error(
           fmt::format("cannot be varied (allowed: {})", fmt::join(known, ", ")));
     }
+    constexpr std::size_t kPointsMax = 10000;
+    if (points.size() * entry.value.list().size() > kPointsMax) {
+      throw entry.value.error(fmt::format("more than {} combinations", kPointsMax));
+    }
     std::vector<SweepPoint> more;
     for (const SweepPoint& point : points) {
       for (const SettingsNode& value : entry.value.list()) {
@@ -158,23 +164,6 @@ std::vector<SweepPoint> read_sweep(const SettingsNode& node) {
   }
   return points;
 }
-
-/// FNV-1a.
-class Hash {
- public:
-  void add(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * 1099511628211ULL;
-  }
-  template <class Value>
-  void add(const std::vector<Value>& values) {
-    if (!values.empty()) add(values.data(), values.size() * sizeof(Value));
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 14695981039346656037ULL;
-};
 
 }  // namespace
 
@@ -220,7 +209,7 @@ std::string digest(const std::string& scenario_file, const PlanningProblem& prob
   std::ifstream stream(scenario_file, std::ios::binary);
   std::stringstream text;
   text << stream.rdbuf();
-  Hash hash;
+  ContentDigest hash;
   hash.add(text.str().data(), text.str().size());
   hash.add(problem.map.elevation().height_m);
   if (problem.map.classes()) hash.add(problem.map.classes()->code);

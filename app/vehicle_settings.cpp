@@ -145,12 +145,13 @@ Vehicle named_vehicle(const SettingsNode& name, const std::filesystem::path& fol
   if (std::ranges::find(presets, name.text()) != presets.end()) {
     return preset_vehicle(name.text());
   }
-  const std::filesystem::path file = named_file(name, folder);
-  if (!std::filesystem::exists(file)) {
-    throw name.not_allowed(fmt::format("{}, or a vehicle file; there is no {}",
-                                       fmt::join(presets, " | "), file.string()));
-  }
-  return read_vehicle(read_settings(file.string()));
+  return with_named_file(name, folder, [&](const NamedFile& file) {
+    if (!std::filesystem::exists(file.path)) {
+      throw name.not_allowed(fmt::format("{}, or a vehicle file; there is no {}",
+                                         fmt::join(presets, " | "), file.path.string()));
+    }
+    return read_vehicle(read_settings(file.path.string()));
+  });
 }
 
 std::string vehicle_text(const Vehicle& vehicle) {

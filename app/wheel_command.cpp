@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <istream>
 #include <memory>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include "app/interrupt.h"
 #include "app/model_settings.h"
 #include "app/plan_options.h"
+#include "app/polled_input.h"
 #include "app/staged_files.h"
 #include "app/wheel_figures.h"
 #include "app/wheel_rows.h"
@@ -23,18 +25,31 @@ struct WheelOptions {
   std::string conditions;
   std::string model;
   std::optional<std::filesystem::path> out;
+  ResultFolder folder;  ///< its `force` only
   std::optional<std::filesystem::path> figures;
   bool json = false;
   bool quiet = false;
 };
 
 ExitStatus write_figures(const WheelOptions& options) {
-  StagedFiles staged(*options.figures);
+  StagedFiles staged({*options.figures, options.folder.force});
   for (const RenderedFile& file : render_wheel_figures()) staged.write(file);
   staged.commit();
   notify(fmt::format("figures 6, 7 and 10 (.svg, .csv) are in {}", options.figures->string()),
          options.quiet);
   return kYes;
+}
+
+/// Where the table goes; a folder that does not exist is a slip of the hand here.
+ResultFolder out_folder(const WheelOptions& options) {
+  if (!options.out) return {};
+  const ResultFolder folder{std::filesystem::absolute(*options.out).parent_path(),
+                            options.folder.force};
+  if (!std::filesystem::exists(folder.path)) {
+    throw InputError(fmt::format("--out: the folder {} does not exist", folder.path.string()));
+  }
+  require_results_fit(folder, {options.out->filename().string()});
+  return folder;
 }
 
 ExitStatus run_wheel(const WheelOptions& options) {
@@ -46,8 +61,7 @@ ExitStatus run_wheel(const WheelOptions& options) {
   if (!std::filesystem::exists(options.conditions)) {
     throw InputError(options.conditions + ": no such file");
   }
-  std::ifstream conditions(options.conditions);
-  if (!conditions || std::filesystem::is_directory(options.conditions)) {
+  if (std::filesystem::is_directory(options.conditions)) {
     throw InputError(options.conditions + ": cannot be read");
   }
   if (options.out && std::filesystem::exists(*options.out) &&
@@ -55,19 +69,28 @@ ExitStatus run_wheel(const WheelOptions& options) {
     throw InputError("--out: " + options.conditions + " would overwrite its own input");
   }
 
+  const ResultFolder folder = out_folder(options);
+
   const std::stop_token stop = stop_on_interrupt();
+  PolledInput input(options.conditions, stop);
+  std::istream conditions(&input);
   std::optional<StagedFiles> staged;
   std::ofstream out;
   WheelRowSinks sinks{.json = options.json ? &std::cout : nullptr};
   if (options.out) {
-    staged.emplace(std::filesystem::absolute(*options.out).parent_path());
+    staged.emplace(folder);
     out.open(staged->path(options.out->filename().string()), std::ios::binary);
     sinks.csv = &out;
   } else if (!options.json) {
     sinks.csv = &std::cout;
   }
-  const WheelRowsResult result =
-      compute_wheel_rows(conditions, options.conditions, model, sinks, stop);
+  WheelRowsResult result;
+  try {
+    result = compute_wheel_rows(conditions, options.conditions, model, sinks, stop);
+  } catch (const InputError&) {
+    if (stop.stop_requested()) return kInterrupted;  // in the middle of a line
+    throw;
+  }
   if (staged) {
     out.close();
     if (!out) throw InputError(options.out->string() + ": cannot be written (disk full?)");
@@ -79,7 +102,7 @@ ExitStatus run_wheel(const WheelOptions& options) {
            options.quiet);
   }
   if (result.interrupted) {
-    notify(fmt::format("interrupted after {} rows", result.rows), options.quiet);
+    notify(fmt::format("rows until then: {}", result.rows), options.quiet);
     return kInterrupted;
   }
   return kYes;
@@ -107,6 +130,7 @@ Command add_wheel_command(CLI::App& program) {
       ->excludes(model);
   parser->add_option("--out", options->out, "where the table goes; default: standard output")
       ->type_name("OUT.csv");
+  add_force_flag(*parser, options->folder);
   add_output_flags(*parser, options->json, options->quiet);
   return {parser, [options] { return run_wheel(*options); }};
 }

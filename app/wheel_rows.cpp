@@ -131,10 +131,7 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
   if (sinks.json) *sinks.json << R"({"rows": [)";
 
   while (std::optional<Cells> cells = table.next()) {
-    if (stop.stop_requested()) {
-      result.interrupted = true;
-      break;
-    }
+    if (stop.stop_requested()) break;
     std::array<double, kConditions.size()> values{};
     for (std::size_t i = 0; i < kConditions.size(); ++i) {
       values.at(i) = table.number(*cells, condition_columns.at(i), kConditions.at(i).allowed);
@@ -151,8 +148,12 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     }
     if (sinks.csv) *sinks.csv << csv_line(*cells);
     if (sinks.json) *sinks.json << (result.rows ? ",\n" : "\n") << json_row(columns, *cells).dump();
+    if ((sinks.csv && !*sinks.csv) || (sinks.json && !*sinks.json)) {
+      throw InputError("the rows cannot be written (disk full?)");
+    }
     ++result.rows;
   }
+  result.interrupted = stop.stop_requested();
   if (sinks.json) {
     *sinks.json << "\n], \"interrupted\": " << (result.interrupted ? "true" : "false") << "}\n";
   }

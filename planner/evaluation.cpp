@@ -73,6 +73,7 @@ std::optional<Refusal> refusal_of(const TrackingRun& run, double deviation_allow
       .x_m = last.state.x_m, .y_m = last.state.y_m, .s_m = last.s_m, .time_s = last.time_s};
   switch (run.end) {
     case TrackingEnd::kArrived:
+    case TrackingEnd::kInterrupted:
       return std::nullopt;
     case TrackingEnd::kRejected:
       refusal = refusal_of(*run.rejected, last.s_m, last.time_s);
@@ -141,10 +142,11 @@ void add_strains(std::vector<TrajectoryPoint>& points, const std::vector<double>
 }
 
 void judge_steady(PathEvaluation& evaluation, const World& verdict,
-                  const std::vector<Station>& stations, int threads) {
+                  const std::vector<Station>& stations, const EvaluationSettings& settings) {
   std::vector<Judgement> judgements(stations.size());
-  parallel_for(stations.size(), threads,
-               [&](std::size_t i) { judgements[i] = judge(verdict, stations[i]); });
+  parallel_for(stations.size(), settings.threads, [&](std::size_t i) {
+    if (!settings.stop.stop_requested()) judgements[i] = judge(verdict, stations[i]);
+  });
   const double curvature_max = verdict.problem().vehicle.curvature_max_1pm;
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const Station& station = stations[i];
@@ -189,7 +191,7 @@ PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                  .duration_s = path.speed.duration_s(path.curve.length_m()),
                  .speed_max_mps = path.speed.speed_max_mps(),
                  .stations = stations_of(path, vehicle),
-                 .run = track(verdict, path, settings.steering, allowed_m),
+                 .run = track(verdict, path, settings.steering, allowed_m, settings.stop),
                  .deviation_allowed_m = allowed_m},
                 settings);
 }
@@ -204,7 +206,8 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
                             .tracking = course.run,
                             .deviation_allowed_m = course.deviation_allowed_m};
   const std::vector<Station>& stations = course.stations;
-  judge_steady(evaluation, verdict, stations, settings.threads);
+  judge_steady(evaluation, verdict, stations, settings);
+  if (settings.stop.stop_requested()) return evaluation;
   add_strains(evaluation.points, evaluation.s_m, evaluation.tracking);
   const std::optional<Refusal> when_driven =
       refusal_of(evaluation.tracking, evaluation.deviation_allowed_m);
@@ -233,8 +236,11 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
     evaluation.cornering_limit = cornering_limit(verdict, stations[worst].state);
   }
   if (states.size() == stations.size()) {
-    evaluation.spread =
-        soil_spread(problem, states, at_mean, settings.soil_draws, settings.seed, settings.threads);
+    evaluation.spread = soil_spread(problem, states, at_mean,
+                                    {.draws = settings.soil_draws,
+                                     .seed = settings.seed,
+                                     .threads = settings.threads,
+                                     .stop = settings.stop});
   } else {  // somewhere there is nothing to judge, whatever the soils
     const Quantiles none{-1, -1, -1};
     evaluation.spread = {.cornering = none,

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct EvaluationSettings {
   int soil_draws = 1000;
   std::uint64_t seed = 1;
   int threads = 2;
+  std::stop_token stop = {};  ///< what it interrupts is worth nothing
 };
 
 /// Half of the body's width.

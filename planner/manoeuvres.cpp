@@ -7,6 +7,7 @@
 #include <functional>
 #include <numbers>
 
+#include "planner/course_bounds.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -19,9 +20,17 @@ void require_above_0(std::string_view field, double value) {
   if (!(value > 0) || !std::isfinite(value)) throw ValueError(std::string(field), value, "above 0");
 }
 
+void require_bounded_length(double length_m) {
+  if (!(length_m <= kCourseLengthMax_m)) {
+    throw InputError(fmt::format("its way of {:.4g} m is too long (allowed: at most {} m)",
+                                 length_m, kCourseLengthMax_m));
+  }
+}
+
 /// A curve from the origin along +x with the given curvature.
 std::vector<PathPoint> points_with_curvature(double length_m,
                                              const std::function<double(double)>& curvature_1pm) {
+  require_bounded_length(length_m);
   std::vector<PathPoint> points{{}};
   const int pieces = std::max(4, static_cast<int>(std::ceil(length_m / kPointsApart_m)));
   constexpr int kSteps = 20;
@@ -52,6 +61,7 @@ std::vector<PathPoint> turn_points(const Manoeuvre& m, double arc_m) {
 
 /// y over x, from the origin along +x.
 std::vector<PathPoint> points_over_x(double length_m, const std::function<double(double)>& y_m) {
+  require_bounded_length(length_m);
   std::vector<PathPoint> points;
   const int pieces = std::max(4, static_cast<int>(std::ceil(length_m / kPointsApart_m)));
   for (int i = 0; i <= pieces; ++i) points.push_back({length_m * i / pieces, 0});
@@ -148,6 +158,30 @@ std::variant<ReferencePath, SpotTurn> course_of(const Manoeuvre& m,
   return ReferencePath{.name = m.name, .curve = std::move(curve), .speed = std::move(speed)};
 }
 
+/// Offsets and amplitudes count as well.
+void require_bounded_way(const std::vector<PathPoint>& points) {
+  double length_m = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    length_m += std::hypot(points[i].x_m - points[i - 1].x_m, points[i].y_m - points[i - 1].y_m);
+  }
+  require_bounded_length(length_m);
+}
+
+/// \throws ValueError where driving it would take more steps than an evaluation takes on
+void require_bounded_drive(const Manoeuvre& m,
+                           const std::variant<ReferencePath, SpotTurn>& course) {
+  const bool turns = m.kind == ManoeuvreKind::kPointTurn;
+  const double steps = turns ? drive_steps(std::get<SpotTurn>(course), m.vehicle)
+                             : drive_steps(std::get<ReferencePath>(course));
+  if (steps <= kDriveStepsMax) return;
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double given = turns ? m.turn_rate_rad_s / kDegree : m.speed_mps;
+  // So slow, all steps are equally long.
+  throw ValueError(turns ? "turn_rate_deg_s" : "speed_mps", given,
+                   fmt::format("at least {:.3g}, so that driving it takes at most {} steps",
+                               given * steps / kDriveStepsMax, kDriveStepsMax));
+}
+
 /// The plane, wide enough for the vehicle around all of the path.
 TerrainMap plane_under(const Manoeuvre& m, const std::vector<PathPoint>& points) {
   const BodyBox& body = m.vehicle.body;
@@ -160,24 +194,26 @@ TerrainMap plane_under(const Manoeuvre& m, const std::vector<PathPoint>& points)
       std::minmax_element(points.begin(), points.end(),
                           [](const PathPoint& a, const PathPoint& b) { return a.y_m < b.y_m; });
   // Few cells: heights are bilinear between their centres, hence exact on a plane.
-  constexpr double kCell_m = 2;
+  constexpr double kCellMin_m = 2, kCellsAcross = 2000;
+  const double cell_m =
+      std::max(kCellMin_m, std::max(east->x_m - west->x_m, north->y_m - south->y_m) / kCellsAcross);
   const auto cells = [&](double extent_m) {
-    return static_cast<int>(std::ceil((extent_m + 2 * around_m) / kCell_m)) + 2;
+    return static_cast<int>(std::ceil((extent_m + 2 * around_m) / cell_m)) + 2;
   };
   const GridFrame frame{.columns = cells(east->x_m - west->x_m),
                         .rows = cells(north->y_m - south->y_m),
-                        .west_m = west->x_m - around_m - kCell_m,
-                        .north_m = north->y_m + around_m + kCell_m,
-                        .cell_width_m = kCell_m,
-                        .cell_height_m = kCell_m,
+                        .west_m = west->x_m - around_m - cell_m,
+                        .north_m = north->y_m + around_m + cell_m,
+                        .cell_width_m = cell_m,
+                        .cell_height_m = cell_m,
                         .crs_wkt = {}};
   ElevationRaster elevation{.frame = frame, .height_m = {}};
   const double steep = std::tan(m.slope_rad);
   const double c = std::cos(m.slope_heading_rad), s = std::sin(m.slope_heading_rad);
   for (int row = 0; row < frame.rows; ++row) {
     for (int column = 0; column < frame.columns; ++column) {
-      const double x = frame.west_m + (column + 0.5) * kCell_m;
-      const double y = frame.north_m - (row + 0.5) * kCell_m;
+      const double x = frame.west_m + (column + 0.5) * cell_m;
+      const double y = frame.north_m - (row + 0.5) * cell_m;
       elevation.height_m.push_back(static_cast<float>(steep * (c * x + s * y)));
     }
   }
@@ -219,6 +255,9 @@ PreparedManoeuvre prepare(const Manoeuvre& manoeuvre, const Limits& limits,
   const double speed_mps =
       turns ? manoeuvre.turn_rate_rad_s * longest_arm_m(vehicle) : manoeuvre.speed_mps;
   const std::vector<PathPoint> points = points_of(manoeuvre);
+  require_bounded_way(points);
+  std::variant<ReferencePath, SpotTurn> course = course_of(manoeuvre, points);
+  require_bounded_drive(manoeuvre, course);
   return {.problem = {.map = plane_under(manoeuvre, points),
                       .vehicle = vehicle,
                       .wheel_variant = base.wheel_variant,
@@ -233,7 +272,7 @@ PreparedManoeuvre prepare(const Manoeuvre& manoeuvre, const Limits& limits,
                       .speed_max_mps = speed_mps * kSpeedTolerance,
                       .limits = limits,
                       .search = base.search},
-          .course = course_of(manoeuvre, points)};
+          .course = std::move(course)};
 }
 
 }  // namespace regoplan

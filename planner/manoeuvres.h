@@ -51,7 +51,8 @@ struct PreparedManoeuvre {
 };
 
 /// \param limits that its states keep \param base the rest: gravity, wheel variant, search
-/// \throws ValueError for a speed above the vehicle's, or one of its numbers that is not positive;
+/// \throws ValueError for a speed above the vehicle's, one so small that driving takes more steps
+/// than an evaluation takes on (`planner/course_bounds.h`), or a number that is not positive;
 /// InputError for a point turn of a vehicle that cannot turn on the spot
 PreparedManoeuvre prepare(const Manoeuvre& manoeuvre, const Limits& limits,
                           const PlanningProblem& base);

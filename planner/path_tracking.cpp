@@ -33,16 +33,10 @@ double offset_m(const CurvePlace& place, double x_m, double y_m) {
          std::sin(place.heading_rad) * (x_m - place.x_m);
 }
 
-/// Steps of a twentieth of a metre at top speed.
-double tracking_step_s(const ReferencePath& path) {
-  constexpr double kTravel_m = 0.05, kLongest_s = 0.25;
-  return std::min(kTravel_m / path.speed.speed_max_mps(), kLongest_s);
-}
-
 class Tracker {
  public:
   Tracker(const World& world, const ReferencePath& path, const SteeringLaw& law,
-          double deviation_max_m)
+          double deviation_max_m, const std::stop_token& stop)
       : vehicle_(world.problem().vehicle),
         path_(path),
         law_(law),
@@ -51,7 +45,7 @@ class Tracker {
         drive_(world,
                path.recorded.empty() ? path.state_at(world.problem().vehicle, 0)
                                      : path.recorded.front().state,
-               tracking_step_s(path), deviation_max_m) {}
+               tracking_step_s(path.speed.speed_max_mps()), deviation_max_m, stop) {}
 
   TrackingRun drive() {
     const double patience_s =
@@ -169,6 +163,11 @@ WheelStrain largest_of(const WheelStrain& a, const WheelStrain& b) {
           .torque_max_nm = larger(a.torque_max_nm, b.torque_max_nm)};
 }
 
+double tracking_step_s(double speed_max_mps) {
+  constexpr double kTravel_m = 0.05, kLongest_s = 0.25;
+  return std::min(kTravel_m / speed_max_mps, kLongest_s);
+}
+
 double wheelbase_m(const Vehicle& vehicle) {
   const auto [rear, front] =
       std::minmax_element(vehicle.wheels.begin(), vehicle.wheels.end(),
@@ -177,8 +176,8 @@ double wheelbase_m(const Vehicle& vehicle) {
 }
 
 TrackingRun track(const World& world, const ReferencePath& path, const SteeringLaw& law,
-                  double deviation_max_m) {
-  return Tracker(world, path, law, deviation_max_m).drive();
+                  double deviation_max_m, const std::stop_token& stop) {
+  return Tracker(world, path, law, deviation_max_m, stop).drive();
 }
 
 }  // namespace regoplan

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -54,10 +55,11 @@ double wheelbase_m(const Vehicle& vehicle);
 /// Why a run ended early, beyond what `Rejection` names.
 enum class TrackingEnd {
   kArrived,
-  kRejected,  ///< a limit of the state, see `rejected`
-  kStrayed,   ///< farther from the path than allowed
-  kStalled,   ///< does not get on
-  kDynamics,  ///< no balance of forces was found
+  kRejected,     ///< a limit of the state, see `rejected`
+  kStrayed,      ///< farther from the path than allowed
+  kStalled,      ///< does not get on
+  kDynamics,     ///< no balance of forces was found
+  kInterrupted,  ///< asked to stop; the run says nothing about the path
 };
 
 struct TrackingRun {
@@ -89,6 +91,9 @@ WheelStrain largest_of(const WheelStrain& a, const WheelStrain& b);
 /// ground, obstacles, slope, sinkage, slip, slip angle. Margins are not judged: they belong to the
 /// commanded path.
 TrackingRun track(const World& world, const ReferencePath& path, const SteeringLaw& law,
-                  double deviation_max_m);
+                  double deviation_max_m, const std::stop_token& stop = {});
+
+/// The time step of `track`: a twentieth of a metre at top speed, at most a quarter of a second.
+double tracking_step_s(double speed_max_mps);
 
 }  // namespace regoplan

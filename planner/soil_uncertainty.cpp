@@ -149,8 +149,8 @@ std::vector<PathMargins> margins_on(const PlanningProblem& problem,
 }
 
 SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,
-                       const std::vector<PathMargins>& at_mean, int draws, std::uint64_t seed,
-                       int threads) {
+                       const std::vector<PathMargins>& at_mean, const SpreadSettings& settings) {
+  const int draws = settings.draws, threads = settings.threads;
   assert(states.size() == at_mean.size() && !states.empty() && draws > 1);
   const std::vector<std::size_t> places = decisive_places(states, at_mean);
   const std::vector<VehicleState> decisive = states_at(states, places);
@@ -170,7 +170,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   }
 
   std::vector<SoilDraw> soils;
-  for (int i = 0; i < draws; ++i) soils.push_back(soil_draw(problem.map.soils(), seed, i));
+  for (int i = 0; i < draws; ++i) soils.push_back(soil_draw(problem.map.soils(), settings.seed, i));
   const Eigen::MatrixXd deviations = standard_deviations(problem.map.soils(), numbers, soils);
 
   // The first draws by the wheel model: those the surrogate is made from, and those that check it.
@@ -182,6 +182,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   std::vector<std::vector<PathMargins>> judged(static_cast<std::size_t>(draws));
   std::vector<PathMargins> elsewhere(direct);
   parallel_for(direct, threads, [&](std::size_t i) {
+    if (settings.stop.stop_requested()) return;
     judged[i] = margins_on(problem, decisive, soils[i]);
     if (i < static_cast<std::size_t>(learned)) return;
     std::vector<std::size_t> others;
@@ -191,6 +192,8 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
     }
     elsewhere[i] = smallest_of(margins_on(problem, states_at(states, others), soils[i]));
   });
+
+  if (settings.stop.stop_requested()) return spread;
 
   std::vector<PathMargins> margins(static_cast<std::size_t>(draws));
   for (std::size_t i = 0; i < direct; ++i) {
@@ -203,9 +206,11 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
     for (const VehicleState& state : decisive) probes.emplace_back(problem, state);
     std::vector features(decisive.size(), std::vector<PlaceProbe::Features>(margins.size()));
     parallel_for(margins.size(), threads, [&](std::size_t i) {
+      if (settings.stop.stop_requested()) return;
       const std::vector<WheelModel> models = models_of(problem, soils[i]);
       for (std::size_t k = 0; k < probes.size(); ++k) features[k][i] = probes[k].features(models);
     });
+    if (settings.stop.stop_requested()) return spread;
     const SoilSurrogate surrogate(features, judged, static_cast<std::size_t>(learned));
     const auto say = [&](std::size_t i) {
       std::vector<PlaceProbe::Features> of_places;
@@ -231,6 +236,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
       const auto all = static_cast<std::size_t>(std::min(draws, kDirectDrawsMax));
       margins.resize(std::max(all, direct));
       parallel_for(margins.size() - direct, threads, [&](std::size_t k) {
+        if (settings.stop.stop_requested()) return;
         margins[direct + k] = smallest_of(margins_on(problem, decisive, soils[direct + k]));
       });
       spread.draws = spread.direct_draws = static_cast<int>(margins.size());

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -67,15 +68,20 @@ struct SoilSpread {
   double explained = 0;  ///< of the margin's variance, by the regression behind `influences`
 };
 
+struct SpreadSettings {
+  int draws = 1000;  ///< at least 2
+  std::uint64_t seed = 1;
+  int threads = 2;
+  std::stop_token stop = {};  ///< what it interrupts is worth nothing
+};
+
 /// The spread over `draws` draws of the soils. The margins are judged at the places where each is
 /// smallest at the mean soils. A quadratic surrogate in the soil numbers is made from the first
 /// draws, checked on the next, and used where its error is small; otherwise the wheel model judges
 /// every draw, of which there are then at most `kDirectDrawsMax`.
 /// \param states along the path \param at_mean their margins at the mean soils, of the same size
-/// \param draws at least 2
 SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,
-                       const std::vector<PathMargins>& at_mean, int draws, std::uint64_t seed,
-                       int threads);
+                       const std::vector<PathMargins>& at_mean, const SpreadSettings& settings);
 
 inline constexpr int kDirectDrawsMax = 200;
 inline constexpr std::size_t kDrawsANumber = 3;

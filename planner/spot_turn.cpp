@@ -46,13 +46,14 @@ VehicleState before_turning(const SpotTurn& turn, const Vehicle& vehicle) {
 
 class Turner {
  public:
-  Turner(const World& world, const SpotTurn& turn, double deviation_max_m)
+  Turner(const World& world, const SpotTurn& turn, double deviation_max_m,
+         const std::stop_token& stop)
       : vehicle_(world.problem().vehicle),
         turn_(turn),
         arm_m_(longest_arm_m(vehicle_)),
         side_(turn.angle_rad < 0 ? -1 : 1),
-        drive_(world, before_turning(turn, vehicle_),
-               std::clamp(0.05 / (turn.rate_rad_s * arm_m_), 0.02, 0.25), deviation_max_m) {}
+        drive_(world, before_turning(turn, vehicle_), turning_step_s(turn.rate_rad_s, vehicle_),
+               deviation_max_m, stop) {}
 
   TrackingRun drive() {
     const double angle = std::abs(turn_.angle_rad);
@@ -93,6 +94,10 @@ class Turner {
 
 }  // namespace
 
+double turning_step_s(double rate_rad_s, const Vehicle& vehicle) {
+  return std::clamp(0.05 / (rate_rad_s * longest_arm_m(vehicle)), 0.02, 0.25);
+}
+
 PathEvaluation evaluate(const World& verdict, const SpotTurn& turn,
                         const EvaluationSettings& settings) {
   const Vehicle& vehicle = verdict.problem().vehicle;
@@ -105,7 +110,7 @@ PathEvaluation evaluate(const World& verdict, const SpotTurn& turn,
                  .duration_s = angle / turn.rate_rad_s,
                  .speed_max_mps = turn.rate_rad_s * arm_m,
                  .stations = stations_of(turn, vehicle),
-                 .run = Turner(verdict, turn, allowed_m).drive(),
+                 .run = Turner(verdict, turn, allowed_m, settings.stop).drive(),
                  .deviation_allowed_m = allowed_m},
                 settings);
 }

@@ -16,6 +16,9 @@ struct SpotTurn {
   double rate_rad_s = 0;   ///< above 0
 };
 
+/// The time step of the turn when it is driven.
+double turning_step_s(double rate_rad_s, const Vehicle& vehicle);
+
 /// Judges a turn twice, as `evaluate` judges a path: as steady turns on the spot at headings at
 /// most 5 deg apart, and by turning, from rest to rest. The way along it is that of the outermost
 /// wheel, the deviation how far the point that it turns about moves. \pre `can_turn_on_the_spot` of

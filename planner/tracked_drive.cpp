@@ -6,8 +6,8 @@
 namespace regoplan {
 
 TrackedDrive::TrackedDrive(const World& world, const VehicleState& start, double step_s,
-                           double deviation_max_m)
-    : world_(world), deviation_max_m_(deviation_max_m) {
+                           double deviation_max_m, std::stop_token stop)
+    : world_(world), deviation_max_m_(deviation_max_m), stop_(std::move(stop)) {
   now_.state = start;
   run_.step_s = step_s;
 }

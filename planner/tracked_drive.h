@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 
 #include "planner/path_tracking.h"
 
@@ -16,9 +17,9 @@ class TrackedDrive {
     double offset_m = 0;  ///< signed or not; by magnitude it counts as deviation
   };
 
-  /// \param world must outlive it
-  TrackedDrive(const World& world, const VehicleState& start, double step_s,
-               double deviation_max_m);
+  /// \param world must outlive it \param stop ends the drive with its next step
+  TrackedDrive(const World& world, const VehicleState& start, double step_s, double deviation_max_m,
+               std::stop_token stop);
 
   const TrackingRun::Moment& now() const { return now_; }
   double step_s() const { return run_.step_s; }
@@ -30,6 +31,7 @@ class TrackedDrive {
   /// with it
   template <class Locate>
   std::optional<TrackingEnd> step(const VehicleControl& control, Locate locate) {
+    if (stop_.stop_requested()) return TrackingEnd::kInterrupted;
     const VehicleState before = now_.state;
     if (const auto end = advance(control)) return end;
     const Place place = locate(before, now_.state);
@@ -47,6 +49,7 @@ class TrackedDrive {
 
   const World& world_;
   double deviation_max_m_;
+  std::stop_token stop_;
   TrackingRun::Moment now_;
   TrackingRun run_;
 };

@@ -149,12 +149,12 @@ TEST(ResidualsCsv, KeepsEveryColumnOfTheRecording) {
 
 TEST(DiagnosisFiles, AreAllThereOrNone) {
   const ScratchFolder folder;
-  write_diagnosis_files(claimed_diagnosis(), folder.path("out"));
+  write_diagnosis_files(claimed_diagnosis(), {folder.path("out")});
   for (const char* name :
        {"diagnosis.json", "corrected-model.yaml", "residuals.csv", "report.html"}) {
     EXPECT_FALSE(folder.read(std::string("out/") + name).empty()) << name;
   }
-  EXPECT_EQ(folder.count(), 5);
+  EXPECT_EQ(folder.count(), 6);
 }
 
 }  // namespace

@@ -172,6 +172,61 @@ TEST_F(Evaluate, BadManoeuvresAreRefusedWithFileAndLine) {
   expect_refused(manoeuvres("- {kind: steady_turn, radius_m: 9, soil: ice}\n"), {"ice", "mare"});
 }
 
+TEST_F(Evaluate, APointFarBeyondTheMapIsAMistakeANearOneOutOfBounds) {
+  for (const char* far : {"9.2e18", "1e308", "-1e8", "1e6", "97"}) {
+    expect_refused(file("p.csv", fmt::format("x_m,y_m\n10,20\n{},20\n12,20\n", far)),
+                   {fmt::format("p.csv:3: x_m: {} is not valid", far), "diagonal"});
+    expect_refused(file("p.csv", fmt::format("x_m,y_m\n10,20\n12,20\n12,{}\n", far)),
+                   {fmt::format("p.csv:4: y_m: {} is not valid", far), "diagonal"});
+  }
+  EXPECT_EQ(evaluate(file("p.csv", "x_m,y_m\n30,20\n60,20\n90,20\n")).status, 2);
+  EXPECT_EQ(result()["paths"][0]["refusal"]["reason"], "bounds");
+}
+
+TEST_F(Evaluate, WhatWouldTakeHoursIsRefusedBeforeItBegins) {
+  const auto manoeuvres = [this](const std::string& text) {
+    return "--manoeuvres " + file("m.yaml", text);
+  };
+  for (const char* kind :
+       {"steady_turn, radius_m: 12", "slope_traverse, length_m: 8, slope_deg: 1",
+        "lane_change, offset_m: 2, length_m: 12", "braking_in_a_turn, radius_m: 12",
+        "slalom, amplitude_m: 1, "
+        "wavelength_m: 15"}) {
+    expect_refused(manoeuvres(fmt::format("- {{kind: {}, speed_mps: 1e-5}}\n", kind)),
+                   {"m.yaml:1: ", "speed_mps: 1e-05 is not valid (allowed: at least "});
+  }
+  expect_refused(manoeuvres("- {kind: point_turn, vehicle: curiosity, turn_rate_deg_s: 1e-7}\n"),
+                 {"m.yaml:1: ", "turn_rate_deg_s: 1e-07 is not valid (allowed: at least "});
+  expect_refused(manoeuvres("- {kind: steady_turn, radius_m: 1e9}\n"), {"m.yaml:1: ", "50000 m"});
+  expect_refused(manoeuvres("- {kind: lane_change, offset_m: 1e9, length_m: 5}\n"),
+                 {"m.yaml:1: ", "50000 m"});
+  expect_refused(manoeuvres("- {kind: slalom, amplitude_m: 1e300, wavelength_m: 5}\n"),
+                 {"m.yaml:1: ", "50000 m"});
+  expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,0\n20,20,1e-9\n30,20,0\n"),
+                 {"p.csv: ", "(allowed: at most "});
+  expect_refused(file("p.csv", "x_m,y_m\n10,20\n20,20\n") + " --speed 1e-9", {"p.csv: "});
+}
+
+TEST_F(Evaluate, HeedsInterruptsWhileItDrives) {
+  // Some minutes of driving; well within what is taken on.
+  const std::string slow = file("m.yaml",
+                                "- {kind: slope_traverse, length_m: 20, slope_deg: 1, "
+                                "speed_mps: 1e-4}\n");
+  for (const auto& [signal, status] : {std::pair{"INT", 130}, std::pair{"TERM", 143}}) {
+    const std::string command = fmt::format(
+        "timeout --preserve-status -k 5 -s {} 2 '{}' evaluate '{}' --out '{}' "
+        "--manoeuvres {} 2>'{}'",
+        signal, REGOPLAN_PROGRAM, folder_.path("scenario.yaml"), folder_.path("out"), slow,
+        folder_.path("errors"));
+    const int ended = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(ended));
+    EXPECT_EQ(WEXITSTATUS(ended), status);
+    EXPECT_EQ(folder_.read("errors"), "regoplan: interrupted\n");
+    EXPECT_EQ(result()["interrupted"], true);
+    EXPECT_TRUE(result()["paths"].empty());
+  }
+}
+
 TEST_F(Evaluate, AChartIsAPictureAndTables) {
   const ProgramRun run =
       run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --chart '" +

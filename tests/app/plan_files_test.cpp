@@ -177,12 +177,12 @@ TEST(PlanFiles, GeoJsonIsInMapCoordinatesAndNamesTheirCrs) {
 TEST(PlanFiles, AFolderHoldsTheCandidatesOfOnePlanOnly) {
   const ScratchFolder folder;
   folder.write("candidate-notes.csv", "mine");
-  write_plan_files(flat_problem(), result_with_rasters(3), folder.path(""));
-  EXPECT_EQ(folder.count(), 1 + 4 + 3 * 2);
-  write_plan_files(flat_problem(), result_with_rasters(1), folder.path(""));
-  EXPECT_EQ(folder.count(), 1 + 4 + 1 * 2);
-  write_plan_files(flat_problem(), result_with(1), folder.path(""));
-  EXPECT_EQ(folder.count(), 1 + 2 + 1 * 2) << "rasters of an earlier plan";
+  write_plan_files(flat_problem(), result_with_rasters(3), {folder.path("")});
+  EXPECT_EQ(folder.count(), 1 + 5 + 3 * 2);
+  write_plan_files(flat_problem(), result_with_rasters(1), {folder.path("")});
+  EXPECT_EQ(folder.count(), 1 + 5 + 1 * 2);
+  write_plan_files(flat_problem(), result_with(1), {folder.path("")});
+  EXPECT_EQ(folder.count(), 1 + 3 + 1 * 2) << "rasters of an earlier plan";
   EXPECT_EQ(folder.read("plan.json"), plan_json(flat_problem(), result_with(1)));
 }
 
@@ -190,7 +190,7 @@ TEST(PlanFiles, MarginAndSupplyLieInTheMapsPlace) {
   const ScratchFolder folder;
   PlanningProblem problem = flat_problem();
   problem.limits = default_limits(problem.vehicle);
-  write_plan_files(problem, result_with_rasters(1), folder.path("out"));
+  write_plan_files(problem, result_with_rasters(1), {folder.path("out")});
   for (const char* name : {"out/margin.tif", "out/supply.tif"}) {
     const ElevationRaster read = read_elevation(folder.path(name));  // band 1
     EXPECT_EQ(read.frame, problem.map.elevation().frame) << name;
@@ -200,12 +200,12 @@ TEST(PlanFiles, MarginAndSupplyLieInTheMapsPlace) {
 
 TEST(PlanFiles, WhereNothingWasSearchedThereAreNoRastersNotEvenOlderOnes) {
   const ScratchFolder folder;
-  write_plan_files(flat_problem(), result_with_rasters(1), folder.path(""));
+  write_plan_files(flat_problem(), result_with_rasters(1), {folder.path("")});
   EXPECT_TRUE(std::filesystem::exists(folder.path("margin.tif")));
   PlanResult refused;
   refused.status = PlanStatus::kInfeasible;
   refused.reason = "the start is refused";
-  write_plan_files(flat_problem(), refused, folder.path(""));
+  write_plan_files(flat_problem(), refused, {folder.path("")});
   EXPECT_FALSE(std::filesystem::exists(folder.path("margin.tif")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("supply.tif")));
   EXPECT_EQ(folder.count(), 2);

@@ -18,9 +18,10 @@ struct ProgramRun {
   std::string errors;
 };
 
-/// Runs the program as a person does. `arguments` goes through the shell.
-inline ProgramRun run_program(const ScratchFolder& folder, const std::string& arguments) {
-  const std::string command = std::string("'" REGOPLAN_PROGRAM "' ") + arguments + " >'" +
+/// Runs the program as a person does. `arguments` goes through the shell, `before` as well.
+inline ProgramRun run_program(const ScratchFolder& folder, const std::string& arguments,
+                              const std::string& before = "") {
+  const std::string command = before + "'" REGOPLAN_PROGRAM "' " + arguments + " >'" +
                               folder.path(".output") + "' 2>'" + folder.path(".errors") + "'";
   const int status = std::system(command.c_str());
   ProgramRun run{.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1,

@@ -11,7 +11,7 @@ namespace {
 TEST(StagedFiles, AreThereWholeAfterCommit) {
   const ScratchFolder folder;
   {
-    StagedFiles staged(folder.path("a/b"));
+    StagedFiles staged({folder.path("a/b")});
     staged.write({.name = "one", .content = "1"});
     staged.write({.name = "two", .content = "2"});
     EXPECT_FALSE(std::filesystem::exists(folder.path("a/b/one")));
@@ -19,13 +19,13 @@ TEST(StagedFiles, AreThereWholeAfterCommit) {
   }
   EXPECT_EQ(folder.read("a/b/one"), "1");
   EXPECT_EQ(folder.read("a/b/two"), "2");
-  EXPECT_EQ(folder.count(), 4);
+  EXPECT_EQ(folder.count(), 5);  // a, b, both files and what is known of them
 }
 
 TEST(StagedFiles, LeaveNoTraceWithoutCommit) {
   const ScratchFolder folder;
   {
-    StagedFiles staged(folder.path("a/b/"));
+    StagedFiles staged({folder.path("a/b/")});
     staged.write({.name = "one", .content = "1"});
   }
   EXPECT_EQ(folder.count(), 0);
@@ -36,7 +36,7 @@ TEST(StagedFiles, ReplaceNothingWhereOneCannotBeReplaced) {
   folder.write("one", "old");
   std::filesystem::create_directory(folder.path("two"));
   EXPECT_NE(error_text([&] {
-              StagedFiles staged(folder.path(""));
+              StagedFiles staged({folder.path("")});
               staged.write({.name = "one", .content = "new"});
               staged.write({.name = "two", .content = "new"});
               staged.commit();
@@ -44,6 +44,73 @@ TEST(StagedFiles, ReplaceNothingWhereOneCannotBeReplaced) {
             "");
   EXPECT_EQ(folder.read("one"), "old");
   EXPECT_EQ(folder.count(), 2);
+}
+
+void put(const ResultFolder& folder, const std::string& content) {
+  StagedFiles staged(folder);
+  staged.write({.name = "one", .content = content});
+  staged.write({.name = "two", .content = content});
+  staged.commit();
+}
+
+TEST(StagedFiles, ReplaceWhatTheyWroteAndNothingElse) {
+  const ScratchFolder folder;
+  put({folder.path("")}, "1");
+  put({folder.path("")}, "2");
+  EXPECT_EQ(folder.read("one"), "2");
+
+  folder.write("two", "edited");
+  const std::string refused = folder.path("two") +
+                              ": was not written by regoplan, or was changed since; --force "
+                              "replaces it";
+  EXPECT_EQ(error_text([&] { put({folder.path("")}, "3"); }), refused);
+  EXPECT_EQ(error_text([&] { require_results_fit({folder.path("")}, {"one", "two"}); }), refused);
+  EXPECT_EQ(error_text([&] { require_results_fit({folder.path("")}, {"one", "three"}); }), "");
+  EXPECT_EQ(folder.read("one"), "2");
+  EXPECT_EQ(folder.read("two"), "edited");
+
+  put({folder.path(""), true}, "3");
+  EXPECT_EQ(folder.read("two"), "3");
+  put({folder.path("")}, "4");
+  EXPECT_EQ(folder.read("two"), "4");
+}
+
+TEST(StagedFiles, WhatAnotherCommandPutThereStaysKnown) {
+  const ScratchFolder folder;
+  put({folder.path("")}, "1");
+  {
+    StagedFiles staged({folder.path("")});
+    staged.write({.name = "three", .content = "3"});
+    staged.commit();
+    folder.write("mine", "");
+    EXPECT_FALSE(staged.remove("mine"));
+    EXPECT_TRUE(staged.remove("three"));
+  }
+  put({folder.path("")}, "2");
+  EXPECT_EQ(folder.count(), 4);
+}
+
+TEST(StagedFiles, WhatAKilledProcessLeftIsSwept) {
+  const ScratchFolder folder;
+  // Its own number too may have been that of a killed one; a person's file looks different.
+  for (const std::string& name : {std::string("99999999"), std::to_string(getpid())}) {
+    std::filesystem::create_directory(folder.path(".regoplan-" + name));
+    folder.write(".regoplan-" + name + "/half", "x");
+  }
+  folder.write(".regoplan-notes", "mine");
+  put({folder.path("")}, "1");
+  EXPECT_EQ(folder.count(), 4);
+  EXPECT_EQ(folder.read(".regoplan-notes"), "mine");
+}
+
+TEST(StagedFiles, OfAProcessThatIsStillAtItAreLeftAlone) {
+  const ScratchFolder folder;
+  StagedFiles other({folder.path("")});
+  const std::string half = other.path("half");
+  std::filesystem::rename(folder.path(".regoplan-" + std::to_string(getpid())),
+                          folder.path(".regoplan-99999999"));
+  put({folder.path("")}, "1");
+  EXPECT_TRUE(std::filesystem::exists(folder.path(".regoplan-99999999")));
 }
 
 TEST(StagedFiles, AFolderThatIsAFileIsAnErrorBeforeAnyWork) {

@@ -20,7 +20,7 @@ UncertainSoil uncertain_regolith() {
   return soil;
 }
 
-constexpr EvaluationSettings kSettings{.soil_draws = 30, .seed = 3};
+const EvaluationSettings kSettings{.soil_draws = 30, .seed = 3};
 
 ReferencePath reference(const std::vector<PathPoint>& points, double speed_mps) {
   PathCurve curve(points);

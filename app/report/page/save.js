@@ -75,7 +75,9 @@ const resolvedColour = colour =>
 function csvOf({columns, rows}) {
   const cell = value => {
     if (value === null || value === undefined || Number.isNaN(value)) return '';
-    const text = String(value);
+    // A spreadsheet would take such a text for a formula.
+    const formula = typeof value === 'string' && /^[=+\-@\t\r]/.test(value) && isNaN(value);
+    const text = (formula ? '\'' : '') + value;
     return /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
   };
   return [columns, ...rows].map(row => row.map(cell).join(',') + '\n').join('');
