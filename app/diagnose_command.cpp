@@ -51,7 +51,7 @@ Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options
 }
 
 ExitStatus run_diagnosis(const Options& options) {
-  require_results_fit(options.folder, diagnosis_file_names());
+  require_writable_folder(options.folder.path);
   DiagnosisRun run{.setup_file = options.setup, .seed = options.seed};
   run.setup = read_setup_file(options.setup);
   run.recording = read_recording(options.recording);
@@ -69,6 +69,7 @@ ExitStatus run_diagnosis(const Options& options) {
            options.quiet);
   }
 
+  require_results_fit(options.folder, diagnosis_file_names());
   const std::stop_token stop = stop_on_interrupt();
   {
     ProgressLine line(options.quiet);

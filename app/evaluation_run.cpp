@@ -77,7 +77,7 @@ EvaluatedPath evaluated(PathEvaluation evaluation, const PlanningProblem& proble
 }  // namespace
 
 ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& request) {
-  require_results_fit(request.folder, {"evaluation.json", "report.html"});
+  require_writable_folder(request.folder.path);
   const PlanningProblem& problem = scenario.problem;
   const double speed_max_mps = checked_speed_mps(request, problem);
   // Everything is read before anything is judged.
@@ -87,6 +87,7 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
   }
   std::vector<Manoeuvre> manoeuvres;
   if (request.manoeuvre_file) manoeuvres = read_manoeuvres(*request.manoeuvre_file, problem);
+  require_results_fit(request.folder, {"evaluation.json", "report.html"});
   for (const std::string& notice : scenario.notices) notify(notice, request.quiet);
   for (const GivenPath& path : paths) {
     for (const std::string& notice : path.notices) notify(notice, request.quiet);

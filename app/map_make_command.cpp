@@ -51,7 +51,7 @@ SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings,
 }
 
 ExitStatus run_map_make(const MapMakeOptions& options) {
-  require_results_fit(options.out, map_file_names());
+  require_writable_folder(options.out.path);
   SoilCatalogue soils =
       read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
   for (int code = 1; code <= options.terrain.soil_zones; ++code) {
@@ -61,6 +61,7 @@ ExitStatus run_map_make(const MapMakeOptions& options) {
                                    options.soils, code, options.terrain.soil_zones));
     }
   }
+  require_results_fit(options.out, map_file_names());
   SyntheticTerrain terrain = make_terrain(options.terrain, options.given);
   const TerrainMap map(std::move(terrain.elevation), std::move(terrain.classes), std::move(soils),
                        std::move(terrain.rocks));

@@ -66,10 +66,14 @@ void require_new(std::set<std::string>& seen, const SettingsNode& node, const st
 
 SuiteScenario read_suite_scenario(const SettingsNode& node, const std::filesystem::path& folder) {
   const auto file_of = [&](const SettingsNode& name) {
-    const NamedFile file = named_file(name, folder);
-    if (!std::filesystem::exists(file.path))
-      throw name.error(file.shown.string() + ": no such file");
-    return file.path.string();
+    return placed(name, [&] {
+      return with_named_file(name, folder, [](const NamedFile& file) {
+        if (!std::filesystem::exists(file.path)) {
+          throw InputError(file.path.string() + ": no such file");
+        }
+        return file.path.string();
+      });
+    });
   };
   if (node.kind() != SettingsNode::Kind::kMapping) {
     const std::string file = file_of(node);

@@ -48,7 +48,6 @@ ResultFolder out_folder(const WheelOptions& options) {
   if (!std::filesystem::exists(folder.path)) {
     throw InputError(fmt::format("--out: the folder {} does not exist", folder.path.string()));
   }
-  require_results_fit(folder, {options.out->filename().string()});
   return folder;
 }
 

@@ -37,3 +37,4 @@ add_test(NAME include_directions COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_
 add_test(NAME type_names COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -P
                                  ${CMAKE_SOURCE_DIR}/cmake/type_names.cmake)
 include(cmake/browser_tests.cmake)
+include(cmake/robustness_tests.cmake)

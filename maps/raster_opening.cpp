@@ -132,7 +132,7 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
   } else if (!std::filesystem::exists(file, ignored)) {
     fail_raster(file, "no such file");
   }
-  const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+  auto* driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
   if (driver != nullptr && std::strcmp(GDALGetDescription(driver), "VRT") == 0) {
     require_own_sources(file);
   }

@@ -93,7 +93,7 @@ class SourceCheck {
           "it to a GeoTIFF",
           vrt, named));
     }
-    const GDALDriverH driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
+    auto* driver = GDALIdentifyDriverEx(file.c_str(), GDAL_OF_RASTER, nullptr, nullptr);
     if (driver != nullptr && std::strcmp(GDALGetDescription(driver), "VRT") == 0) {
       read(file.string());
     }

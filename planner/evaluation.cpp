@@ -57,17 +57,30 @@ Judgement judge(const World& world, const Station& station) {
           .rejected = {}};
 }
 
-Refusal refusal_of(const RejectedState& rejected, double s_m, double time_s) {
-  return {.reason = std::string(name(rejected.reason)),
+/// Ground that is unknown because a wheel stands beyond the map is out of its bounds.
+Rejection reason_at(const World& world, const RejectedState& rejected, const VehicleState& state) {
+  if (rejected.reason != Rejection::kUnknownTerrain) return rejected.reason;
+  const PlanningProblem& problem = world.problem();
+  const double c = std::cos(state.yaw_rad), s = std::sin(state.yaw_rad);
+  const bool beyond = std::ranges::any_of(problem.vehicle.wheels, [&](const WheelMount& wheel) {
+    return !problem.map.inside(state.x_m + c * wheel.x_m - s * wheel.y_m,
+                               state.y_m + s * wheel.x_m + c * wheel.y_m);
+  });
+  return beyond ? Rejection::kBounds : rejected.reason;
+}
+
+Refusal refusal_of(const World& world, const RejectedState& rejected, const Station& at) {
+  return {.reason = std::string(name(reason_at(world, rejected, at.state))),
           .x_m = rejected.x_m,
           .y_m = rejected.y_m,
-          .s_m = s_m,
-          .time_s = time_s,
+          .s_m = at.s_m,
+          .time_s = at.time_s,
           .value = rejected.value,
           .limit = rejected.limit};
 }
 
-std::optional<Refusal> refusal_of(const TrackingRun& run, double deviation_allowed_m) {
+std::optional<Refusal> refusal_of(const World& world, const TrackingRun& run,
+                                  double deviation_allowed_m) {
   const TrackingRun::Moment& last = run.last;
   Refusal refusal{
       .x_m = last.state.x_m, .y_m = last.state.y_m, .s_m = last.s_m, .time_s = last.time_s};
@@ -76,7 +89,7 @@ std::optional<Refusal> refusal_of(const TrackingRun& run, double deviation_allow
     case TrackingEnd::kInterrupted:
       return std::nullopt;
     case TrackingEnd::kRejected:
-      refusal = refusal_of(*run.rejected, last.s_m, last.time_s);
+      refusal = refusal_of(world, *run.rejected, {last.s_m, last.time_s, last.state});
       break;
     case TrackingEnd::kStrayed:
       refusal.reason = "deviation";
@@ -155,7 +168,7 @@ void judge_steady(PathEvaluation& evaluation, const World& verdict,
     evaluation.points.push_back(judgement.point);
     if (evaluation.refusal) continue;
     if (judgement.rejected) {
-      evaluation.refusal = refusal_of(*judgement.rejected, station.s_m, station.time_s);
+      evaluation.refusal = refusal_of(verdict, *judgement.rejected, station);
     } else if (!(std::abs(station.state.curvature_1pm) <= curvature_max * (1 + 1e-9))) {
       evaluation.refusal = Refusal{.reason = "steering",
                                    .x_m = station.state.x_m,
@@ -210,7 +223,7 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   if (settings.stop.stop_requested()) return evaluation;
   add_strains(evaluation.points, evaluation.s_m, evaluation.tracking);
   const std::optional<Refusal> when_driven =
-      refusal_of(evaluation.tracking, evaluation.deviation_allowed_m);
+      refusal_of(verdict, evaluation.tracking, evaluation.deviation_allowed_m);
   if (!evaluation.refusal) evaluation.refusal = when_driven;
   evaluation.feasible = !evaluation.refusal;
 

@@ -1,0 +1,16 @@
+# A little of the campaigns of benchmarks/robustness with every run of the tests: mutated input for
+# each reader, and a few kills of the commands that are quick.
+foreach(reader ${REGOPLAN_READERS})
+  add_test(NAME robustness.${reader}
+           COMMAND mutation_campaign ${reader} --seconds 5 --runs 20000
+                   --keep ${CMAKE_BINARY_DIR}/robustness-findings)
+  set_tests_properties(robustness.${reader} PROPERTIES LABELS robustness TIMEOUT 120)
+endforeach()
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND AND NOT REGOPLAN_DEV)
+  add_test(NAME robustness.kills
+           COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/benchmarks/robustness/kill_campaign.py
+                   --program $<TARGET_FILE:regoplan> --kills 4 "map make" "map import" wheel
+                   "wheel figures" evaluate)
+  set_tests_properties(robustness.kills PROPERTIES LABELS robustness TIMEOUT 300)
+endif()
