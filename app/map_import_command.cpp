@@ -82,7 +82,9 @@ Command add_map_import_command(CLI::App& map) {
       ->required();
   parser->add_option("--rocks", options->rocks, "x_m, y_m, radius_m, height_m")
       ->type_name("FILE.csv");
-  parser->add_option("--out", options->out.path, "folder for the map")->type_name("DIR")->required();
+  parser->add_option("--out", options->out.path, "folder for the map")
+      ->type_name("DIR")
+      ->required();
   add_stub_options(*parser, options->stub);
   parser->get_option("--gravity-mps2")->required();
   add_force_flag(*parser, options->out);

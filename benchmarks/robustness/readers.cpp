@@ -76,6 +76,7 @@ const std::vector<Reader>& readers() {
          doubtful_values(read_recording(file), setup.setup);
        }},
       {"rocks", "in.csv", [](const std::string& file) { RockIndex(read_rocks(file)); }},
+      {"points", "in.csv", [](const std::string& file) { read_elevation(file); }},
       {"raster", "in.tif", [](const std::string& file) {
          try {
            read_elevation(file);
