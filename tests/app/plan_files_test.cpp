@@ -208,7 +208,7 @@ TEST(PlanFiles, WhereNothingWasSearchedThereAreNoRastersNotEvenOlderOnes) {
   write_plan_files(flat_problem(), refused, {folder.path("")});
   EXPECT_FALSE(std::filesystem::exists(folder.path("margin.tif")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("supply.tif")));
-  EXPECT_EQ(folder.count(), 2);
+  EXPECT_EQ(folder.count(), 3);
 }
 
 TEST(PlanFiles, MarksWhatNoOtherCandidateBeats) {

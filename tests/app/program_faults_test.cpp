@@ -87,6 +87,7 @@ TEST_F(Faults, AnErrorIsOneLineThatATerminalObeysNothingOf) {
 }
 
 TEST_F(Faults, EditedFilesAreReplacedOnlyWhenForced) {
+  folder_.write("one.yaml", kOneSoil);
   const std::string make = "map make --width-m 60 --height-m 60 --quiet --out" + file("map");
   ASSERT_EQ(run(make).status, 0);
   EXPECT_EQ(run(make).status, 0);
@@ -95,7 +96,7 @@ TEST_F(Faults, EditedFilesAreReplacedOnlyWhenForced) {
   expect_refusal(run(make + "--seed 5"), {"map/scenario.yaml: ", "changed since", "--force"});
   EXPECT_EQ(folder_.read("map/scenario.yaml"), before);
   expect_refusal(run("map import --gravity-mps2 1.62 --elevation" + file("dem.tif") + "--soils" +
-                     file("map/soils.yaml") + "--out" + file("map")),
+                     file("one.yaml") + "--out" + file("map")),
                  {"--force"});
   EXPECT_EQ(run(make + "--force").status, 0);
   EXPECT_NE(folder_.read("map/scenario.yaml"), before);

@@ -63,7 +63,8 @@ TEST(SoilUncertainty, WilsonsIntervalHoldsTheShareAndStaysWithinItsRange) {
 
 TEST(SoilUncertainty, KnownSoilsLeaveNothingToChance) {
   const Judged j = judged(firm_regolith());
-  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, {.draws = 50, .threads = 1});
+  const SoilSpread spread =
+      soil_spread(j.problem, j.states, j.at_mean, {.draws = 50, .threads = 1});
   EXPECT_EQ(spread.draws, 0);
   EXPECT_EQ(spread.margin.p05, spread.margin.p95);
   EXPECT_TRUE(spread.influences.empty());
@@ -72,7 +73,8 @@ TEST(SoilUncertainty, KnownSoilsLeaveNothingToChance) {
 TEST(SoilUncertainty, TheSurrogateIsOnTheSafeSideOfTheWheelModel) {
   constexpr int kDraws = 260;
   const Judged j = judged(uncertain_regolith());
-  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, {.draws = kDraws, .threads = 2});
+  const SoilSpread spread =
+      soil_spread(j.problem, j.states, j.at_mean, {.draws = kDraws, .threads = 2});
   ASSERT_LT(spread.direct_draws, spread.draws);
   std::vector<double> direct;
   for (int i = 0; i < kDraws; ++i) {
@@ -92,7 +94,8 @@ TEST(SoilUncertainty, TheSurrogateIsOnTheSafeSideOfTheWheelModel) {
 
 TEST(SoilUncertainty, QuantilesRiseAndTheProbabilityLiesInItsInterval) {
   const Judged j = judged(uncertain_regolith());
-  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, {.draws = 60, .threads = 2});
+  const SoilSpread spread =
+      soil_spread(j.problem, j.states, j.at_mean, {.draws = 60, .threads = 2});
   for (const Quantiles& q : {spread.cornering, spread.tip_over, spread.traction, spread.margin}) {
     EXPECT_LE(q.p05, q.p50);
     EXPECT_LE(q.p50, q.p95);
@@ -106,7 +109,8 @@ TEST(SoilUncertainty, TheNumberThatAloneIsUncertainDecidesAlone) {
   UncertainSoil soil = firm_regolith();
   soil.standard_deviation.friction_angle_rad = 2 * kTestDegree;
   const Judged j = judged(soil);
-  const SoilSpread spread = soil_spread(j.problem, j.states, j.at_mean, {.draws = 40, .threads = 2});
+  const SoilSpread spread =
+      soil_spread(j.problem, j.states, j.at_mean, {.draws = 40, .threads = 2});
   ASSERT_EQ(spread.influences.size(), 1);
   EXPECT_EQ(spread.influences[0].parameter, "friction_angle_deg");
   EXPECT_GT(spread.influences[0].share, 0.95);
@@ -115,8 +119,11 @@ TEST(SoilUncertainty, TheNumberThatAloneIsUncertainDecidesAlone) {
 
 TEST(SoilUncertainty, AFewDrawsDoNotTellWhatDecides) {
   const Judged j = judged(uncertain_regolith());  // four uncertain numbers
-  EXPECT_TRUE(soil_spread(j.problem, j.states, j.at_mean, {.draws = 11, .threads = 2}).influences.empty());
-  EXPECT_EQ(soil_spread(j.problem, j.states, j.at_mean, {.draws = 12, .threads = 2}).influences.size(), 4);
+  EXPECT_TRUE(
+      soil_spread(j.problem, j.states, j.at_mean, {.draws = 11, .threads = 2}).influences.empty());
+  EXPECT_EQ(
+      soil_spread(j.problem, j.states, j.at_mean, {.draws = 12, .threads = 2}).influences.size(),
+      4);
 }
 
 }  // namespace
