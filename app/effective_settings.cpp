@@ -45,7 +45,10 @@ Json start_json(const StartState& start) {
 }
 
 Json goal_json(const Goal& goal) {
-  Json json{{"x_m", goal.x_m}, {"y_m", goal.y_m}, {"radius_m", goal.radius_m}};
+  Json json{{"x_m", goal.x_m},
+            {"y_m", goal.y_m},
+            {"radius_m", goal.radius_m},
+            {"speed_mps", {{"max", goal.speed_max_mps}}}};
   if (goal.heading_rad) {
     json["heading_deg"] = degrees(*goal.heading_rad);
     json["heading_tolerance_deg"] = degrees(goal.heading_tolerance_rad);

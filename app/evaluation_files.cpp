@@ -24,7 +24,9 @@ double degrees(double rad) {
 Json refusal_json(const Refusal& refusal) {
   const ShownUnit unit = shown_unit(refusal.reason);
   return {{"reason", refusal.reason},
-          {"when", refusal.while_tracking ? "driven" : "commanded"},
+          {"when", refusal.while_stopping   ? "stopping"
+                   : refusal.while_tracking ? "driven"
+                                            : "commanded"},
           {"x_m", refusal.x_m},
           {"y_m", refusal.y_m},
           {"distance_m", refusal.s_m},

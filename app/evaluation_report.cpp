@@ -159,7 +159,8 @@ std::optional<RejectedState> as_mark(const Refusal& refusal) {
                          .x_m = refusal.x_m,
                          .y_m = refusal.y_m,
                          .value = refusal.value,
-                         .limit = refusal.limit};
+                         .limit = refusal.limit,
+                         .while_stopping = refusal.while_stopping};
   }
   return std::nullopt;
 }

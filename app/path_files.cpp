@@ -205,7 +205,9 @@ GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
   for (std::size_t i = 0; i < table.rows(); ++i) {
     // Rolling downhill, the vehicle itself may be a little faster than its limit.
     constexpr double kRounding = 1e-3;
-    table.number(i, "speed_mps", {.min = 0, .max = speed_max_mps * (1 + kRounding)},
+    // At rest on a slope it may creep backwards.
+    constexpr double kCreep_mps = VehicleDynamics::kStandstillSpeed_mps;
+    table.number(i, "speed_mps", {.min = -kCreep_mps, .max = speed_max_mps * (1 + kRounding)},
                  ", the largest speed");
     RecordedMoment moment = moment_at(table, i, vehicle);
     moment.s_m = curve.point_arc_m()[i];
@@ -214,7 +216,7 @@ GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
                                                    "the row before)",
                                                    moment.time_s, moments.back().time_s));
     }
-    const double speed = moment.state.motion.vx_mps;
+    const double speed = std::max(0.0, moment.state.motion.vx_mps);
     if (nodes.empty() || moment.s_m > nodes.back().s_m) {
       const bool both_rest = !nodes.empty() && nodes.back().speed_mps + speed <= 0;
       nodes.push_back({moment.s_m, both_rest ? 1e-3 : speed});

@@ -33,8 +33,15 @@ StartState read_start(const SettingsNode& node) {
   });
 }
 
-Goal read_goal(const SettingsNode& node) {
-  return read_mapping(node, [](SettingsMapping& mapping) {
+/// At most the scenario's.
+double read_goal_speed_max(const SettingsNode& node, double speed_max_mps) {
+  return read_mapping(node, [speed_max_mps](SettingsMapping& mapping) {
+    return mapping.number("max", {.min = 0, .max = speed_max_mps});
+  });
+}
+
+Goal read_goal(const SettingsNode& node, double speed_max_mps) {
+  return read_mapping(node, [speed_max_mps](SettingsMapping& mapping) {
     Goal goal;
     goal.x_m = mapping.number("x_m", kAnyNumber);
     goal.y_m = mapping.number("y_m", kAnyNumber);
@@ -48,6 +55,9 @@ Goal read_goal(const SettingsNode& node) {
       goal.heading_rad = heading->number(kHeading_deg) * kDegree;
       goal.heading_tolerance_rad =
           tolerance->number({.min = 0, .max = 180, .min_excluded = true}) * kDegree;
+    }
+    if (const SettingsNode* speed = mapping.optional("speed_mps")) {
+      goal.speed_max_mps = read_goal_speed_max(*speed, speed_max_mps);
     }
     return goal;
   });
@@ -233,9 +243,10 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
         placed(vehicle_node, [&] { return read_scenario_vehicle(vehicle_node, folder); });
     const double gravity_mps2 = mapping.number("gravity_mps2", kAbove0);
     const StartState start = read_start(mapping.required("start"));
-    const Goal goal = read_goal(mapping.required("goal"));
+    const SettingsNode& goal_node = mapping.required("goal");
     const SettingsNode* speed = mapping.optional("speed_mps");
     const double speed_max_mps = speed ? read_speed_max(*speed, vehicle) : vehicle.speed_max_mps;
+    const Goal goal = read_goal(goal_node, speed_max_mps);
     const SettingsNode* limits = mapping.optional("limits");
     const SettingsNode* planner = mapping.optional("planner");
     const SettingsNode* expectation = mapping.optional("expectation");

@@ -31,6 +31,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr SweepKey kSweepKeys[] = {
     {"speed_mps.max", [](PlanningProblem& p, double v) { p.speed_max_mps = v; }},
     {"start.speed_mps", [](PlanningProblem& p, double v) { p.start.speed_mps = v; }},
+    {"goal.speed_mps.max", [](PlanningProblem& p, double v) { p.goal.speed_max_mps = v; }},
     {"goal.radius_m", [](PlanningProblem& p, double v) { p.goal.radius_m = v; }},
     {"gravity_mps2", [](PlanningProblem& p, double v) { p.gravity_mps2 = v; }},
     {"limits.margin_min", [](PlanningProblem& p, double v) { p.limits.margin_min = v; }},

@@ -8,6 +8,7 @@
 
 #include "planner/path_margins.h"
 #include "planner/rejection_text.h"
+#include "planner/stopping.h"
 #include "terramech/parallel_for.h"
 
 namespace regoplan {
@@ -77,6 +78,16 @@ Refusal refusal_of(const World& world, const RejectedState& rejected, const Stat
           .time_s = at.time_s,
           .value = rejected.value,
           .limit = rejected.limit};
+}
+
+/// Why the vehicle cannot stop where it has arrived.
+std::optional<RejectedState> refused_stop(const World& world, const TrackingRun& run) {
+  if (run.end != TrackingEnd::kArrived) return std::nullopt;
+  constexpr double kMarginsEvery_s = 0.5;
+  return refused_stop(world, run.last.state,
+                      {.coarse_s = run.step_s,
+                       .coarse_per_margin = std::max(
+                           1, static_cast<int>(std::lround(kMarginsEvery_s / run.step_s)))});
 }
 
 std::optional<Refusal> refusal_of(const World& world, const TrackingRun& run,
@@ -188,24 +199,27 @@ double default_deviation_max_m(const Vehicle& vehicle) {
 }
 
 std::string sentence(const Refusal& refusal) {
-  return fmt::format("{} at ({:.2f}, {:.2f}), {:.1f} m along, {:.1f} s{}",
+  return fmt::format("{}{} at ({:.2f}, {:.2f}), {:.1f} m along, {:.1f} s{}",
+                     refusal.while_stopping ? kCannotStop : std::string_view(),
                      rejection_text(refusal.reason, refusal.value, refusal.limit), refusal.x_m,
                      refusal.y_m, refusal.s_m, refusal.time_s,
-                     refusal.while_tracking ? ", when driven" : "");
+                     refusal.while_tracking && !refusal.while_stopping ? ", when driven" : "");
 }
 
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings) {
   const Vehicle& vehicle = verdict.problem().vehicle;
   const double allowed_m = settings.deviation_max_m.value_or(default_deviation_max_m(vehicle));
+  const TrackingRun run = track(verdict, path, settings.steering, allowed_m, settings.stop);
   return judged(verdict,
                 {.name = path.name,
                  .length_m = path.curve.length_m(),
                  .duration_s = path.speed.duration_s(path.curve.length_m()),
                  .speed_max_mps = path.speed.speed_max_mps(),
                  .stations = stations_of(path, vehicle),
-                 .run = track(verdict, path, settings.steering, allowed_m, settings.stop),
-                 .deviation_allowed_m = allowed_m},
+                 .run = run,
+                 .deviation_allowed_m = allowed_m,
+                 .refused_stop = path.goes_on ? std::nullopt : refused_stop(verdict, run)},
                 settings);
 }
 
@@ -225,6 +239,15 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   const std::optional<Refusal> when_driven =
       refusal_of(verdict, evaluation.tracking, evaluation.deviation_allowed_m);
   if (!evaluation.refusal) evaluation.refusal = when_driven;
+  if (!evaluation.refusal && course.refused_stop) {
+    const RejectedState& refused = *course.refused_stop;
+    evaluation.refusal =
+        refusal_of(verdict, refused,
+                   {.s_m = course.length_m,
+                    .time_s = course.run.duration_s,
+                    .state = {.x_m = refused.x_m, .y_m = refused.y_m, .yaw_rad = refused.yaw_rad}});
+    evaluation.refusal->while_tracking = evaluation.refusal->while_stopping = true;
+  }
   evaluation.feasible = !evaluation.refusal;
 
   std::vector<VehicleState> states;

@@ -37,6 +37,7 @@ struct CorneringLimit {
 /// The first thing on the way that forbids a path.
 struct Refusal {
   bool while_tracking = false;  ///< else of the commanded path itself
+  bool while_stopping = false;  ///< beyond its end, where a drive that arrives at speed stops
   std::string reason;  ///< a `Rejection`'s name, or steering, deviation, stalled, dynamics, speed
   double x_m = 0, y_m = 0;
   double s_m = 0, time_s = 0;
@@ -85,13 +86,14 @@ struct DrivenCourse {
   std::vector<Station> stations;  ///< at least two
   TrackingRun run;
   double deviation_allowed_m = 0;
+  std::optional<RejectedState> refused_stop = {};  ///< why it cannot stop at its end
 };
 PathEvaluation judged(const World& verdict, const DrivenCourse& course,
                       const EvaluationSettings& settings);
 
 /// Judges a path twice: as the sequence of steady manoeuvres that it commands, at stations at most
 /// half a metre apart (at the moments of its record, where it has one), and by driving it in closed
-/// loop. Feasible where both hold.
+/// loop. Feasible where both hold, and the vehicle can then stop.
 /// \param verdict a world for verdicts
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings);

@@ -89,9 +89,21 @@ bool Lattice::connect(Round& round, int index) {
     if (hopeless(cost, values.vehicle) || !problem_.steps().allowed(values)) {
       return false;
     }
-    if (world.at_goal(values.vehicle)) return arrive(cost, std::move(drives));
+    if (world.at_goal(values.vehicle) && !refused_stop(problem_.steps(), values)) {
+      return arrive(cost, std::move(drives));
+    }
   }
   return false;
+}
+
+bool Lattice::arrive_from(const Round& round, int index) {
+  const DriveNode& node = round.nodes[static_cast<std::size_t>(index)];
+  const Arrival arrival = problem_.arrival(node.values, node.cost, bound_);
+  if (!arrival.reached) return false;
+  std::vector<Drive> drives = drives_to(round.nodes, index);
+  const std::vector<Drive> end = drives_of(arrival.controls, problem_.step_s());
+  drives.insert(drives.end(), end.begin(), end.end());
+  return arrive(node.cost + arrival.cost, std::move(drives));
 }
 
 bool Lattice::try_drive(Round& round, int parent, const Drive& drive) {
@@ -109,7 +121,7 @@ bool Lattice::try_drive(Round& round, int parent, const Drive& drive) {
     if (!problem_.steps().allowed(node.values)) return false;
     if (!world.at_goal(node.values.vehicle)) continue;
     round.nodes.push_back(node);
-    return arrive(node.cost, drives_to(round.nodes, static_cast<int>(round.nodes.size()) - 1));
+    return arrive_from(round, static_cast<int>(round.nodes.size()) - 1);
   }
   Cell& cell =
       round.cells
@@ -121,8 +133,9 @@ bool Lattice::try_drive(Round& round, int parent, const Drive& drive) {
   }
   cell.cost = node.cost;
   round.nodes.push_back(node);
-  push(round, node.cost, node.values.vehicle, static_cast<int>(round.nodes.size()) - 1,
-       std::nullopt);
+  const int index = static_cast<int>(round.nodes.size()) - 1;
+  if (arrive_from(round, index)) return true;
+  push(round, node.cost, node.values.vehicle, index, std::nullopt);
   return false;
 }
 
@@ -131,7 +144,9 @@ Lattice::RoundEnd Lattice::search(Round& round, int drives,
   if (round.nodes.empty()) {
     for (const VehicleSpace::Values& start : starts_) {
       round.nodes.push_back({.values = start});
-      push(round, 0, start.vehicle, static_cast<int>(round.nodes.size()) - 1, std::nullopt);
+      const int index = static_cast<int>(round.nodes.size()) - 1;
+      if (arrive_from(round, index)) return RoundEnd::kFound;
+      push(round, 0, start.vehicle, index, std::nullopt);
     }
   }
   while (!round.open.empty()) {

@@ -18,7 +18,8 @@ namespace regoplan {
 /// that fall into one cell of place, heading and speed counting as one. Drives are tried lazily
 /// (Cohen, Phillips, Likhachev 2014): the queue holds rough ends, and only the most promising drive
 /// is propagated, exactly, step by step, the goal tested at each; one whose rough end another drive
-/// has reached for less is dropped. Rounds with growing bounds go through finer resolutions and
+/// has reached for less is dropped. From every node near the goal it is tried to arrive
+/// (`arrival_from`). Rounds with growing bounds go through finer resolutions and
 /// driving in reverse until a path is found; then, where the problem asks to improve, through
 /// smaller weights, each round pruned against the best cost so far. Rounds with reverse also try,
 /// from slow nodes near a goal with a heading, the shortest way to its pose (`connection_to_goal`).
@@ -78,6 +79,8 @@ class Lattice : public ompl::base::Planner {
   /// Tries the way from a slow node straight to the pose of the goal. \returns whether it leads
   /// there for less
   bool connect(Round& round, int node);
+  /// Ends a path from a node. \returns whether it arrives at the goal for less
+  bool arrive_from(const Round& round, int node);
   /// Drives it and keeps what it leads to. \returns whether that is the goal
   bool try_drive(Round& round, int node, const Drive& drive);
   void push(Round& round, double cost, const VehicleState& state, int node,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "planner/arrival.h"
 #include "planner/path_cost.h"
 #include "planner/steering_samplers.h"
 
@@ -61,6 +62,27 @@ double tightest_way_m(const PlanningProblem& problem, bool reverse, const Vehicl
   };
   return reverse ? length(ob::ReedsSheppStateSpace(radius_m))
                  : length(ob::DubinsStateSpace(radius_m));
+}
+
+/// How far beyond the goal the vehicle comes to the speed that is allowed there.
+double overshoot_m(const PlanningProblem& problem, const VehicleState& state, double away_m) {
+  const double braking_m =
+      braking_distance_m(problem.vehicle, std::abs(state.motion.vx_mps),
+                         std::min(problem.goal.speed_max_mps, problem.speed_max_mps));
+  return std::max(0.0, braking_m - away_m - problem.goal.radius_m);
+}
+
+/// What gathering speed and braking for the goal take longer than driving at the wanted speed:
+/// shorter of a speed by d, on the way to or from it, d^2/(2 speed acceleration).
+double speed_changes_s(const PlanningProblem& problem, double now_mps, double wanted_mps,
+                       double way_m) {
+  const double a = problem.vehicle.acceleration_max_mps2;
+  // On a short way the vehicle brakes before it is as fast as wanted.
+  const double highest = std::sqrt(std::max(0.0, now_mps * now_mps / 2 + a * way_m));
+  const double peak = std::max(std::min(wanted_mps, highest), 1e-6);
+  const double from = std::max(0.0, peak - now_mps);
+  const double to = std::max(0.0, peak - problem.goal.speed_max_mps);
+  return (from * from + to * to) / (2 * peak * a) + way_m / peak - way_m / wanted_mps;
 }
 
 }  // namespace
@@ -184,11 +206,11 @@ double rough_cost_to_go(const LatticeResolution& resolution, const OmplProblem& 
   }
   way_m += excess_m * top / turning;
   const double wanted = excess_m > radius_m ? turning : top;
-  const double short_of = std::max(0.0, wanted - state.motion.vx_mps);
-  const double acceleration_s =
-      short_of * short_of / (2 * wanted * problem.vehicle.acceleration_max_mps2);
+  const double too_fast_m = overshoot_m(problem, state, away_m);
+  way_m += 2 * too_fast_m * top / turning;  // and back
   return rough_cost(problem, way_m, way_m / resolution.speed_max_mps) +
-         problem.search.objective.per_s * acceleration_s;
+         problem.search.objective.per_s *
+             speed_changes_s(problem, state.motion.vx_mps, std::min(wanted, top), way_m);
 }
 
 }  // namespace regoplan

@@ -155,7 +155,11 @@ std::variant<ReferencePath, SpotTurn> course_of(const Manoeuvre& m,
   }
   PathCurve curve(points);
   SpeedProfile speed = speed_of(m, curve);
-  return ReferencePath{.name = m.name, .curve = std::move(curve), .speed = std::move(speed)};
+  return ReferencePath{.name = m.name,
+                       .curve = std::move(curve),
+                       .speed = std::move(speed),
+                       .recorded = {},
+                       .goes_on = true};
 }
 
 /// Offsets and amplitudes count as well.

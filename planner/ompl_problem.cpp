@@ -58,17 +58,23 @@ class WorldValidity : public ob::StateValidityChecker {
   SearchSteps& steps_;
 };
 
-/// The goal of a problem, in metres and radians.
+/// The goal of a problem, in metres and radians: the states from which the vehicle arrives there.
 class VehicleGoal : public ob::GoalSampleableRegion {
  public:
-  VehicleGoal(const ob::SpaceInformationPtr& si, const World& world)
-      : ob::GoalSampleableRegion(si), world_(world), goal_(world.problem().goal) {
+  VehicleGoal(const ob::SpaceInformationPtr& si, OmplProblem& problem)
+      : ob::GoalSampleableRegion(si),
+        problem_(problem),
+        world_(problem.world()),
+        goal_(world_.problem().goal) {
     setThreshold(0);
   }
 
-  bool isSatisfied(const ob::State* state) const override {
-    return world_.at_goal(state->as<VehicleSpace::StateType>()->vehicle);
+  Arrival arrival(const ob::State* state) const {
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const auto* values = state->as<VehicleSpace::StateType>();
+    return problem_.arrival(*values, values->cost, kAny);
   }
+  bool isSatisfied(const ob::State* state) const override { return arrival(state).reached; }
   bool isSatisfied(const ob::State* state, double* distance) const override {
     if (distance) *distance = distanceGoal(state);
     return isSatisfied(state);
@@ -77,9 +83,11 @@ class VehicleGoal : public ob::GoalSampleableRegion {
     const VehicleState& v = state->as<VehicleSpace::StateType>()->vehicle;
     return std::hypot(v.x_m - goal_.x_m, v.y_m - goal_.y_m);
   }
-  /// A state that may well be: not at the very limit of speed, any place and heading that counts.
+  /// A state that may well be: at half of the speed that is allowed, any place and heading that
+  /// counts.
   void sampleGoal(ob::State* state) const override {
     constexpr double kSpeedShare = 0.5;
+    const double speed_max_mps = std::min(goal_.speed_max_mps, world_.problem().speed_max_mps);
     const double share = World::kSearchGoalShare;
     const double away_m = share * goal_.radius_m * std::sqrt(random_.uniform01());
     const double aside_rad = random_.uniformReal(-std::numbers::pi, std::numbers::pi);
@@ -88,9 +96,9 @@ class VehicleGoal : public ob::GoalSampleableRegion {
                                    ? *goal_.heading_rad + share * turn * goal_.heading_tolerance_rad
                                    : turn * std::numbers::pi;
     auto* typed = state->as<VehicleSpace::StateType>();
-    typed->vehicle = world_.dynamics().rolling_state(
-        goal_.x_m + away_m * std::cos(aside_rad), goal_.y_m + away_m * std::sin(aside_rad),
-        heading_rad, kSpeedShare * world_.problem().speed_max_mps);
+    typed->vehicle = world_.dynamics().rolling_state(goal_.x_m + away_m * std::cos(aside_rad),
+                                                     goal_.y_m + away_m * std::sin(aside_rad),
+                                                     heading_rad, kSpeedShare * speed_max_mps);
     typed->strain = {};
     typed->possible = true;
     const auto& cost_axis = si_->getStateSpace()->as<VehicleSpace>()->cost_axis();
@@ -99,6 +107,7 @@ class VehicleGoal : public ob::GoalSampleableRegion {
   unsigned int maxSampleCount() const override { return std::numeric_limits<unsigned int>::max(); }
 
  private:
+  OmplProblem& problem_;
   const World& world_;
   const regoplan::Goal& goal_;
   mutable ompl::RNG random_;
@@ -140,7 +149,7 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
     return std::make_shared<SteeringSampler>(controls, world_, way_);
   });
   space_->setDirectedControlSamplerAllocator([this](const oc::SpaceInformation* space) {
-    return std::make_shared<PursuitSampler>(space, world_, way_);
+    return std::make_shared<PursuitSampler>(space, *this);
   });
   space_->setStatePropagator(std::make_shared<DynamicsPropagator>(space_.get(), world_, steps_));
   space_->setStateValidityChecker(std::make_shared<WorldValidity>(space_.get(), *this, steps_));
@@ -149,12 +158,12 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
   space_->setup();
 }
 
-void OmplProblem::pose(ob::ProblemDefinition& definition) const {
+void OmplProblem::pose(ob::ProblemDefinition& definition) {
   ob::State* start = space_->allocState();
   start->as<VehicleSpace::StateType>()->vehicle = world_.start();
   definition.addStartState(start);
   space_->freeState(start);
-  definition.setGoal(std::make_shared<VehicleGoal>(space_, world_));
+  definition.setGoal(std::make_shared<VehicleGoal>(space_, *this));
   auto objective = std::make_shared<ob::PathLengthOptimizationObjective>(space_);
   // By default a threshold is 0, which no path reaches: the search would use all its time.
   objective->setCostThreshold(ob::Cost(improves_ ? 0 : std::numeric_limits<double>::max()));
@@ -181,6 +190,15 @@ bool OmplProblem::hopeless(double cost, const VehicleState& state, double best_c
          below;
 }
 
+Arrival OmplProblem::arrival(const VehicleSpace::Values& from, double cost, double best_cost) {
+  // About a drive ahead: where searches have a node, there is one near enough.
+  constexpr double kHold_radii = 2;
+  const PlanningProblem& problem = world_.problem();
+  return arrival_from(steps_, from,
+                      {.hold_max_m = kHold_radii / problem.vehicle.curvature_max_1pm,
+                       .cost_below = std::min(best_cost, cost_below_) - cost});
+}
+
 double OmplProblem::diagonal_m() const {
   const GridFrame& frame = world_.problem().map.elevation().frame;
   return std::hypot(frame.east_m() - frame.west_m, frame.north_m - frame.south_m());
@@ -188,7 +206,10 @@ double OmplProblem::diagonal_m() const {
 
 std::vector<ControlSegment> exact_solution(const ob::ProblemDefinition& definition) {
   if (!definition.hasExactSolution()) return {};
-  const auto& path = *definition.getSolutionPath()->as<oc::PathControl>();
+  auto& path = *definition.getSolutionPath()->as<oc::PathControl>();
+  const auto& goal = *dynamic_cast<const VehicleGoal*>(definition.getGoal().get());
+  const Arrival arrival = goal.arrival(path.getStates().back());
+  if (!arrival.reached) return {};
   std::vector<ControlSegment> segments;
   for (std::size_t i = 0; i < path.getControlCount(); ++i) {
     const VehicleControl control =
@@ -199,6 +220,7 @@ std::vector<ControlSegment> exact_solution(const ob::ProblemDefinition& definiti
                         .speed_target_mps = control.speed_target_mps,
                         .curvature_target_1pm = control.curvature_target_1pm});
   }
+  segments.insert(segments.end(), arrival.controls.begin(), arrival.controls.end());
   return segments;
 }
 

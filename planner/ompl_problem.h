@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "planner/arrival.h"
 #include "planner/cost_to_go.h"
 #include "planner/least_length.h"
 #include "planner/search_run.h"
@@ -34,7 +35,7 @@ class OmplProblem {
   const ompl::control::SpaceInformationPtr& space() const { return space_; }
 
   /// Sets start, goal and objective.
-  void pose(ompl::base::ProblemDefinition& definition) const;
+  void pose(ompl::base::ProblemDefinition& definition);
 
   /// Of the map, metres.
   double diagonal_m() const;
@@ -56,6 +57,10 @@ class OmplProblem {
   /// Of every propagation; controls last whole multiples of it.
   double step_s() const { return space_->getPropagationStepSize(); }
 
+  /// Whether and how a path through a state arrives at the goal (`arrival_from`), for less than is
+  /// asked for and than a cost.
+  Arrival arrival(const VehicleSpace::Values& from, double cost, double best_cost);
+
   SearchSteps& steps() { return steps_; }
   std::int64_t propagations() const { return steps_.count(); }
   const RejectionLog& rejections() const { return steps_.rejections(); }
@@ -72,7 +77,8 @@ class OmplProblem {
   ompl::control::SpaceInformationPtr space_;
 };
 
-/// The controls of the solution; empty where there is none that reaches the goal.
+/// The controls of the solution, arrival at the goal included; empty where there is none that
+/// reaches it.
 std::vector<ControlSegment> exact_solution(const ompl::base::ProblemDefinition& definition);
 
 }  // namespace regoplan

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "planner/arrival.h"
 #include "planner/drive.h"
 #include "planner/path_cost.h"
 #include "planner/path_curve.h"
@@ -31,42 +32,57 @@ struct Driven {
   double end_m = 0;                        ///< along the curve that it follows
 };
 
-/// Drives step by step, as long as every state is allowed and below a cost.
-/// \param control of (step, state), nothing at the end
-template <class ControlAt>
-Driven drive(SearchSteps& steps, double cost_below, ControlAt control_at) {
-  const World& world = steps.world();
-  const double step_s = world.search_step_s();
-  VehicleSpace::Values values{.vehicle = world.start(), .strain = {}};
-  Driven path{.states = {values.vehicle}, .controls = {}};
-  for (std::size_t i = 0; path.cost < cost_below; ++i) {
-    const std::optional<VehicleControl> control = control_at(i, values.vehicle);
-    if (!control) return path;
-    const SearchStep step = steps.next(values, *control, step_s);
-    path.cost += step_cost(world, values, step, step_s);
-    values = step.values;
-    path.rejected = steps.rejected(values);
-    if (path.rejected) return path;
-    path.states.push_back(values.vehicle);
-    path.controls.push_back({.duration_s = step_s,
-                             .speed_target_mps = control->speed_target_mps,
-                             .curvature_target_1pm = control->curvature_target_1pm});
-    path.reached_goal = world.at_goal(values.vehicle);
-    if (path.reached_goal) return path;
+/// A path while it is driven, step by step.
+class PathDrive {
+ public:
+  explicit PathDrive(SearchSteps& steps)
+      : steps_(steps),
+        step_s_(steps.world().search_step_s()),
+        values_{.vehicle = steps.world().start(), .strain = {}},
+        path_{.states = {values_.vehicle}, .controls = {}} {}
+
+  const VehicleSpace::Values& values() const { return values_; }
+  const Driven& path() const { return path_; }
+  Driven take() { return std::move(path_); }
+
+  /// \returns whether the path goes on
+  bool advance(const VehicleControl& control) {
+    const SearchStep step = steps_.next(values_, control, step_s_);
+    path_.cost += step_cost(steps_.world(), values_, step, step_s_);
+    values_ = step.values;
+    path_.rejected = steps_.rejected(values_);
+    if (path_.rejected) return false;
+    path_.states.push_back(values_.vehicle);
+    path_.controls.push_back({.duration_s = step_s_,
+                              .speed_target_mps = control.speed_target_mps,
+                              .curvature_target_1pm = control.curvature_target_1pm});
+    if (!steps_.world().at_goal(values_.vehicle)) return true;
+    path_.rejected = refused_stop(steps_, values_);
+    path_.reached_goal = !path_.rejected;
+    return false;
   }
-  return path;
-}
+
+  /// \returns whether the path goes on
+  bool advance(const std::vector<ControlSegment>& controls) {
+    for (const Drive& drive : drives_of(controls, step_s_)) {
+      for (int i = 0; i < drive.steps; ++i) {
+        if (!advance(drive.control)) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  SearchSteps& steps_;
+  double step_s_;
+  VehicleSpace::Values values_;
+  Driven path_;
+};
 
 Driven as_given(SearchSteps& steps, const std::vector<ControlSegment>& controls) {
-  std::vector<VehicleControl> by_step;
-  for (const Drive& drive : drives_of(controls, steps.world().search_step_s())) {
-    by_step.insert(by_step.end(), static_cast<std::size_t>(drive.steps), drive.control);
-  }
-  return drive(steps, std::numeric_limits<double>::infinity(),
-               [&](std::size_t i, const VehicleState&) -> std::optional<VehicleControl> {
-                 if (i >= by_step.size()) return std::nullopt;
-                 return by_step[i];
-               });
+  PathDrive drive(steps);
+  drive.advance(controls);
+  return drive.take();
 }
 
 double smallest_margin(const World& world, const std::vector<VehicleState>& states) {
@@ -123,37 +139,60 @@ SpeedProfile fastest(const PlanningProblem& problem, const std::vector<SpeedProf
                                  problem.vehicle.acceleration_max_mps2);
 }
 
-/// Along a curve in closed loop. What is due is where the vehicle is along the curve, not where the
-/// time says it should be: in soft soil it falls behind, and would not have arrived by the end.
+/// The control that keeps to a curve at a speed. \param s_m how far along the vehicle is
+VehicleControl control_along(const World& world, const PathCurve& curve, const SpeedProfile& speed,
+                             double s_m, const VehicleState& now) {
+  const PlanningProblem& problem = world.problem();
+  const CurvePlace place = curve.at(s_m);
+  const VehicleState due{.x_m = place.x_m,
+                         .y_m = place.y_m,
+                         .yaw_rad = place.heading_rad - kinematic_body_slip_angle_rad(
+                                                            problem.vehicle, now.curvature_1pm),
+                         .rim_speed_mps = std::max(now.rim_speed_mps, 1e-3)};
+  // Steering takes time: what is commanded is what is due a little farther on.
+  constexpr double kReaction_s = 0.3;
+  const double ahead_m = s_m + kReaction_s * due.rim_speed_mps;
+  return steered_back(
+      problem,
+      {.speed_target_mps = speed.at(s_m + world.search_step_s() * due.rim_speed_mps).speed_mps,
+       .curvature_target_1pm = curve.at(ahead_m).curvature_1pm},
+      due, now);
+}
+
+/// Along a curve in closed loop, until braking leads to the goal. What is due is where the vehicle
+/// is along the curve, not where the time says it should be: in soft soil it falls behind, and
+/// would not have arrived by the end.
 Driven along(SearchSteps& steps, const PathCurve& curve, const SpeedProfile& speed,
              double cost_below) {
-  const PlanningProblem& problem = steps.world().problem();
-  double s = 0;
-  Driven path =
-      drive(steps, cost_below,
-            [&](std::size_t, const VehicleState& now) -> std::optional<VehicleControl> {
-              const CurvePlace before = curve.at(s);
-              s += std::cos(before.heading_rad) * (now.x_m - before.x_m) +
-                   std::sin(before.heading_rad) * (now.y_m - before.y_m);
-              if (s >= curve.length_m()) return std::nullopt;
-              const CurvePlace place = curve.at(s);
-              const VehicleState due{
-                  .x_m = place.x_m,
-                  .y_m = place.y_m,
-                  .yaw_rad = place.heading_rad -
-                             kinematic_body_slip_angle_rad(problem.vehicle, now.curvature_1pm),
-                  .rim_speed_mps = std::max(now.rim_speed_mps, 1e-3)};
-              // Steering takes time: what is commanded is what is due a little farther on.
-              constexpr double kReaction_s = 0.3;
-              const double ahead_m = s + kReaction_s * due.rim_speed_mps;
-              return steered_back(
-                  problem,
-                  {.speed_target_mps =
-                       speed.at(s + steps.world().search_step_s() * due.rim_speed_mps).speed_mps,
-                   .curvature_target_1pm = curve.at(ahead_m).curvature_1pm},
-                  due, now);
-            });
+  const World& world = steps.world();
+  PathDrive drive(steps);
+  std::optional<Rejection> refused_arrival;
+  double s = 0, refused_m = 0;
+  while (drive.path().cost < cost_below) {
+    const VehicleState& now = drive.values().vehicle;
+    const CurvePlace before = curve.at(s);
+    s += std::cos(before.heading_rad) * (now.x_m - before.x_m) +
+         std::sin(before.heading_rad) * (now.y_m - before.y_m);
+    if (s >= curve.length_m()) break;
+    // As late as possible: no farther ahead than two steps.
+    const Arrival arrival =
+        arrival_from(steps, drive.values(),
+                     {.hold_max_m = 2 * world.search_step_s() * std::abs(now.rim_speed_mps),
+                      .cost_below = cost_below - drive.path().cost});
+    if (arrival.reached) drive.advance(arrival.controls);
+    if (arrival.reached) break;
+    if (arrival.refused) {
+      refused_arrival = arrival.refused;
+      refused_m = s;
+    }
+    if (!drive.advance(control_along(world, curve, speed, s, now))) break;
+  }
+  Driven path = drive.take();
   path.end_m = s;
+  if (!path.reached_goal && refused_arrival && path.cost < cost_below) {
+    path.rejected = refused_arrival;
+    path.end_m = refused_m;
+  }
   return path;
 }
 

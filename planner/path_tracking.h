@@ -26,6 +26,7 @@ struct ReferencePath {
   SpeedProfile speed;
   std::vector<RecordedMoment> recorded = {};
   bool reverse = false;  ///< all of it is driven backwards
+  bool goes_on = false;  ///< a piece of a drive: where it ends at speed, no room to stop is asked
 
   /// Commanded curvature, as the vehicle counts it: in reverse a path that bends to the left of the
   /// way lies to the right of the vehicle.

@@ -102,7 +102,8 @@ struct RejectedState {
   double curvature_1pm = 0;
   double value =
       kNoNumber;  ///< what was found (margin, slip, rad, m, m/s), where there is a number
-  double limit = kNoNumber;  ///< what was allowed
+  double limit = kNoNumber;     ///< what was allowed
+  bool while_stopping = false;  ///< beyond a path's end, on the way that it takes to stop
 };
 
 /// The best candidate under other circumstances: what carries its feasibility.

@@ -121,6 +121,9 @@ void validate(const PlanningProblem& problem) {
           problem.start.speed_mps >= 0 && problem.start.speed_mps <= problem.speed_max_mps,
           "0 to speed_mps.max");
   require("goal.radius_m", problem.goal.radius_m, problem.goal.radius_m > 0, "above 0");
+  require("goal.speed_mps.max", problem.goal.speed_max_mps,
+          problem.goal.speed_max_mps >= 0 && problem.goal.speed_max_mps <= problem.speed_max_mps,
+          "0 to speed_mps.max");
   if (problem.goal.heading_rad) {
     require("goal.heading_tolerance_deg", problem.goal.heading_tolerance_rad / kDegree,
             problem.goal.heading_tolerance_rad > 0, "above 0");

@@ -28,6 +28,9 @@ struct Goal {
   double radius_m = 0;
   std::optional<double> heading_rad;
   double heading_tolerance_rad = 0;  ///< either side; counts with a heading only
+  /// The fastest that the vehicle may arrive; 0: it comes to rest there. Where it may arrive at
+  /// speed, it must still be able to stop.
+  double speed_max_mps = 0;
 
   bool operator==(const Goal&) const = default;
 };

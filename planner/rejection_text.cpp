@@ -57,7 +57,8 @@ std::string rejection_text(std::string_view reason, double value, double limit) 
 }
 
 std::string rejection_text(const RejectedState& rejection) {
-  return fmt::format("{} at ({:.2f}, {:.2f})",
+  return fmt::format("{}{} at ({:.2f}, {:.2f})",
+                     rejection.while_stopping ? kCannotStop : std::string_view(),
                      rejection_text(name(rejection.reason), rejection.value, rejection.limit),
                      rejection.x_m, rejection.y_m);
 }

@@ -7,6 +7,9 @@
 
 namespace regoplan {
 
+/// What comes before the reason why a vehicle cannot stop where its path ends.
+inline constexpr std::string_view kCannotStop = "the vehicle cannot stop at the end: ";
+
 /// The unit in which a number stands in messages and files: degrees for radians, else SI.
 struct ShownUnit {
   double per_si = 1;      ///< shown = per_si times the number in SI
@@ -21,7 +24,8 @@ ShownUnit shown_unit(std::string_view reason);
 /// gives; one that is not a number is not told.
 std::string rejection_text(std::string_view reason, double value, double limit);
 
-/// The same of a state, with its place: `... at (12.00, 3.50)`.
+/// The same of a state, with its place: `... at (12.00, 3.50)`, and saying so where it is met while
+/// stopping.
 std::string rejection_text(const RejectedState& rejection);
 
 }  // namespace regoplan

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -38,7 +39,7 @@ std::vector<Relaxation> relaxations_of(const PlanningProblem& problem) {
   std::vector<Relaxation> relaxations;
   PlanningProblem slower = problem;
   slower.speed_max_mps /= 2;
-  if (slower.start.speed_mps <= slower.speed_max_mps) {
+  if (std::max(slower.start.speed_mps, slower.goal.speed_max_mps) <= slower.speed_max_mps) {
     relaxations.push_back(
         {fmt::format("at half the speed, {:.4g} m/s", slower.speed_max_mps), slower});
   }

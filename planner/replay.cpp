@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/stopping.h"
+
 namespace regoplan {
 namespace {
 
@@ -41,6 +43,7 @@ class Driver {
       check(with_margins_ && ((last && judges) || record_.reached_goal));
       if (!record_.rejection && with_margins_ && ((last && judges) || record_.reached_goal))
         judge();
+      if (record_.reached_goal && !record_.rejection) check_stop();
     }
     if (done == steps_.fine_per_coarse) record_.coarse.push_back(state_);
   }
@@ -63,6 +66,10 @@ class Driver {
   void reject(const RejectedState& rejection) {
     record_.rejection = rejection;
     record_.rejection_time_s = record_.duration_s;
+  }
+  /// Nothing to check where it stands.
+  void check_stop() {
+    if (const auto refused = refused_stop(world_, state_, steps_)) reject(*refused);
   }
   void judge() {
     record_.points.push_back(world_.describe(state_, strain_, record_.duration_s));

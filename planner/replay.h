@@ -4,16 +4,10 @@
 #include <vector>
 
 #include "planner/plan_result.h"
+#include "planner/replay_steps.h"
 #include "planner/world.h"
 
 namespace regoplan {
-
-/// How finely a control history is driven again, and how often the margins are judged on the way.
-struct ReplaySteps {
-  double coarse_s = 0;        ///< the search's step; segments are whole multiples of it
-  int fine_per_coarse = 1;    ///< integrator steps in it; every one is checked against the limits
-  int coarse_per_margin = 1;  ///< margins every so many coarse steps, and at the end
-};
 
 /// A moment of a replay that the margins were judged at.
 struct JudgedState {
@@ -21,8 +15,9 @@ struct JudgedState {
   WheelStrain strain;
 };
 
-/// What driving a control history again comes to. It ends at the goal, at the first state that may
-/// not be, or with the controls.
+/// What driving a control history again comes to. It ends where the goal is reached: at rest in it,
+/// or there as fast as the goal allows, if the vehicle could then stop. Else at the first state
+/// that may not be, or with the controls.
 struct Replay {
   std::vector<TrajectoryPoint> points;  ///< where the margins were judged
   std::vector<JudgedState> judged;      ///< the same moments

@@ -80,6 +80,16 @@ Drive StableSparse::drawn_drive(const VehicleState& from, const VehicleState& to
   return drive;
 }
 
+bool StableSparse::arrive_from(const DriveNode& node) {
+  const Arrival arrival = problem_.arrival(node.values, node.cost, best_.cost());
+  if (!arrival.reached) return false;
+  std::vector<Drive> drives = drives_to(tree_.nodes(), node.parent);
+  drives.push_back(node.drive);
+  const std::vector<Drive> end = drives_of(arrival.controls, problem_.step_s());
+  drives.insert(drives.end(), end.begin(), end.end());
+  return best_.offer(node.cost + arrival.cost, std::move(drives));
+}
+
 bool StableSparse::extend(int parent, const Drive& drive) {
   const World& world = problem_.world();
   const DriveNode& from = tree_.nodes()[static_cast<std::size_t>(parent)];
@@ -95,13 +105,11 @@ bool StableSparse::extend(int parent, const Drive& drive) {
     if (hopeless(node.cost, node.values.vehicle) || !problem_.steps().allowed(node.values)) {
       return false;
     }
-    if (!world.at_goal(node.values.vehicle)) continue;
-    std::vector<Drive> drives = drives_to(tree_.nodes(), parent);
-    drives.push_back(node.drive);
-    return best_.offer(node.cost, std::move(drives));
+    if (world.at_goal(node.values.vehicle)) return arrive_from(node);
   }
-  if (tree_.welcome(node.values.vehicle, node.cost)) tree_.grow(node);
-  return false;
+  if (!tree_.welcome(node.values.vehicle, node.cost)) return false;
+  tree_.grow(node);
+  return arrive_from(node);
 }
 
 ob::PlannerStatus StableSparse::solve(const ob::PlannerTerminationCondition& stop) {

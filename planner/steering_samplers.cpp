@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "planner/ompl_problem.h"
 #include "planner/vehicle_space.h"
 
 namespace regoplan {
@@ -93,9 +95,11 @@ void SteeringSampler::sampleNext(oc::Control* control, const oc::Control* /*prev
   sample(control, state);
 }
 
-PursuitSampler::PursuitSampler(const oc::SpaceInformation* si, const World& world,
-                               const CostToGo& way)
-    : oc::DirectedControlSampler(si), world_(world), way_(way) {}
+PursuitSampler::PursuitSampler(const oc::SpaceInformation* si, OmplProblem& problem)
+    : oc::DirectedControlSampler(si),
+      problem_(problem),
+      world_(problem.world()),
+      way_(problem.way()) {}
 
 unsigned int PursuitSampler::drive(const oc::Control* control, const ob::State* source,
                                    unsigned int steps, ob::State* result) const {
@@ -119,7 +123,7 @@ unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* sou
                                       ob::State* target) {
   constexpr int kTries = 3;
   constexpr unsigned int kShortestMotion = 4;  // steps, unless it arrives
-  constexpr double kGuided = 0.5;
+  constexpr double kGuided = 0.5, kAny = std::numeric_limits<double>::infinity();
   const PlanningProblem& problem = world_.problem();
   const VehicleState& from = vehicle(source);
   const CostToGo::Place place = rng_.uniform01() < kGuided
@@ -142,7 +146,8 @@ unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* sou
         static_cast<unsigned int>(std::clamp(away / travel, static_cast<double>(kShortestMotion),
                                              static_cast<double>(si_->getMaxControlDuration())));
     const unsigned int done = drive(tried, source, steps, reached);
-    const bool arrived = done > 0 && world_.at_goal(vehicle(reached));
+    const auto& values = *reached->as<VehicleSpace::StateType>();
+    const bool arrived = done > 0 && problem_.arrival(values, values.cost, kAny).reached;
     if (done < kShortestMotion && !arrived) continue;
     const double distance =
         arrived ? 0

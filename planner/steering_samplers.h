@@ -8,6 +8,8 @@
 
 namespace regoplan {
 
+class OmplProblem;
+
 /// Curvature whose centripetal force the softest soil of the map can give on the flat, with margin
 /// to spare: 0.38 of the weight, within the steering.
 double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps);
@@ -48,12 +50,12 @@ class SteeringSampler : public ompl::control::ControlSampler {
 };
 
 /// Drives from one state toward another, or half of the time along the cheapest way to the goal:
-/// pure pursuit at several speeds, and some free tries; the motion that comes nearest wins. Motions
-/// end where they reach the goal, or come no nearer.
+/// pure pursuit at several speeds, and some free tries; the motion that comes nearest wins. Those
+/// that arrive at the goal come before all.
 class PursuitSampler : public ompl::control::DirectedControlSampler {
  public:
-  PursuitSampler(const ompl::control::SpaceInformation* si, const World& world,
-                 const CostToGo& way);
+  /// \param problem must outlive it
+  PursuitSampler(const ompl::control::SpaceInformation* si, OmplProblem& problem);
 
   unsigned int sampleTo(ompl::control::Control* control, const ompl::base::State* source,
                         ompl::base::State* target) override;
@@ -65,6 +67,7 @@ class PursuitSampler : public ompl::control::DirectedControlSampler {
   unsigned int drive(const ompl::control::Control* control, const ompl::base::State* source,
                      unsigned int steps, ompl::base::State* result) const;
 
+  OmplProblem& problem_;
   const World& world_;
   const CostToGo& way_;
   ompl::RNG rng_;

@@ -140,6 +140,14 @@ VehicleState World::start() const {
 }
 
 bool World::at_goal(const VehicleState& state) const {
+  if (!within_goal(state)) return false;
+  const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
+  const double speed_mps = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+  const double speed_max_mps = share * problem_.goal.speed_max_mps;
+  return (speed_max_mps > 0 && speed_mps <= speed_max_mps) || dynamics_.at_rest(state);
+}
+
+bool World::within_goal(const VehicleState& state) const {
   const Goal& goal = problem_.goal;
   const double share = use_ == WorldUse::kSearch ? kSearchGoalShare : 1;
   if (std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) > share * goal.radius_m) return false;

@@ -65,6 +65,9 @@ class World {
 
   /// The start of the problem, rolling at its speed.
   VehicleState start() const;
+  /// Whether a state lies in the goal's circle, heading as it asks.
+  bool within_goal(const VehicleState& state) const;
+  /// Whether a state has reached the goal: within it, at rest or no faster than it allows.
   bool at_goal(const VehicleState& state) const;
 
   /// Search steps: as far as a third of a metre at top speed, and within one elevation cell.

@@ -91,6 +91,16 @@ StepResult VehicleDynamics::step(const VehicleState& state, const VehicleControl
   return second;
 }
 
+bool VehicleDynamics::at_rest(const VehicleState& state) const {
+  const BodyMotion& motion = state.motion;
+  constexpr double kRounding_mps = 1e-9;  // of many small steps down to 0
+  return std::abs(state.rim_speed_mps) + std::abs(state.turn_rate_rad_s) * longest_arm_m_ <=
+             kRounding_mps &&
+         std::hypot(motion.vx_mps, motion.vy_mps) +
+                 std::abs(motion.yaw_rate_rad_s) * longest_arm_m_ <=
+             kStandstillSpeed_mps;
+}
+
 VehicleState VehicleDynamics::rolling_state(double x_m, double y_m, double yaw_rad,
                                             double speed_mps, double curvature_1pm,
                                             double crab_rad) const {

@@ -87,6 +87,10 @@ class VehicleDynamics {
   VehicleState rolling_state(double x_m, double y_m, double yaw_rad, double speed_mps,
                              double curvature_1pm = 0, double crab_rad = 0) const;
 
+  /// Whether a vehicle stands: its wheels are commanded to stand still, and none moves faster than
+  /// `kStandstillSpeed_mps`. What motion is left is the creep that stands for static friction.
+  bool at_rest(const VehicleState& state) const;
+
   GroundPatch ground(double x_m, double y_m, double yaw_rad) const {
     return ground_(x_m, y_m, yaw_rad);
   }

@@ -64,7 +64,8 @@ TEST_F(EffectiveSettings, ReadBackAsTheProblemThatTheySay) {
                   .y_m = 20.4,
                   .radius_m = 2.6,
                   .heading_rad = -170.1 * kDegree,
-                  .heading_tolerance_rad = 12.3 * kDegree};
+                  .heading_tolerance_rad = 12.3 * kDegree,
+                  .speed_max_mps = 0.9};
   problem.speed_max_mps = 1.7;
   problem.limits = {.margin_min = 0.07,
                     .slip_max = 0.41,
@@ -162,6 +163,8 @@ TEST_F(EffectiveSettings, AreWhatTheReadmeGivesAsDefaults) {
   EXPECT_EQ(readme_default("limits: margin_min"), settings.at("limits").at("margin_min").dump());
   EXPECT_EQ(readme_default("limits: probability_min"), "none");
   EXPECT_EQ(settings.at("limits").at("probability_min"), 0);
+  EXPECT_EQ(readme_default("goal: {speed_mps: {max}}"), "0: comes to rest there");
+  EXPECT_EQ(settings.at("goal").at("speed_mps").at("max"), 0);
   EXPECT_EQ(readme_default("speed_mps: {max}"), "the vehicle's");
   EXPECT_EQ(settings.at("speed_mps").at("max"), settings.at("vehicle").at("speed_max_mps"));
   const std::vector<std::pair<std::string, std::string>> of_the_vehicle{

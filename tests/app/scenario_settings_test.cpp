@@ -46,6 +46,19 @@ TEST_F(ScenarioSettings, AnglesAreHeldInRadiansAndOmissionsComeFromTheVehicle) {
   EXPECT_FALSE(read.goal.heading_rad);
 }
 
+TEST_F(ScenarioSettings, TheVehicleComesToRestAtTheGoalUnlessMoreIsAllowed) {
+  EXPECT_EQ(problem("200", "201").goal.speed_max_mps, 0);
+  EXPECT_EQ(problem("radius_m: 3", "radius_m: 3, speed_mps: {max: 1.5}").goal.speed_max_mps, 1.5);
+  EXPECT_EQ(error_of("radius_m: 3}", "radius_m: 3, speed_mps: {max: 2}}\nspeed_mps: {max: 1}"),
+            "s.yaml:7: goal.speed_mps.max: 2 is not valid (allowed: 0 to 1)");
+  EXPECT_EQ(error_of("radius_m: 3", "radius_m: 3, speed_mps: {max: -1}").substr(0, 45),
+            "s.yaml:7: goal.speed_mps.max: -1 is not valid");
+  EXPECT_EQ(error_of("radius_m: 3", "radius_m: 3, speed_mps: 1").substr(0, 29),
+            "s.yaml:7: goal.speed_mps: 1 i");
+  EXPECT_EQ(error_of("radius_m: 3", "radius_m: 3, speed_mps: {min: 1}").substr(0, 24),
+            "s.yaml:7: goal.speed_mps");
+}
+
 TEST_F(ScenarioSettings, ALimitThatIsGivenReplacesTheVehiclesAndNoOther) {
   const PlanningProblem read = problem("planner:", "limits: {slope_max_deg: 10}\nplanner:");
   EXPECT_DOUBLE_EQ(read.limits.slope_max_rad, 10 * std::numbers::pi / 180);

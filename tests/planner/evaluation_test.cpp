@@ -69,6 +69,24 @@ TEST(Evaluation, AStraightPathOnFirmGroundIsFeasibleAndTrackedClosely) {
   for (std::size_t i = 1; i < e.s_m.size(); ++i) EXPECT_LE(e.s_m[i] - e.s_m[i - 1], 0.5 + 1e-9);
 }
 
+TEST(Evaluation, APathThatEndsAtSpeedMustLeaveRoomToStop) {
+  // The path ends 5 m before a wall; from 2 m/s the vehicle stops in 6.7 m, from 0.5 m/s at once.
+  PlanningProblem problem = flat_problem();
+  problem.map = one_soil_map(60, firm_regolith(), flat, {{42, 24, 1, 2}, {42, 26, 1, 2}});
+  const std::vector<PathPoint> points{{10, 25}, {37, 25}};
+  const PathEvaluation fast = evaluated(problem, reference(points, 2));
+  ASSERT_TRUE(fast.refusal);
+  EXPECT_EQ(fast.refusal->reason, "obstacle");
+  EXPECT_TRUE(fast.refusal->while_stopping);
+  EXPECT_TRUE(
+      sentence(*fast.refusal).starts_with("the vehicle cannot stop at the end: obstacle at (39."))
+      << sentence(*fast.refusal);
+  EXPECT_TRUE(evaluated(problem, reference(points, 0.5)).feasible);
+  ReferencePath piece = reference(points, 2);
+  piece.goes_on = true;
+  EXPECT_TRUE(evaluated(problem, piece).feasible);
+}
+
 TEST(Evaluation, FasterIsNeverSaferOnATurn) {
   double before = 1;
   for (const double speed : {1.0, 2.0, 3.0, 3.5}) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/replay.h"
@@ -77,7 +78,11 @@ TEST(Lattice, BacksIntoABayThatItMustLeaveForwards) {
       replay(verdict, exact_solution(*run.definition), verification_steps(verdict));
   EXPECT_TRUE(driven.reached_goal);
   EXPECT_FALSE(driven.rejection);
-  EXPECT_LT(driven.end.rim_speed_mps, 0);
+  const auto last_moving =
+      std::find_if(driven.coarse.rbegin(), driven.coarse.rend(),
+                   [](const VehicleState& state) { return state.rim_speed_mps != 0; });
+  ASSERT_NE(last_moving, driven.coarse.rend());
+  EXPECT_LT(last_moving->rim_speed_mps, 0);
 }
 
 }  // namespace regoplan

@@ -1,0 +1,66 @@
+#include "planner/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/planner/flat_problem.h"
+
+namespace regoplan {
+namespace {
+
+/// Straight ahead at 3 m/s, and stopping if asked to.
+Replay driven(const PlanningProblem& problem, double at_speed_s, bool brakes) {
+  const World verdict(problem, WorldUse::kVerdict, 2);
+  std::vector<ControlSegment> controls{{.duration_s = at_speed_s, .speed_target_mps = 2.9}};
+  if (brakes) controls.push_back({.duration_s = 12, .speed_target_mps = 0});
+  return replay(verdict, controls, verification_steps(verdict));
+}
+
+PlanningProblem rolling_toward_the_goal(std::vector<Rock> rocks = {}) {
+  PlanningProblem problem = lrv_problem(one_soil_map(60, firm_regolith(), flat, std::move(rocks)));
+  problem.start = {.x_m = 10, .y_m = 25, .heading_rad = 0, .speed_mps = 2.9};
+  return problem;
+}
+
+}  // namespace
+
+TEST(Replay, CrossingTheGoalAtSpeedIsNotReachingIt) {
+  const Replay crossed = driven(rolling_toward_the_goal(), 13, false);
+  EXPECT_GT(crossed.end.x_m, 45);  // 5 m beyond the centre of a circle of 3 m
+  EXPECT_FALSE(crossed.rejection);
+  EXPECT_FALSE(crossed.reached_goal);
+}
+
+TEST(Replay, GoesOnThroughTheGoalUntilItIsAtRestThere) {
+  // 30 m to the centre, 14 m of them braking.
+  const Replay stopped = driven(rolling_toward_the_goal(), 5.5, true);
+  EXPECT_FALSE(stopped.rejection);
+  ASSERT_TRUE(stopped.reached_goal);
+  EXPECT_NEAR(stopped.end.rim_speed_mps, 0, 1e-9);
+  EXPECT_LE(std::abs(stopped.end.motion.vx_mps), VehicleDynamics::kStandstillSpeed_mps);
+  EXPECT_NEAR(stopped.end.x_m, 40, 3);
+  EXPECT_GT(stopped.duration_s, 5.5 + 2.9 / 0.3 - 0.2);
+}
+
+TEST(Replay, AtTheSpeedThatTheGoalAllowsItEndsAsSoonAsTheCircleIsReached) {
+  PlanningProblem problem = rolling_toward_the_goal();
+  problem.goal.speed_max_mps = 3;
+  const Replay crossed = driven(problem, 13, false);
+  EXPECT_FALSE(crossed.rejection);
+  EXPECT_TRUE(crossed.reached_goal);
+  EXPECT_NEAR(crossed.end.x_m, 37, 0.1);
+}
+
+TEST(Replay, WhoCannotStopBehindTheGoalHasNotReachedIt) {
+  // The nose stands 1.6 m before the origin; braking takes 14 m from 37 m on.
+  PlanningProblem problem = rolling_toward_the_goal({{46, 24, 1, 2}, {46, 26, 1, 2}});
+  problem.goal.speed_max_mps = 3;
+  const Replay crossed = driven(problem, 13, false);
+  ASSERT_TRUE(crossed.rejection);
+  EXPECT_EQ(crossed.rejection->reason, Rejection::kObstacle);
+  EXPECT_TRUE(crossed.rejection->while_stopping);
+  EXPECT_GT(crossed.rejection->x_m, 40);
+}
+
+}  // namespace regoplan
