@@ -7,7 +7,7 @@
 namespace regoplan {
 
 std::vector<std::string> map_file_names() {
-  return {"dem.tif", "classes.tif", "rocks.csv", "soils.yaml", "scenario.yaml"};
+  return {"dem.tif", "classes.tif", "rocks.csv", "soils.yaml", "vehicle.yaml", "scenario.yaml"};
 }
 
 bool write_map_folder(const TerrainMap& map, const ScenarioStub& stub, const ResultFolder& folder,

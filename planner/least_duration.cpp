@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/least_length.h"
+#include "terramech/vehicle_dynamics.h"
 
 namespace regoplan {
 
@@ -30,7 +31,8 @@ double least_duration_s(const PlanningProblem& problem) {
       .speed_max_mps = top,
       .acceleration_mps2 = per_rim_speed * problem.vehicle.acceleration_max_mps2,
       .start_mps = per_rim_speed * problem.start.speed_mps,
-      .end_mps = top};
+      .end_mps = per_rim_speed *
+                 std::max(problem.goal.speed_max_mps, VehicleDynamics::kStandstillSpeed_mps)};
   return drive.duration_s(LeastLength(problem).to_goal_m(problem.start.x_m, problem.start.y_m));
 }
 

@@ -9,7 +9,7 @@ namespace regoplan {
 /// the speed limit (held within .1 %), and, because rims speed up and slow down at
 /// `acceleration_max_mps2` and no wheel may skid beyond `slip_max` (eq. 1, braking: the vehicle is
 /// at most 1/(1 - slip_max) times as fast as its rims), what can be reached from the start's speed
-/// and, where the goal asks for a speed, be brought down to it. Infinite where no way leads to the
+/// and be brought down to what the goal allows. Infinite where no way leads to the
 /// goal.
 double least_duration_s(const PlanningProblem& problem);
 

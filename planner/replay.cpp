@@ -20,6 +20,12 @@ class Driver {
 
   bool goes_on() const { return !record_.rejection && !record_.reached_goal; }
 
+  /// Whether only the last creep with its wheels at rest keeps the vehicle from the goal.
+  bool settles() const {
+    return goes_on() && state_.rim_speed_mps == 0 && world_.within_goal(state_);
+  }
+  double curvature_1pm() const { return state_.curvature_1pm; }
+
   void drive_coarse_step(const VehicleControl& control) {
     const double fine_s = steps_.coarse_s / steps_.fine_per_coarse;
     ++coarse_steps_;
@@ -96,6 +102,13 @@ Replay replay(const World& world, const std::vector<ControlSegment>& controls,
       driver.drive_coarse_step({.speed_target_mps = segment.speed_target_mps,
                                 .curvature_target_1pm = segment.curvature_target_1pm});
     }
+  }
+  // The brakes are held until the vehicle stands. In a finer world that may take a moment longer
+  // than in the one that the controls come from.
+  constexpr double kSettling_s = 2;
+  const auto most = static_cast<int>(std::ceil(kSettling_s / steps.coarse_s));
+  for (int i = 0; i < most && driver.settles(); ++i) {
+    driver.drive_coarse_step({.curvature_target_1pm = driver.curvature_1pm()});
   }
   return driver.take();
 }
