@@ -172,6 +172,7 @@ void OmplProblem::pose(ob::ProblemDefinition& definition) {
 
 void OmplProblem::accept_first_below(double cost) {
   improves_ = false;
+  ++seed_;  // what a planner drew in vain it need not draw again
   cost_below_ = cost;
   if (!std::isfinite(cost)) return;
   // As long as the way that it pays for, were it driven at top speed; half of that, for place and

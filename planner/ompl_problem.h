@@ -47,7 +47,7 @@ class OmplProblem {
   bool improves() const { return improves_; }
 
   /// For a planner that drives others: from here on any path below a cost will do, and the cost is
-  /// a coordinate of states. The next planner is to be made after this.
+  /// a coordinate of states. The next planner is to be made after this, and draws anew.
   void accept_first_below(double cost);
 
   /// Whether a path through a state, reached at a cost, can come to less than what is asked for
