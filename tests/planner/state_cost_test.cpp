@@ -74,7 +74,7 @@ TEST(StateCost, DrivesAnyInnerPlannerBelowTheBound) {
   for (const char* inner : {"RRT", "KPIECE1", "EST", "StableSparse"}) {
     PlannerRun run(world, "StateCost", true);
     run.planner().params().setParam("inner", inner);
-    ASSERT_EQ(run.solve(40000), ob::PlannerStatus::EXACT_SOLUTION) << inner;
+    ASSERT_EQ(run.solve(20000), ob::PlannerStatus::EXACT_SOLUTION) << inner;
     EXPECT_GT(run.announced_costs.size(), 1u) << inner;
     EXPECT_TRUE(std::is_sorted(run.announced_costs.rbegin(), run.announced_costs.rend())) << inner;
   }
