@@ -42,11 +42,13 @@ SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings,
     return make_synthetic_terrain(settings);
   } catch (const ValueError& bad) {
     const std::string option = option_name(bad.field());
-    const ValueError error(option, bad.value(), bad.allowed());
-    if (given.empty() || std::ranges::find(given, option) != given.end()) throw error;
+    if (given.empty() || std::ranges::find(given, option) != given.end()) {
+      throw ValueError(option, bad.value(), bad.allowed());
+    }
     // A default that does not go with what was given.
     throw InputError(fmt::format("{}: does not go with the default of {}; give that as well",
-                                 fmt::join(given, ", "), error.what()));
+                                 fmt::join(given, ", "),
+                                 ValueError(option, bad.value(), bad.allowed()).what()));
   }
 }
 
