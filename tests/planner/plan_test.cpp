@@ -201,7 +201,7 @@ TEST(Plan, AStopRequestEndsItWithWhatThereIs) {
   EXPECT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
 }
 
-TEST(Plan, TheTimeGivenIsThatOfTheWholeAnswer) {
+TEST(PlanTime, IsThatOfTheWholeAnswer) {
   UncertainSoil uncertain = firm_regolith();
   uncertain.standard_deviation.friction_angle_rad = 4 * kTestDegree;
   PlanningProblem problem = lrv_problem(one_soil_map(50, uncertain, flat));
@@ -219,7 +219,7 @@ TEST(Plan, TheTimeGivenIsThatOfTheWholeAnswer) {
   EXPECT_LT(*result.first_verified_s, 0.5 * 4);
 }
 
-TEST(Plan, WantOfTimeIsSaidFirstWithATimeThatMayDo) {
+TEST(PlanTime, WantOfItIsSaidFirstWithATimeThatMayDo) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   problem.search.iterations.reset();
   problem.search.time_s = 0.06;
