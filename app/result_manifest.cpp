@@ -32,11 +32,11 @@ ResultManifest::ResultManifest(std::filesystem::path folder) : folder_(std::move
   std::ifstream stream(folder_ / kName);
   for (std::string line; std::getline(stream, line);) {
     std::uint64_t digest = 0;
-    constexpr std::size_t kDigits = 16, kName = kDigits + 2;
-    if (line.size() <= kName) continue;
+    constexpr std::size_t kDigits = 16, kNameAt = kDigits + 2;
+    if (line.size() <= kNameAt) continue;
     const char* end = line.data() + kDigits;
     if (std::from_chars(line.data(), end, digest, 16).ptr != end) continue;
-    digests_[line.substr(kName)].insert(digest);
+    digests_[line.substr(kNameAt)].insert(digest);
   }
 }
 
