@@ -43,8 +43,7 @@ ExitStatus write_figures(const WheelOptions& options) {
 /// Where the table goes; a folder that does not exist is a slip of the hand here.
 ResultFolder out_folder(const WheelOptions& options) {
   if (!options.out) return {};
-  const ResultFolder folder{std::filesystem::absolute(*options.out).parent_path(),
-                            options.folder.force};
+  ResultFolder folder{std::filesystem::absolute(*options.out).parent_path(), options.folder.force};
   if (!std::filesystem::exists(folder.path)) {
     throw InputError(fmt::format("--out: the folder {} does not exist", folder.path.string()));
   }
