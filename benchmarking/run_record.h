@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "planner/benchmark_run.h"
+#include "planner/benchmark/benchmark_run.h"
 
 namespace regoplan {
 

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
-#include "planner/child_processes.h"
-#include "planner/world.h"
+#include "planner/problem/world.h"
+#include "planner/runtime/child_processes.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {

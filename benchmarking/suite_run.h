@@ -8,7 +8,7 @@
 
 #include "benchmarking/run_journal.h"
 #include "benchmarking/suite.h"
-#include "planner/planning_problem.h"
+#include "planner/problem/planning_problem.h"
 
 namespace regoplan {
 

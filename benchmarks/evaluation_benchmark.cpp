@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/evaluation.h"
-#include "planner/manoeuvres.h"
+#include "planner/evaluation/evaluation.h"
+#include "planner/evaluation/manoeuvres.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {

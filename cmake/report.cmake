@@ -23,7 +23,7 @@ report_files(benchmark_scripts benchmark planners.js tables.js profiles.js sprea
 report_files(diagnosis_scripts diagnosis model.js residual_maps.js curves.js tables.js main.js)
 
 regoplan_embed(
-  regoplan_app app/report_assets.h
+  regoplan_app app/page/report_assets.h
   kD3 ${node_d3_script}
   kD3Licence ${node_d3_licence}
   kPageHtml app/report/page/page.html

@@ -9,20 +9,21 @@
 #include <optional>
 #include <utility>
 
-#include "planner/child_processes.h"
-#include "planner/crash_ahead.h"
-#include "planner/least_duration.h"
-#include "planner/plain_bytes.h"
-#include "planner/ranking.h"
-#include "planner/rejection_text.h"
+#include "planner/certificate/least_duration.h"
+#include "planner/certificate/relaxed_problem.h"
+#include "planner/certificate/undecided.h"
+#include "planner/chart/margin_rasters.h"
+#include "planner/driving/crash_ahead.h"
+#include "planner/driving/margin_draws.h"
+#include "planner/driving/what_if.h"
+#include "planner/problem/rejection_text.h"
 #include "planner/relaxation.h"
-#include "planner/relaxed_problem.h"
-#include "planner/run_schedule.h"
-#include "planner/terrain_rasters.h"
-#include "planner/time_budget.h"
-#include "planner/undecided.h"
-#include "planner/verified_path.h"
-#include "planner/what_if.h"
+#include "planner/runtime/child_processes.h"
+#include "planner/runtime/plain_bytes.h"
+#include "planner/runtime/time_budget.h"
+#include "planner/search/run_schedule.h"
+#include "planner/verdict/ranking.h"
+#include "planner/verdict/verified_path.h"
 
 namespace regoplan {
 namespace {

@@ -5,8 +5,8 @@
 #include <stop_token>
 #include <string_view>
 
-#include "planner/plan_result.h"
-#include "planner/planning_problem.h"
+#include "planner/problem/plan_result.h"
+#include "planner/problem/planning_problem.h"
 
 namespace regoplan {
 

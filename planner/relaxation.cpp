@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "planner/child_processes.h"
-#include "planner/relaxed_problem.h"
-#include "planner/search_run.h"
-#include "planner/verified_path.h"
+#include "planner/certificate/relaxed_problem.h"
+#include "planner/ompl/search_run.h"
+#include "planner/runtime/child_processes.h"
+#include "planner/verdict/verified_path.h"
 
 namespace regoplan {
 namespace {

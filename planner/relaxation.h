@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/planning_problem.h"
-#include "planner/time_budget.h"
+#include "planner/problem/planning_problem.h"
+#include "planner/runtime/time_budget.h"
 
 namespace regoplan {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "planner/search_processes.h"
-#include "planner/verified_path.h"
+#include "planner/search/search_processes.h"
+#include "planner/verdict/verified_path.h"
 
 namespace regoplan {
 

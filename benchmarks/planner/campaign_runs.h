@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/scenario_settings.h"
+#include "app/settings/scenario_settings.h"
 #include "benchmarks/planner/campaigns.h"
-#include "planner/search_run.h"
+#include "planner/ompl/search_run.h"
 
 namespace regoplan {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/soil_uncertainty.h"
+#include "planner/soils/soil_uncertainty.h"
 
 namespace regoplan {
 

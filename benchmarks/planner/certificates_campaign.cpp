@@ -4,7 +4,7 @@
 #include "benchmarks/planner/campaign_text.h"
 #include "benchmarks/planner/campaigns.h"
 #include "benchmarks/planner/random_problem.h"
-#include "planner/relaxed_problem.h"
+#include "planner/certificate/relaxed_problem.h"
 
 namespace regoplan {
 

@@ -6,8 +6,9 @@
 #include "benchmarks/planner/campaign_runs.h"
 #include "benchmarks/planner/campaign_text.h"
 #include "benchmarks/planner/campaigns.h"
+#include "planner/driving/margin_draws.h"
+#include "planner/driving/replay.h"
 #include "planner/plan.h"
-#include "planner/replay.h"
 
 namespace regoplan {
 

@@ -5,8 +5,8 @@
 #include <functional>
 #include <random>
 
-#include "planner/search_processes.h"
-#include "planner/verified_path.h"
+#include "planner/search/search_processes.h"
+#include "planner/verdict/verified_path.h"
 #include "terramech/input_error.h"
 #include "tests/planner/flat_problem.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "planner/planning_problem.h"
+#include "planner/problem/planning_problem.h"
 
 namespace regoplan {
 

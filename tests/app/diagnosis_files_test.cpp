@@ -1,10 +1,10 @@
-#include "app/diagnosis_files.h"
+#include "app/diagnose/diagnosis_files.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "app/model_settings.h"
+#include "app/settings/model_settings.h"
 #include "tests/app/diagnosis_fixture.h"
 #include "tests/app/scratch_folder.h"
 #include "tests/terramech/csv_rows.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/diagnosis_files.h"
+#include "app/diagnose/diagnosis_files.h"
 
 namespace regoplan {
 

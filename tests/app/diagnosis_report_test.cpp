@@ -1,4 +1,4 @@
-#include "app/diagnosis_report.h"
+#include "app/diagnose/diagnosis_report.h"
 
 #include <gtest/gtest.h>
 

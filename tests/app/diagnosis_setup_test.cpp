@@ -1,4 +1,4 @@
-#include "app/diagnosis_setup.h"
+#include "app/diagnose/diagnosis_setup.h"
 
 #include <gtest/gtest.h>
 

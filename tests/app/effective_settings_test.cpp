@@ -1,4 +1,4 @@
-#include "app/effective_settings.h"
+#include "app/settings/effective_settings.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/scenario_settings.h"
-#include "app/vehicle_settings.h"
+#include "app/settings/scenario_settings.h"
+#include "app/settings/vehicle_settings.h"
 #include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"

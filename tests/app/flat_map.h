@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/soil_settings.h"
+#include "app/settings/soil_settings.h"
 #include "maps/raster_files.h"
 #include "tests/app/scratch_folder.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "app/scenario_settings.h"
-#include "app/vehicle_settings.h"
-#include "planner/world.h"
+#include "app/settings/scenario_settings.h"
+#include "app/settings/vehicle_settings.h"
+#include "planner/problem/world.h"
 #include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"

@@ -6,7 +6,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <set>
 
-#include "app/recording_file.h"
+#include "app/diagnose/recording_file.h"
 #include "diagnosis/condensed_recording.h"
 #include "diagnosis/discrepancy.h"
 #include "tests/measured_data.h"

@@ -1,4 +1,4 @@
-#include "app/plan_files.h"
+#include "app/plan/plan_files.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/csv_cells.h"
-#include "planner/terrain_rasters.h"
+#include "app/io/csv_cells.h"
+#include "planner/chart/margin_rasters.h"
 #include "tests/app/flat_map.h"
 
 namespace regoplan {

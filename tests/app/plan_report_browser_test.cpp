@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "app/plan_report.h"
+#include "app/plan/plan_report.h"
 #include "tests/app/browser_page.h"
 #include "tests/app/plan_report_fixture.h"
 

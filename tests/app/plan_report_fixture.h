@@ -1,7 +1,7 @@
 #pragma once
 
-#include "planner/plan_result.h"
-#include "planner/planning_problem.h"
+#include "planner/problem/plan_result.h"
+#include "planner/problem/planning_problem.h"
 
 namespace regoplan {
 

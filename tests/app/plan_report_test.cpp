@@ -1,4 +1,4 @@
-#include "app/plan_report.h"
+#include "app/plan/plan_report.h"
 
 #include <gtest/gtest.h>
 

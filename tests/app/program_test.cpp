@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/vehicle_settings.h"
+#include "app/settings/vehicle_settings.h"
 #include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"

@@ -1,4 +1,4 @@
-#include "app/recording_checks.h"
+#include "app/diagnose/recording_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include "app/diagnosis_setup.h"
+#include "app/diagnose/diagnosis_setup.h"
 #include "tests/app/error_text.h"
 #include "tests/app/simulant_model.h"
 

@@ -1,4 +1,4 @@
-#include "app/recording_file.h"
+#include "app/diagnose/recording_file.h"
 
 #include <gtest/gtest.h>
 

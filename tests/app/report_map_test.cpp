@@ -1,4 +1,4 @@
-#include "app/report_map.h"
+#include "app/page/report_map.h"
 
 #include <gtest/gtest.h>
 

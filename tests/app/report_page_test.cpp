@@ -1,10 +1,10 @@
-#include "app/report_page.h"
+#include "app/page/report_page.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "app/report_assets.h"
+#include "app/page/report_assets.h"
 
 namespace regoplan {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/scenario_settings.h"
+#include "app/settings/scenario_settings.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "app/settings_mapping.h"
+#include "app/settings/settings_mapping.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/settings_node.h"
+#include "app/settings/settings_node.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/soil_settings.h"
+#include "app/settings/soil_settings.h"
 
 #include <gtest/gtest.h>
 

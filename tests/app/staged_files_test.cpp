@@ -1,4 +1,4 @@
-#include "app/staged_files.h"
+#include "app/io/staged_files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "app/vehicle_settings.h"
+#include "app/settings/vehicle_settings.h"
 
 #include <gtest/gtest.h>
 

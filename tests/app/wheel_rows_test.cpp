@@ -1,4 +1,4 @@
-#include "app/wheel_rows.h"
+#include "app/wheel/wheel_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/csv_cells.h"
-#include "app/model_settings.h"
+#include "app/io/csv_cells.h"
+#include "app/settings/model_settings.h"
 #include "tests/app/error_text.h"
 #include "tests/app/simulant_model.h"
 

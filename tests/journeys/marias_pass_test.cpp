@@ -1,7 +1,7 @@
 // Real terrain: between two of Curiosity's stops in Gale crater.
 #include <gtest/gtest.h>
 
-#include "app/scenario_settings.h"
+#include "app/settings/scenario_settings.h"
 #include "planner/plan.h"
 #include "tests/measured_data.h"
 

@@ -2,11 +2,11 @@
 // passes its verification, within a budget of drives that takes about a second.
 #include <gtest/gtest.h>
 
-#include "app/scenario_settings.h"
-#include "planner/crash_ahead.h"
-#include "planner/relaxed_problem.h"
-#include "planner/search_run.h"
-#include "planner/verified_path.h"
+#include "app/settings/scenario_settings.h"
+#include "planner/certificate/relaxed_problem.h"
+#include "planner/driving/crash_ahead.h"
+#include "planner/ompl/search_run.h"
+#include "planner/verdict/verified_path.h"
 
 namespace regoplan {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/arrival.h"
+#include "planner/ompl/arrival.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "planner/verified_path.h"
+#include "planner/verdict/verified_path.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "planner/child_processes.h"
+#include "planner/runtime/child_processes.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

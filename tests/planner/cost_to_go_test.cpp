@@ -1,11 +1,11 @@
-#include "planner/cost_to_go.h"
+#include "planner/certificate/cost_to_go.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "planner/steepest_climb.h"
+#include "planner/certificate/steepest_climb.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "planner/crash_ahead.h"
+#include "planner/driving/crash_ahead.h"
 
 #include <gtest/gtest.h>
 

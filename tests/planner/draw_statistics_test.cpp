@@ -1,4 +1,4 @@
-#include "planner/draw_statistics.h"
+#include "planner/runtime/draw_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "planner/evaluation.h"
+#include "planner/evaluation/evaluation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/manoeuvres.h"
+#include "planner/evaluation/manoeuvres.h"
 #include "planner/plan.h"
 #include "terramech/input_error.h"
 #include "tests/planner/flat_problem.h"

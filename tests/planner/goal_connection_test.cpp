@@ -1,11 +1,11 @@
-#include "planner/goal_connection.h"
+#include "planner/ompl/goal_connection.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "planner/replay.h"
+#include "planner/driving/replay.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

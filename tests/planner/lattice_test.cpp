@@ -1,11 +1,11 @@
-#include "planner/lattice.h"
+#include "planner/ompl/lattice.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/path_improvement.h"
-#include "planner/replay.h"
+#include "planner/driving/replay.h"
+#include "planner/ompl/path_improvement.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

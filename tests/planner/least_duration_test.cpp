@@ -1,4 +1,4 @@
-#include "planner/least_duration.h"
+#include "planner/certificate/least_duration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "planner/least_length.h"
+#include "planner/certificate/least_length.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "planner/drive.h"
+#include "planner/ompl/drive.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

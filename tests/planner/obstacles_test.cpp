@@ -1,4 +1,4 @@
-#include "planner/obstacles.h"
+#include "planner/problem/obstacles.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What of OMPL would go wrong unnoticed, each held by a law.
-#include "planner/ompl_problem.h"
+#include "planner/ompl/ompl_problem.h"
 
 #include <gtest/gtest.h>
 #include <ompl/base/OptimizationObjective.h>
@@ -8,8 +8,8 @@
 #include <sanitizer/lsan_interface.h>
 #endif
 
-#include "planner/map_decomposition.h"
-#include "planner/vehicle_space.h"
+#include "planner/ompl/map_decomposition.h"
+#include "planner/ompl/vehicle_space.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

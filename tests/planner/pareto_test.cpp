@@ -1,4 +1,4 @@
-#include "planner/pareto.h"
+#include "planner/verdict/pareto.h"
 
 #include <gtest/gtest.h>
 

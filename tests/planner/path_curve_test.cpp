@@ -1,4 +1,4 @@
-#include "planner/path_curve.h"
+#include "planner/course/path_curve.h"
 
 #include <gtest/gtest.h>
 

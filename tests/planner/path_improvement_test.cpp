@@ -1,14 +1,14 @@
-#include "planner/path_improvement.h"
+#include "planner/ompl/path_improvement.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "planner/path_smoothing.h"
+#include "planner/course/path_smoothing.h"
+#include "planner/driving/replay.h"
 #include "planner/plan.h"
-#include "planner/replay.h"
-#include "planner/search_processes.h"
+#include "planner/search/search_processes.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

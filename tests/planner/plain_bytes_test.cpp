@@ -1,9 +1,9 @@
-#include "planner/plain_bytes.h"
+#include "planner/runtime/plain_bytes.h"
 
 #include <gtest/gtest.h>
 
-#include "planner/verified_path.h"
-#include "planner/what_if.h"
+#include "planner/driving/what_if.h"
+#include "planner/verdict/verified_path.h"
 
 namespace regoplan {
 namespace {

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "planner/replay.h"
-#include "planner/world.h"
+#include "planner/driving/replay.h"
+#include "planner/problem/world.h"
 #include "terramech/input_error.h"
 #include "tests/planner/flat_problem.h"
 

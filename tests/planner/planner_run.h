@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/ompl_planners.h"
-#include "planner/ompl_problem.h"
+#include "planner/ompl/ompl_planners.h"
+#include "planner/ompl/ompl_problem.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

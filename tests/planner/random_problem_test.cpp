@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "planner/relaxed_problem.h"
+#include "planner/certificate/relaxed_problem.h"
 
 namespace regoplan {
 

@@ -1,4 +1,4 @@
-#include "planner/rejection_text.h"
+#include "planner/problem/rejection_text.h"
 
 #include <gtest/gtest.h>
 

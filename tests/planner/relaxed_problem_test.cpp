@@ -1,12 +1,12 @@
-#include "planner/relaxed_problem.h"
+#include "planner/certificate/relaxed_problem.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "planner/closed_boxes.h"
-#include "planner/world.h"
+#include "planner/certificate/closed_boxes.h"
+#include "planner/problem/world.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "planner/replay.h"
+#include "planner/driving/replay.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "planner/soil_uncertainty.h"
+#include "planner/soils/soil_uncertainty.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "planner/world.h"
+#include "planner/problem/world.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "planner/speed_profile.h"
+#include "planner/course/speed_profile.h"
 
 #include <gtest/gtest.h>
 

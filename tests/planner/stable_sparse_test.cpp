@@ -1,8 +1,8 @@
-#include "planner/stable_sparse.h"
+#include "planner/ompl/stable_sparse.h"
 
 #include <gtest/gtest.h>
 
-#include "planner/replay.h"
+#include "planner/driving/replay.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

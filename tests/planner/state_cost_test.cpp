@@ -1,12 +1,12 @@
-#include "planner/state_cost.h"
+#include "planner/ompl/state_cost.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "planner/replay.h"
-#include "planner/search_processes.h"
+#include "planner/driving/replay.h"
+#include "planner/search/search_processes.h"
 #include "tests/planner/planner_run.h"
 
 namespace regoplan {

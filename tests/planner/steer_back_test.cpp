@@ -1,4 +1,4 @@
-#include "planner/steer_back.h"
+#include "planner/driving/steer_back.h"
 
 #include <gtest/gtest.h>
 

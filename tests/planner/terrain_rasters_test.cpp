@@ -1,11 +1,10 @@
-#include "planner/terrain_rasters.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "planner/world.h"
+#include "planner/chart/margin_rasters.h"
+#include "planner/problem/world.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "planner/undecided.h"
+#include "planner/certificate/undecided.h"
 
 #include <gtest/gtest.h>
 

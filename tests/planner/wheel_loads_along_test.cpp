@@ -1,4 +1,4 @@
-#include "planner/wheel_loads_along.h"
+#include "planner/driving/wheel_loads_along.h"
 
 #include <gtest/gtest.h>
 

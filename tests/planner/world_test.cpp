@@ -1,4 +1,4 @@
-#include "planner/world.h"
+#include "planner/problem/world.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,190 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include "app/benchmark/benchmark_files.h"
+#include "app/benchmark/benchmark_report.h"
+#include "app/command/command.h"
+#include "app/command/plan_options.h"
+#include "app/command/suite_progress_line.h"
+#include "app/io/interrupt.h"
+#include "app/io/staged_files.h"
+#include "app/settings/scenario_settings.h"
+#include "app/settings/suite_settings.h"
+#include "benchmarking/suite_run.h"
+
+namespace regoplan {
+namespace {
+
+struct BenchmarkOptions {
+  std::string suite;
+  ResultFolder out;
+  std::string shard = "1/1";
+  int processes = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<std::filesystem::path> parts;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `I/N`.
+Shard shard_of(const std::string& text) {
+  Shard shard;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.index);
+  const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = slash ? std::from_chars(first.ptr + 1, end, shard.count) : first;
+  if (!slash || second.ec != std::errc() || second.ptr != end || shard.count < 1 ||
+      shard.index < 1 || shard.index > shard.count) {
+    throw InputError(fmt::format("--shard: {} is not valid (allowed: I/N with 1 <= I <= N)", text));
+  }
+  return shard;
+}
+
+std::string host_name() {
+  char name[256] = {};
+  return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+}
+
+std::string processor() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);) {
+    const std::size_t colon = line.find(':');
+    if (line.starts_with("model name") && colon + 2 < line.size()) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &utc);
+  return text;
+}
+
+/// What is needed of every scenario, read once.
+struct ReadScenarios {
+  std::map<std::string, std::string> digests;  ///< by label
+  ScenarioMaps maps;
+};
+
+/// Sets every sweep point too, so that bad input shows before the first run.
+ReadScenarios read_scenarios(const Suite& suite) {
+  ReadScenarios read;
+  for (std::size_t i = 0; i < suite.scenarios.size(); ++i) {
+    const SuiteScenario& scenario = suite.scenarios[i];
+    PlanningProblem problem = read_scenario(scenario.file, {}).problem;
+    read.digests[scenario.label] = digest(scenario.file, problem);
+    read.maps.emplace(scenario.label, problem.map);
+    for (std::size_t point = 0; point < suite.sweep.size(); ++point) {
+      problem = at_sweep_point(std::move(problem), suite, i, point);
+    }
+  }
+  return read;
+}
+
+JournalOrigin origin_of(const Suite& suite, const ReadScenarios& read) {
+  return {.suite = suite.name,
+          .bounds = suite.bounds,
+          .version = REGOPLAN_VERSION,
+          .host = host_name(),
+          .cpu = processor(),
+          .started = utc_now(),
+          .scenarios = read.digests,
+          .planners = suite.planners};
+}
+
+void print_outcome(const SuiteResults& results, const BenchmarkOptions& options) {
+  if (options.json) {
+    fmt::print("{}", benchmark_json(results));
+  } else if (!options.quiet) {
+    fmt::print("{}\nreport: {}\n", benchmark_headline(results),
+               (options.out.path / "report.html").string());
+  }
+}
+
+ExitStatus run_benchmark(const BenchmarkOptions& options) {
+  if (options.suite.empty() || options.out.path.empty()) {
+    throw InputError("SUITE.yaml and --out DIR are needed, or merge");
+  }
+  const Shard shard = shard_of(options.shard);
+  const Suite suite = read_suite(options.suite);
+  require_results_fit(options.out, benchmark_file_names());
+  const ReadScenarios read = read_scenarios(suite);
+  const std::stop_token stop = stop_on_interrupt();
+  {
+    RunJournal journal(options.out.path, origin_of(suite, read));
+    SuiteProgressLine line(options.quiet);
+    run_suite(
+        suite, runs_of(suite, shard), journal, options.processes,
+        [&suite](std::size_t scenario, std::size_t point) {
+          return at_sweep_point(read_scenario(suite.scenarios[scenario].file, {}).problem, suite,
+                                scenario, point);
+        },
+        [&line](const SuiteProgress& progress) { line.show(progress); }, stop);
+  }
+  const SuiteResults results{.journal = read_journal(options.out.path),
+                             .interrupted = stop.stop_requested()};
+  write_benchmark_files(results, read.maps, options.out);
+  print_outcome(results, options);
+  return results.interrupted ? kInterrupted : kYes;
+}
+
+ExitStatus run_merge(const BenchmarkOptions& options) {
+  require_results_fit(options.out, benchmark_file_names());
+  std::vector<JournalContents> parts;
+  if (std::filesystem::exists(options.out.path / "runs.jsonl")) {
+    throw InputError(options.out.path.string() + ": holds a benchmark already (runs.jsonl)");
+  }
+  for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
+  const SuiteResults results{.journal = merged(parts)};
+  std::filesystem::create_directories(options.out.path);
+  write_benchmark_files(results, {}, options.out);
+  write_journal(options.out.path, results.journal);
+  print_outcome(results, options);
+  return kYes;
+}
+
+}  // namespace
+
+Command add_benchmark_command(CLI::App& program) {
+  const auto options = std::make_shared<BenchmarkOptions>();
+  CLI::App* parser =
+      program.add_subcommand("benchmark",
+                             "Run scenarios x planners x seeds through OMPL's benchmark tool.\n"
+                             "Writes EXPERIMENT.log, benchmark.db, benchmark.json and report.html. "
+                             "Started again with the\n"
+                             "same folder after a kill, it goes on where it was.");
+  parser->add_option("SUITE.yaml", options->suite, "scenarios, planners, seeds, bounds, sweep");
+  parser->add_option("--out", options->out.path, "folder for the results")->type_name("DIR");
+  parser->add_option("--shard", options->shard, "the I-th of N disjoint parts")
+      ->type_name("I/N")
+      ->capture_default_str();
+  parser->add_option("--processes", options->processes, "runs at once; default: all cores")
+      ->type_name("N")
+      ->check(in_range({.min = 1, .max = kThreadsMax}));
+  add_force_flag(*parser, options->out);
+  add_network_flag(*parser);
+  add_output_flags(*parser, options->json, options->quiet);
+
+  CLI::App* merge = parser->add_subcommand("merge", "Join the results of shards.");
+  merge->add_option("DIR", options->parts, "folders of shards")->required();
+  merge->add_option("--out", options->out.path, "folder for the whole")
+      ->type_name("DIR")
+      ->required();
+  add_force_flag(*merge, options->out);
+  add_output_flags(*merge, options->json, options->quiet);
+  return {parser, [options, merge] {
+            return merge->parsed() ? run_merge(*options) : run_benchmark(*options);
+          }};
+}
+
+}  // namespace regoplan

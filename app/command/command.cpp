@@ -1,0 +1,42 @@
+#include "app/command/command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/io/number_text.h"
+#include "app/io/printable_text.h"
+
+namespace regoplan {
+
+CLI::Validator in_range(const ValueRange& allowed) {
+  return {[allowed](std::string& text) {
+            const std::optional<double> value = parse_number(text);
+            return value && allowed.contains(*value)
+                       ? std::string()
+                       : fmt::format("{} is not valid (allowed: {})", text, allowed.text());
+          },
+          ""};
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  return {[words = std::move(words)](std::string& text) {
+            return std::ranges::find(words, text) != words.end()
+                       ? std::string()
+                       : fmt::format("{} is not valid (allowed: {})", text,
+                                     fmt::join(words, " | "));
+          },
+          ""};
+}
+
+void print_line(std::string_view text) {
+  std::fputs(fmt::format("regoplan: {}\n", printable(text)).c_str(), stderr);
+}
+
+void notify(const std::string& notice, bool quiet) {
+  if (!quiet) print_line(notice);
+}
+
+}  // namespace regoplan

@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/command/command.h"
+#include "app/command/plan_options.h"
+#include "app/command/progress_line.h"
+#include "app/diagnose/diagnosis_files.h"
+#include "app/diagnose/diagnosis_report.h"
+#include "app/diagnose/diagnosis_summary.h"
+#include "app/diagnose/recording_checks.h"
+#include "app/io/interrupt.h"
+#include "app/io/staged_files.h"
+#include "app/settings/scenario_settings.h"
+
+namespace regoplan {
+namespace {
+
+struct Options {
+  std::string recording;
+  std::string setup;
+  ResultFolder folder;
+  std::uint64_t seed = 1;
+  std::optional<int> threads;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// What the recording does without; of many rows, the first.
+void notify_of_left_out(const std::vector<LeftOutRow>& rows, bool quiet) {
+  constexpr std::size_t kShown = 5;
+  for (std::size_t i = 0; i < std::min(kShown, rows.size()); ++i) {
+    notify(rows[i].why + ": the row is left out", quiet);
+  }
+  if (rows.size() <= kShown) return;
+  notify(
+      fmt::format("{} more rows are left out (left_out in diagnosis.json)", rows.size() - kShown),
+      quiet);
+}
+
+/// `diagnose` knows runs, not files: its errors get the file in front.
+Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options) {
+  try {
+    return diagnose(run.recording.recording, run.setup.setup, options);
+  } catch (const InputError& bad) {
+    throw InputError(fmt::format("{}: {}", run.recording.file, bad.what()));
+  }
+}
+
+ExitStatus run_diagnosis(const Options& options) {
+  require_writable_folder(options.folder.path);
+  DiagnosisRun run{.setup_file = options.setup, .seed = options.seed};
+  run.setup = read_setup_file(options.setup);
+  run.recording = read_recording(options.recording);
+  Recording& recording = run.recording.recording;
+  for (std::string& warning : doubtful_values(run.recording, run.setup.setup)) {
+    recording.warnings.push_back(std::move(warning));
+  }
+  for (const auto* warnings : {&run.setup.warnings, &recording.warnings}) {
+    for (const std::string& warning : *warnings) notify(warning, options.quiet);
+  }
+  notify_of_left_out(run.recording.left_out, options.quiet);
+  if (!recording.ignored.empty()) {
+    notify(fmt::format("{}: {} kept and not used", options.recording,
+                       fmt::join(recording.ignored, ", ")),
+           options.quiet);
+  }
+
+  require_results_fit(options.folder, diagnosis_file_names());
+  const std::stop_token stop = stop_on_interrupt();
+  {
+    ProgressLine line(options.quiet);
+    run.diagnosis = diagnose_file(
+        run,
+        {.seed = options.seed,
+         .threads = overridden({}, {.threads = options.threads}).threads,
+         .stop = stop,
+         .progress = [&line](std::string_view stage, double share) { line.show(stage, share); }});
+  }
+  write_diagnosis_files(run, options.folder);
+  if (options.json) {
+    fmt::print("{}", diagnosis_json(run));
+  } else if (!options.quiet) {
+    fmt::print("{}report: {}\n", diagnosis_summary(run),
+               (options.folder.path / "report.html").string());
+  }
+  if (run.diagnosis.interrupted) return kInterrupted;
+  return run.diagnosis.verdict == Verdict::kUnexplained ? kNo : kYes;
+}
+
+}  // namespace
+
+Command add_diagnose_command(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* parser = program.add_subcommand(
+      "diagnose",
+      "Where a recording of a single wheel and the model differ, and what physics was left out.\n"
+      "Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html. Exit status 0: "
+      "consistent or explained, 2: unexplained.");
+  parser
+      ->add_option("RECORDING.csv", options->recording,
+                   "run_id, load_n, slip_ratio, slip_angle_deg and at least one of fx_n, fy_n, "
+                   "torque_nm, sinkage_m; optional day, replicate, pass, ...")
+      ->required();
+  parser
+      ->add_option("--setup", options->setup,
+                   "model, wheel, gravity_mps2, soil with priors {mean, std}, optional noise")
+      ->type_name("SETUP.yaml")
+      ->required();
+  parser->add_option("--out", options->folder.path, "folder for the results")
+      ->type_name("DIR")
+      ->required();
+  parser->add_option("--seed", options->seed, "of all that is drawn")
+      ->type_name("N")
+      ->check(in_range(kAtLeast0))
+      ->capture_default_str();
+  parser->add_option("--threads", options->threads, "default: all cores; changes no result")
+      ->type_name("N")
+      ->check(in_range({.min = 1, .max = kThreadsMax}));
+  add_force_flag(*parser, options->folder);
+  add_output_flags(*parser, options->json, options->quiet);
+  return {parser, [options] { return run_diagnosis(*options); }};
+}
+
+}  // namespace regoplan

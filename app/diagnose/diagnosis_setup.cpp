@@ -1,0 +1,95 @@
+#include "app/diagnose/diagnosis_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "app/settings/model_settings.h"
+#include "app/settings/settings_mapping.h"
+#include "app/settings/soil_settings.h"
+
+namespace regoplan {
+namespace {
+
+constexpr std::array<Channel, kChannelCount> kChannels{Channel::kFx,      Channel::kFy,
+                                                       Channel::kTorque,  Channel::kSinkage,
+                                                       Channel::kRutLeft, Channel::kRutRight};
+
+std::map<Channel, double> read_noise(const SettingsNode& node) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
+    std::map<Channel, double> noise;
+    for (const Channel channel : kChannels) {
+      if (const SettingsNode* deviation = mapping.optional(name(channel))) {
+        noise[channel] = deviation->number(kAbove0);
+      }
+    }
+    return noise;
+  });
+}
+
+/// Means that hardly any soil has, but that the usual mistake of a unit gives.
+std::vector<std::string> doubtful_soil(const SettingsNode& soil, const Soil& mean) {
+  struct Doubt {
+    const char* key;
+    double value, below;
+    const char* unit;
+  };
+  const std::array<Doubt, 3> doubts{{
+      {"friction_angle_deg", mean.friction_angle_rad * 180 / std::numbers::pi, 2, "radians"},
+      {"cohesion_pa", mean.cohesion_pa, 10, "kPa"},
+      {"density_kgpm3", mean.density_kgpm3, 100, "g/cm3"},
+  }};
+  std::vector<std::string> warnings;
+  for (const Doubt& doubt : doubts) {
+    if (doubt.value == 0 || doubt.value >= doubt.below) continue;
+    const SettingsNode* place = soil.find(doubt.key);
+    warnings.emplace_back(
+        (place ? *place : soil)
+            .error(fmt::format("{} is small for a soil; suspected: {}", doubt.value, doubt.unit))
+            .what());
+  }
+  return warnings;
+}
+
+}  // namespace
+
+SetupSettings read_setup(const SettingsNode& node) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
+    SetupSettings settings;
+    DiagnosisSetup& setup = settings.setup;
+    setup.variant = read_variant(mapping.required("model"));
+    const SettingsNode& wheel = mapping.required("wheel");
+    setup.wheel = read_wheel(wheel);
+    constexpr double kLargest_m = 5;  // the usual mistake is millimetres
+    for (const auto& [key, value] :
+         {std::pair{"radius_m", setup.wheel.radius_m}, std::pair{"width_m", setup.wheel.width_m}}) {
+      if (value > kLargest_m) {
+        throw wheel.find(key)->error(fmt::format(
+            "{} is not valid (allowed: above 0 to {}); suspected: mm", value, kLargest_m));
+      }
+    }
+    setup.gravity_mps2 = mapping.number("gravity_mps2", kAbove0);
+    const SettingsNode& soil = mapping.required("soil");
+    setup.soil =
+        read_mapping(soil, [&](SettingsMapping& keys) { return read_soil(keys, setup.variant); });
+    settings.warnings = doubtful_soil(soil, setup.soil.mean);
+    if (const SettingsNode* name = mapping.optional("soil_name")) settings.soil_name = name->text();
+    if (const SettingsNode* noise = mapping.optional("noise")) {
+      setup.noise_standard_deviation = read_noise(*noise);
+    }
+    if (const SettingsNode* mechanisms = mapping.optional("mechanisms")) {
+      if (!mechanisms->list().empty()) {
+        throw mechanisms->error("a diagnosis starts from the base model (allowed: none)");
+      }
+    }
+    return settings;
+  });
+}
+
+SetupSettings read_setup_file(const std::string& file) {
+  return read_setup(read_settings(file));
+}
+
+}  // namespace regoplan

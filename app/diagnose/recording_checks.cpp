@@ -1,0 +1,257 @@
+#include "app/diagnose/recording_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "terramech/input_error.h"
+#include "terramech/wheel_model.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// One value of a channel, in units of what limits it, beside the model's.
+struct Sample {
+  std::size_t run = 0;
+  double share = 0;  ///< |measured| over load, load times radius, or radius
+  double model_share = 0;
+};
+
+double modelled(const WheelChannels& at, Channel channel) {
+  switch (channel) {
+    case Channel::kFx:
+      return at.forces.fx_n;
+    case Channel::kFy:
+      return at.forces.fy_n;
+    case Channel::kTorque:
+      return at.forces.torque_nm;
+    case Channel::kSinkage:
+      return at.forces.sinkage_m;
+    case Channel::kRutLeft:
+      return at.rut_left_m;
+    case Channel::kRutRight:
+      return at.rut_right_m;
+  }
+  return 0;
+}
+
+bool is_length(Channel channel) {
+  return channel == Channel::kSinkage || channel == Channel::kRutLeft ||
+         channel == Channel::kRutRight;
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+/// The unit in which a channel may have been written, from how many times too large it is.
+std::string suspected_unit(Channel channel, double times) {
+  const auto nearest = [times](std::initializer_list<std::pair<double, const char*>> units) {
+    return std::ranges::min_element(
+               units, {},
+               [times](const auto& unit) { return std::abs(std::log(times / unit.first)); })
+        ->second;
+  };
+  if (is_length(channel)) return nearest({{1e3, "mm"}, {1e2, "cm"}, {1e-3, "km"}});
+  if (channel == Channel::kTorque) {
+    return nearest({{1e3, "N mm"}, {1e2, "N cm"}, {1e-3, "kN m"}});
+  }
+  return nearest({{1e3, "mN"}, {1e-3, "kN"}});
+}
+
+class Checks {
+ public:
+  Checks(const RecordingFile& recording, const DiagnosisSetup& setup)
+      : file_(recording), setup_(setup) {
+    const WheelModel model({.variant = setup.variant,
+                            .wheel = setup.wheel,
+                            .soil = setup.soil.mean,
+                            .gravity_mps2 = setup.gravity_mps2},
+                           WheelAccuracy::kFast);
+    for (const WheelRun& run : runs()) {
+      at_.push_back(model.channels(run.load_n, motion_at(run.slip_ratio, run.slip_angle_rad)));
+      // What is written in radians and read as degrees is 57 times too small.
+      const double as_radians = std::clamp(run.slip_angle_rad / kDegree, -1.5, 1.5);
+      as_radians_.push_back(
+          model.channels(run.load_n, motion_at(run.slip_ratio, as_radians)).forces.fy_n);
+    }
+  }
+
+  std::vector<std::string> run_all() {
+    check_that_the_wheel_is_carried();
+    for (const Channel channel : file_.recording.channels) check_size(channel);
+    check_angle_unit();
+    check_sign(Channel::kFy,
+               "the convention (positive for a positive slip angle: it opposes the "
+               "lateral motion); is an axis of the sensor turned round?");
+    check_sign(Channel::kTorque,
+               "a driving wheel (positive); is an axis of the sensor turned "
+               "round?");
+    check_speed();
+    return std::move(warnings_);
+  }
+
+ private:
+  const std::vector<WheelRun>& runs() const { return file_.recording.runs; }
+
+  std::string place(std::size_t run) const {
+    return fmt::format("{}:{}", file_.file, file_.lines[run]);
+  }
+
+  void check_that_the_wheel_is_carried() {
+    std::vector<std::size_t> sunk;
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      if (!has_forces(at_[i].forces.status)) sunk.push_back(i);
+    }
+    if (sunk.empty()) return;
+    const std::size_t first = sunk.front();
+    const std::string what = fmt::format(
+        "{}: load_n: {} is not carried by the model at the setup's means ({}), nor are the loads "
+        "of {} of {} rows; suspected: load_n not in N, or kc, kphi, n, radius_m, width_m in other "
+        "units (kN, mm)",
+        place(first), runs()[first].load_n, name(at_[first].forces.status), sunk.size(),
+        at_.size());
+    if (sunk.size() == at_.size()) throw InputError(what);
+    warnings_.push_back(what);
+  }
+
+  std::vector<Sample> samples(Channel channel) const {
+    std::vector<Sample> samples;
+    constexpr double kHardlySideways_rad = 2 * kDegree;
+    for (std::size_t i = 0; i < runs().size(); ++i) {
+      const WheelRun& run = runs()[i];
+      const double value = run.value(channel);
+      if (std::isnan(value) || !has_forces(at_[i].forces.status)) continue;
+      if (channel == Channel::kFy && std::abs(run.slip_angle_rad) < kHardlySideways_rad) continue;
+      double scale = setup_.wheel.radius_m;
+      if (channel == Channel::kTorque) scale *= run.load_n;
+      if (channel == Channel::kFx || channel == Channel::kFy) scale = run.load_n;
+      samples.push_back({.run = i,
+                         .share = std::abs(value) / scale,
+                         .model_share = std::abs(modelled(at_[i], channel)) / scale});
+    }
+    return samples;
+  }
+
+  void check_size(Channel channel) {
+    const std::vector<Sample> all = samples(channel);
+    if (all.empty()) return;
+    std::vector<double> shares, of_model;
+    for (const Sample& sample : all) {
+      shares.push_back(sample.share);
+      of_model.push_back(sample.model_share);
+    }
+    const double most = quantile(shares, 0.9);
+    const double low = is_length(channel) ? 1e-3 : 2e-3, high = is_length(channel) ? 1 : 3;
+    const double model_most = quantile(of_model, 0.9);
+    const bool too_large = most > high, too_small = most < low && model_most > 20 * most;
+    if (too_large || too_small) {
+      const Sample& worst = *std::ranges::max_element(all, {}, &Sample::share);
+      const std::string of = is_length(channel)            ? "the wheel's radius"
+                             : channel == Channel::kTorque ? "load times radius"
+                                                           : "the load";
+      std::string suspected =
+          fmt::format("{} in {}", name(channel), suspected_unit(channel, most / model_most));
+      if (!is_length(channel)) {
+        suspected += too_large ? ", or load_n in kN or kg" : ", or load_n in mN";
+      }
+      throw InputError(fmt::format(
+          "{}: {}: {} is not valid (allowed: nine tenths of the values within {} to {} times {}; "
+          "here {:.2g}, the model {:.2g}); suspected: {}",
+          place(worst.run), name(channel), runs()[worst.run].value(channel), low, high, of, most,
+          model_most, suspected));
+    }
+    for (const Sample& sample : all) {
+      if (sample.share <= 3 * high) continue;
+      warnings_.push_back(fmt::format("{}: {}: {} is an outlier by size ({:.3g} times {})",
+                                      place(sample.run), name(channel),
+                                      runs()[sample.run].value(channel), sample.share,
+                                      is_length(channel) ? "the radius" : "what the load allows"));
+    }
+  }
+
+  /// Side forces that fit the slip angle in radians and are far too large for it in degrees.
+  void check_angle_unit() {
+    double largest_rad = 0;
+    for (const WheelRun& run : runs()) {
+      largest_rad = std::max(largest_rad, std::abs(run.slip_angle_rad));
+    }
+    const double largest_deg = largest_rad / kDegree;
+    if (largest_deg < 0.03 || largest_deg > 1.6) return;
+    double with_model = 0, own = 0, model = 0, as_degrees = 0;
+    std::size_t first = runs().size();
+    for (std::size_t i = 0; i < runs().size(); ++i) {
+      const double fy = runs()[i].value(Channel::kFy);
+      if (std::isnan(fy) || !has_forces(at_[i].forces.status)) continue;
+      if (first == runs().size() && runs()[i].slip_angle_rad != 0) first = i;
+      with_model += fy * as_radians_[i];
+      own += fy * fy;
+      model += as_radians_[i] * as_radians_[i];
+      as_degrees += at_[i].forces.fy_n * at_[i].forces.fy_n;
+    }
+    const bool too_large = own > 25 * as_degrees && own > model / 9;
+    const bool alike = std::abs(with_model) > 0.9 * std::sqrt(own * model);
+    if (!too_large || !alike) return;
+    throw InputError(fmt::format(
+        "{}: slip_angle_deg: {} is not valid (allowed: degrees, -90 to 90); the side forces are "
+        "{:.0f} times those of such small angles; suspected: radians",
+        place(first), runs()[first].slip_angle_rad / kDegree, std::sqrt(own / as_degrees)));
+  }
+
+  /// A channel that has the model's opposite sign wherever the model's is clear.
+  void check_sign(Channel channel, std::string_view convention) {
+    int clear = 0, against = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < runs().size(); ++i) {
+      const WheelRun& run = runs()[i];
+      const double value = run.value(channel), expected = modelled(at_[i], channel);
+      const double scale =
+          channel == Channel::kTorque ? run.load_n * setup_.wheel.radius_m : run.load_n;
+      const bool applies = channel == Channel::kTorque ? run.slip_ratio > 0.1 : true;
+      if (std::isnan(value) || !applies || std::abs(expected) < 0.05 * scale) continue;
+      ++clear;
+      if (value * expected >= 0) continue;
+      if (against++ == 0) first = i;
+    }
+    constexpr int kFewest = 4;
+    if (clear < kFewest || 5 * against < 4 * clear) return;
+    warnings_.push_back(fmt::format("{}: {} opposes {} In {} of {} runs where its sign is clear.",
+                                    place(first), name(channel), convention, against, clear));
+  }
+
+  void check_speed() {
+    if (!file_.recording.columns.speed) return;
+    constexpr double kFast_mps = 10;
+    for (std::size_t i = 0; i < runs().size(); ++i) {
+      const double speed_mps = runs()[i].conditions.speed_mps;
+      if (speed_mps <= kFast_mps) continue;
+      warnings_.push_back(
+          fmt::format("{}: speed_mps: {} is fast for a test bed; suspected: mm/s or cm/s", place(i),
+                      speed_mps));
+      return;
+    }
+  }
+
+  const RecordingFile& file_;
+  const DiagnosisSetup& setup_;
+  std::vector<WheelChannels> at_;
+  std::vector<double> as_radians_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::vector<std::string> doubtful_values(const RecordingFile& recording,
+                                         const DiagnosisSetup& setup) {
+  return Checks(recording, setup).run_all();
+}
+
+}  // namespace regoplan

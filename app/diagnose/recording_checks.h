@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/diagnose/recording_file.h"
+#include "diagnosis/diagnosis.h"
+
+namespace regoplan {
+
+/// Holds a recording against the wheel model at the prior means by size and sign only: units that
+/// are off by a power of ten, slip angles in radians, axes turned round. What can only be a wrong
+/// unit throws; what is merely odd comes back, a sentence each.
+///
+/// Sizes are those of nine tenths of the values: forces over the load, torque over load and radius
+/// above 3 or below 0.002; sinkage and ruts above the radius or below a thousandth of it. Real
+/// soils lie between by factors of five and more.
+/// \throws InputError naming file, line, column, value, range and the unit that is suspected
+std::vector<std::string> doubtful_values(const RecordingFile& recording,
+                                         const DiagnosisSetup& setup);
+
+}  // namespace regoplan

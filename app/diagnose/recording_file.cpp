@@ -1,0 +1,229 @@
+#include "app/diagnose/recording_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <optional>
+
+#include "app/io/csv_table.h"
+#include "app/io/number_text.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+using Cells = CsvTable::Cells;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+constexpr std::array<std::string_view, 4> kRequired{"run_id", "load_n", "slip_ratio",
+                                                    "slip_angle_deg"};
+
+/// A circumstance of the runs that is a number.
+struct Circumstance {
+  std::string_view column;
+  ValueRange allowed;
+  double WheelConditions::*member;
+  double unit;
+  bool RecordedColumns::*recorded;
+};
+constexpr std::array<Circumstance, 4> kCircumstances{{
+    {"speed_mps", kAbove0, &WheelConditions::speed_mps, 1, &RecordedColumns::speed},
+    {"position_m", kAnyNumber, &WheelConditions::position_m, 1, &RecordedColumns::position},
+    {"time_s", kAnyNumber, &WheelConditions::time_s, 1, &RecordedColumns::time},
+    {"wheel_angle_deg", kAnyNumber, &WheelConditions::wheel_angle_rad, kDegree,
+     &RecordedColumns::wheel_angle},
+}};
+constexpr std::array<std::string_view, 4> kOtherCircumstances{"day", "replicate", "pass", "wheel"};
+
+constexpr std::array<Channel, kChannelCount> kChannels{Channel::kFx,      Channel::kFy,
+                                                       Channel::kTorque,  Channel::kSinkage,
+                                                       Channel::kRutLeft, Channel::kRutRight};
+
+/// Days since 1970-01-01 of `2020-11-16`, also with a time of day behind a `T` or a space.
+std::optional<double> iso_day(std::string_view text) {
+  if (text.size() < 10 || text[4] != '-' || text[7] != '-') return {};
+  if (text.size() > 10 && text[10] != 'T' && text[10] != ' ') return {};
+  const auto part = [&](std::size_t from, std::size_t length) {
+    int value = -1;
+    const char* end = text.data() + from + length;
+    return std::from_chars(text.data() + from, end, value).ptr == end ? value : -1;
+  };
+  const int year = part(0, 4), month = part(5, 2), day = part(8, 2);
+  if (year < 0 || month < 0 || day < 0) return {};
+  const std::chrono::year_month_day date{std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day))};
+  if (!date.ok()) return {};
+  return static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+}
+
+/// What a slip ratio outside [-1, 1] may have been meant as.
+std::string_view slip_hint(const std::string& cell) {
+  const std::optional<double> value = parse_number(cell);
+  if (!value || std::abs(*value) > 1e4) return "";
+  if (*value < -1 && *value >= -5) {
+    return "a braking wheel's slip is (r w - Vx)/Vx; it looks like (r w - Vx)/(r w)";
+  }
+  return std::abs(*value) > 1 ? "is it in per cent?" : "";
+}
+
+/// One row on its way to a run.
+class Row {
+ public:
+  Row(const CsvTable& table, const Cells& cells) : table_(table), cells_(cells) {}
+
+  double number(std::string_view column, const ValueRange& allowed,
+                std::string_view hint = "") const {
+    return table_.number(cells_, table_.column(column), allowed, hint);
+  }
+
+  const std::string& text(std::string_view column) const { return cells_[table_.column(column)]; }
+
+  bool says(std::string_view column) const {
+    const auto index = table_.find_column(column);
+    return index && !cells_[*index].empty();
+  }
+
+  int integer(std::string_view column, int min) const {
+    const double value = number(column, {.min = static_cast<double>(min), .max = 1e6});
+    if (value != std::floor(value)) throw not_valid(column, fmt::format("an integer from {}", min));
+    return static_cast<int>(value);
+  }
+
+  double day() const {
+    const std::string& cell = text("day");
+    if (const auto number = parse_number(cell)) return *number;
+    if (const auto date = iso_day(cell)) return *date;
+    throw not_valid("day", "a number or an ISO date such as 2020-11-16");
+  }
+
+ private:
+  InputError not_valid(std::string_view column, std::string_view allowed) const {
+    const std::string& cell = text(column);
+    return table_.error(fmt::format("{}: {} is not valid (allowed: {})", column,
+                                    cell.empty() ? "an empty cell" : cell, allowed));
+  }
+
+  const CsvTable& table_;
+  const Cells& cells_;
+};
+
+WheelRun read_run(const CsvTable& table, const Cells& cells) {
+  const Row row(table, cells);
+  WheelRun run{.run_id = row.text("run_id")};
+  run.load_n = row.number("load_n", kAbove0);
+  run.slip_ratio =
+      row.number("slip_ratio", {.min = -1, .max = 1}, slip_hint(row.text("slip_ratio")));
+  run.slip_angle_rad = row.number("slip_angle_deg", {.min = -90, .max = 90}) * kDegree;
+  for (const Circumstance& at : kCircumstances) {
+    if (row.says(at.column)) {
+      run.conditions.*at.member = at.unit * row.number(at.column, at.allowed);
+    }
+  }
+  if (row.says("pass")) run.conditions.pass = row.integer("pass", 1);
+  if (row.says("day")) run.day = row.day();
+  if (row.says("wheel")) run.wheel = row.text("wheel");
+  if (row.says("replicate")) run.replicate = row.integer("replicate", 0);
+  for (const Channel channel : kChannels) {
+    if (row.says(name(channel))) {
+      run.measured[static_cast<std::size_t>(channel)] = row.number(name(channel), kAnyNumber);
+    }
+  }
+  return run;
+}
+
+bool is_known(std::string_view column) {
+  const auto among = [column](const auto& names) {
+    return std::ranges::find(names, column) != names.end();
+  };
+  return among(kRequired) || among(kOtherCircumstances) ||
+         std::ranges::any_of(kCircumstances, [&](const auto& c) { return c.column == column; }) ||
+         std::ranges::any_of(kChannels, [&](Channel c) { return name(c) == column; });
+}
+
+/// Whether an optional column says something of every run; one that says nothing of any counts as
+/// not given.
+bool is_recorded(const RecordingFile& read, std::string_view column) {
+  const auto found = std::ranges::find(read.columns, column);
+  if (found == read.columns.end()) return false;
+  const auto index = static_cast<std::size_t>(found - read.columns.begin());
+  const auto is_empty = [index](const Cells& cells) { return cells[index].empty(); };
+  const auto empty = std::ranges::find_if(read.cells, is_empty);
+  if (empty == read.cells.end()) return true;
+  if (std::ranges::all_of(read.cells, is_empty)) return false;
+  throw InputError(fmt::format(
+      "{}:{}: {}: an empty cell is not valid (allowed: a value in every row, or in none)",
+      read.file, read.lines[static_cast<std::size_t>(empty - read.cells.begin())], column));
+}
+
+/// A sensor errs now and then; what is wrong throughout has another reason, such as a unit.
+void refuse_where_too_many_are_left_out(const RecordingFile& read) {
+  constexpr std::size_t kOneIn = 20;
+  const std::size_t rows = read.recording.runs.size() + read.left_out.size();
+  if (kOneIn * read.left_out.size() <= rows) return;
+  throw InputError(fmt::format("{}; {} of {} rows are out of range (up to {} % are left out)",
+                               read.left_out.front().why, read.left_out.size(), rows,
+                               100 / kOneIn));
+}
+
+}  // namespace
+
+RecordingFile read_recording(std::istream& stream, const std::string& file) {
+  CsvTable table(stream, file);
+  for (const std::string_view column : kRequired) table.column(column);
+  if (std::ranges::none_of(kChannels,
+                           [&](Channel c) { return table.find_column(name(c)).has_value(); })) {
+    throw table.error(
+        "no measured column (at least one of fx_n, fy_n, torque_nm, sinkage_m, rut_left_m, "
+        "rut_right_m)");
+  }
+  RecordingFile read{.file = file, .columns = table.columns()};
+  Recording& recording = read.recording;
+  while (std::optional<Cells> cells = table.next()) {
+    try {
+      recording.runs.push_back(read_run(table, *cells));
+    } catch (const OutOfRangeError& bad) {
+      read.left_out.push_back(
+          {.run_id = (*cells)[table.column("run_id")], .cell = bad.cell(), .why = bad.what()});
+      continue;
+    }
+    read.cells.push_back(std::move(*cells));
+    read.lines.push_back(table.line());
+  }
+  refuse_where_too_many_are_left_out(read);
+  if (recording.runs.empty()) throw InputError(file + ": no runs below the header");
+
+  for (const Circumstance& at : kCircumstances) {
+    recording.columns.*at.recorded = is_recorded(read, at.column);
+  }
+  recording.columns.day = is_recorded(read, "day");
+  recording.columns.pass = is_recorded(read, "pass");
+  recording.columns.wheel = is_recorded(read, "wheel");
+  for (const Channel channel : kChannels) {
+    if (std::ranges::any_of(recording.runs, [channel](const WheelRun& run) {
+          return !std::isnan(run.value(channel));
+        })) {
+      recording.channels.push_back(channel);
+    }
+  }
+  if (recording.channels.empty()) throw InputError(file + ": no channel is measured in any run");
+  std::ranges::copy_if(read.columns, std::back_inserter(recording.ignored),
+                       [](const std::string& column) { return !is_known(column); });
+  return read;
+}
+
+RecordingFile read_recording(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw InputError(file + ": no such file");
+  std::ifstream stream(file);
+  if (!stream || std::filesystem::is_directory(file)) throw InputError(file + ": cannot be read");
+  return read_recording(stream, file);
+}
+
+}  // namespace regoplan

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "app/io/csv_table.h"
+#include "diagnosis/recording.h"
+
+namespace regoplan {
+
+/// A row that a recording does without, because of one of its numbers.
+struct LeftOutRow {
+  std::string run_id;
+  CellOutOfRange cell;
+  std::string why;  ///< with file, line, column, value and range
+};
+
+/// A recording with the table that it was read from.
+struct RecordingFile {
+  std::string file;
+  Recording recording;
+  std::vector<std::string> columns;             ///< of the table
+  std::vector<std::vector<std::string>> cells;  ///< of each run, as wide as `columns`
+  std::vector<std::int64_t> lines;              ///< of each run in the file
+  std::vector<LeftOutRow> left_out = {};        ///< rows that are none of the runs
+};
+
+/// Reads a single-wheel recording: `run_id, load_n, slip_ratio, slip_angle_deg`, at least one of
+/// `fx_n, fy_n, torque_nm, sinkage_m, rut_left_m, rut_right_m`, and what else is known of the runs
+/// (`day, replicate, pass, speed_mps, time_s, wheel_angle_deg, position_m, wheel`). An empty cell
+/// of a channel is not measured; a column of empty cells counts as not given. Other columns are
+/// kept and listed as ignored. A row with a number outside its range, as sensors give one now and
+/// then, is left out; where that is more than one row in twenty, the recording is refused.
+/// \throws InputError naming file, line, column, value, range and, where the value hints at one,
+/// the unit that may be meant
+RecordingFile read_recording(const std::string& file);
+RecordingFile read_recording(std::istream& stream, const std::string& file);
+
+}  // namespace regoplan

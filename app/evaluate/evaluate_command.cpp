@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <numbers>
+
+#include "app/command/command.h"
+#include "app/command/plan_options.h"
+#include "app/evaluate/chart_files.h"
+#include "app/evaluate/evaluation_run.h"
+#include "app/settings/soil_settings.h"
+#include "app/settings/vehicle_settings.h"
+
+namespace regoplan {
+namespace {
+
+struct Options {
+  std::optional<std::string> scenario;
+  ScenarioOverrides overrides;
+  EvaluationRequest request;
+
+  std::optional<std::filesystem::path> chart_folder;
+  std::optional<std::string> vehicle;
+  std::optional<std::string> soils_file;
+  std::optional<double> gravity_mps2;
+  std::vector<double> slopes_deg{0, 10, 20};
+  double speed_max_mps = 5;
+};
+
+/// The value of a settings file that stands on the command line.
+SettingsNode as_node(const std::string& text, const std::string& option) {
+  return parse_settings(quoted_text(text), option);
+}
+
+/// `--soils` names a soils file, or a mapping with `soils` in it.
+std::vector<MapSoil> read_soils(const std::string& file, WheelVariant variant) {
+  return read_soil_catalogue(read_settings(file), variant).soils;
+}
+
+ChartSettings chart_settings(const Options& options) {
+  ChartSettings settings;
+  std::optional<Scenario> scenario;
+  if (options.scenario) scenario = read_scenario(*options.scenario, options.overrides);
+  if (!scenario && (!options.vehicle || !options.soils_file || !options.gravity_mps2)) {
+    throw InputError("--chart needs a SCENARIO.yaml, or --vehicle, --soils and --gravity-mps2");
+  }
+  if (scenario) {
+    const PlanningProblem& problem = scenario->problem;
+    settings.vehicle = problem.vehicle;
+    settings.soils = problem.map.soils();
+    settings.wheel_variant = problem.wheel_variant;
+    settings.mechanisms = problem.mechanisms;
+    settings.generic = problem.generic;
+    settings.gravity_mps2 = problem.gravity_mps2;
+    settings.limits = problem.limits;
+  }
+  if (options.vehicle) {
+    settings.vehicle = named_vehicle(as_node(*options.vehicle, "--vehicle"), "");
+    settings.limits = default_limits(settings.vehicle);
+  }
+  if (options.soils_file) settings.soils = read_soils(*options.soils_file, settings.wheel_variant);
+  if (options.gravity_mps2) settings.gravity_mps2 = *options.gravity_mps2;
+  constexpr int kSpeeds = 19;
+  // Faster than the vehicle goes as well: what its soil would allow.
+  const double slowest = options.speed_max_mps / 10;
+  for (int i = 0; i < kSpeeds; ++i) {
+    settings.speeds_mps.push_back(slowest + (options.speed_max_mps - slowest) * i / (kSpeeds - 1));
+  }
+  for (const double slope : options.slopes_deg) {
+    settings.slopes_rad.push_back(slope * std::numbers::pi / 180);
+  }
+  settings.slope_max_rad = 30 * std::numbers::pi / 180;
+  settings.threads = overridden({}, options.overrides).threads;
+  return settings;
+}
+
+ExitStatus draw_chart(const Options& options) {
+  const ResultFolder folder{*options.chart_folder, options.request.folder.force};
+  require_results_fit(folder, chart_file_names());
+  const ChartSettings settings = chart_settings(options);
+  const FeasibilityChart chart = feasibility_chart(settings);
+  StagedFiles staged(folder);
+  for (const RenderedFile& file : render_chart(settings, chart)) staged.write(file);
+  staged.commit();
+  if (!options.request.quiet) {
+    fmt::print("chart: {}\n", (*options.chart_folder / "feasibility.svg").string());
+  }
+  return kYes;
+}
+
+ExitStatus run(const Options& options) {
+  if (options.chart_folder) {
+    if (!options.request.path_files.empty() || options.request.manoeuvre_file) {
+      throw InputError("--chart takes neither paths nor --manoeuvres");
+    }
+    return draw_chart(options);
+  }
+  if (options.vehicle || options.soils_file || options.gravity_mps2) {
+    throw InputError("--vehicle, --soils and --gravity-mps2 go with --chart only");
+  }
+  if (!options.scenario) throw InputError("SCENARIO.yaml is required (regoplan evaluate --help)");
+  if (options.request.folder.path.empty()) {
+    throw InputError("--out is required (regoplan evaluate --help)");
+  }
+  if (options.request.path_files.empty() && !options.request.manoeuvre_file) {
+    throw InputError("nothing to evaluate: give PATH.csv or --manoeuvres FILE.yaml");
+  }
+  return run_evaluation(read_scenario(*options.scenario, options.overrides), options.request);
+}
+
+}  // namespace
+
+Command add_evaluate_command(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  EvaluationRequest& request = options->request;
+  CLI::App* parser = program.add_subcommand(
+      "evaluate",
+      "Judge given paths and manoeuvres, side by side.\n"
+      "Writes evaluation.json and report.html; with --chart a chart of what is safe.");
+  parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, limits");
+  parser->add_option("PATH.csv", request.path_files,
+                     "points x_m, y_m, optional speed_mps (negative: all of it in reverse); or a "
+                     "candidate-K.csv of plan");
+  parser->add_option("--out", request.folder.path, "folder for the results")->type_name("DIR");
+  parser
+      ->add_option("--manoeuvres", request.manoeuvre_file,
+                   "list of {kind: steady_turn | lane_change | slalom | slope_traverse | "
+                   "braking_in_a_turn | point_turn, ...}")
+      ->type_name("FILE.yaml");
+  parser
+      ->add_option(
+          "--model", options->overrides.model_file,
+          "wheel model: its variant and mechanisms everywhere, its soil numbers under soil_name")
+      ->type_name("FILE.yaml");
+  parser->add_option("--speed", request.speed_mps, "largest speed, in place of the scenario's")
+      ->type_name("MPS")
+      ->check(in_range(kAbove0));
+  parser
+      ->add_option("--deviation-max-m", request.deviation_max_m,
+                   "how far the vehicle may stray (default: half of its body's width)")
+      ->type_name("M")
+      ->check(in_range(kAbove0));
+  parser->add_option("--draws", request.soil_draws, "of the soils")
+      ->type_name("N")
+      ->check(in_range({.min = 2, .max = 1e6}))
+      ->capture_default_str();
+  parser->add_option("--seed", options->overrides.seed, "of all that is drawn")
+      ->type_name("N")
+      ->check(in_range(kAtLeast0));
+  parser
+      ->add_option("--threads", options->overrides.threads, "default: all cores; changes no result")
+      ->type_name("N")
+      ->check(in_range({.min = 1, .max = kThreadsMax}));
+  parser->add_option("--chart", options->chart_folder, "folder for a feasibility chart")
+      ->type_name("DIR");
+  parser->add_option("--vehicle", options->vehicle, "of the chart: a preset or a file")
+      ->type_name("NAME");
+  parser->add_option("--soils", options->soils_file, "of the chart")->type_name("FILE.yaml");
+  parser->add_option("--gravity-mps2", options->gravity_mps2, "of the chart")
+      ->type_name("NUMBER")
+      ->check(in_range(kAbove0));
+  parser
+      ->add_option("--chart-slopes-deg", options->slopes_deg,
+                   "of the chart: ground across the turn")
+      ->type_name("DEG")
+      ->check(in_range({.min = 0, .max = 45}))
+      ->capture_default_str();
+  parser
+      ->add_option("--chart-speed-mps", options->speed_max_mps, "of the chart: from a tenth to it")
+      ->type_name("MPS")
+      ->check(in_range(kAbove0))
+      ->capture_default_str();
+  add_force_flag(*parser, request.folder);
+  add_network_flag(*parser);
+  add_output_flags(*parser, request.json, request.quiet);
+  return {parser, [options] { return run(*options); }};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/io/staged_files.h"
+#include "planner/evaluation/evaluation.h"
+
+namespace regoplan {
+
+/// An evaluation with where its path came from.
+struct EvaluatedPath {
+  PathEvaluation evaluation;
+  bool on_the_map = true;  ///< else a manoeuvre on a plane of its own
+  std::string vehicle;
+  double gravity_mps2 = 0;
+  Limits limits;
+  std::optional<double> recorded_margin_min;  ///< of a candidate of `plan`
+};
+
+struct EvaluationResult {
+  std::vector<EvaluatedPath> paths;  ///< in rank order
+  EvaluationSettings settings;
+  double evaluation_time_s = 0;
+  bool interrupted = false;
+
+  bool any_feasible() const;
+};
+
+/// Feasible ones first, see `rank` of evaluations.
+void rank(EvaluationResult& result);
+
+/// The text of evaluation.json.
+std::string evaluation_json(const PlanningProblem& problem, const EvaluationResult& result);
+
+/// The steering law with its gains, in a sentence.
+std::string steering_law_text(const SteeringLaw& law);
+
+/// Writes evaluation.json and report.html, both or none.
+/// \throws InputError where the folder takes no files
+void write_evaluation_files(const PlanningProblem& problem, const EvaluationResult& result,
+                            const ResultFolder& folder);
+
+}  // namespace regoplan

@@ -1,0 +1,157 @@
+#include "app/evaluate/evaluation_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+
+#include "app/command/progress_line.h"
+#include "app/evaluate/evaluation_files.h"
+#include "app/evaluate/evaluation_report.h"
+#include "app/evaluate/path_files.h"
+#include "app/io/interrupt.h"
+#include "app/io/staged_files.h"
+#include "app/settings/manoeuvre_settings.h"
+
+namespace regoplan {
+namespace {
+
+std::string summary(const EvaluationResult& result) {
+  std::string text = evaluation_headline(result) + "\n";
+  text += fmt::format("{:>4} {:>8} {:>10} {:>10} {:>11} {:>16} {:>9} {:>8}  {}\n", "rank",
+                      "feasible", "margin_min", "margin_p05", "limited by", "P(margins), 95 %",
+                      "deviation", "energy", "path");
+  for (const EvaluatedPath& path : result.paths) {
+    const PathEvaluation& e = path.evaluation;
+    text += fmt::format(
+        "{:>4} {:>8} {:>10.3f} {:>10.3f} {:>11} {:>16} {:>7.2f} m {:>5.1f} kJ  {}\n", e.rank,
+        e.feasible ? "yes" : "no", e.margin_min, e.spread.margin.p05, name(e.limiting.margin),
+        fmt::format("{:.1f} ({:.1f}-{:.1f})", 100 * e.spread.feasible.share,
+                    100 * e.spread.feasible.low, 100 * e.spread.feasible.high),
+        e.tracking.deviation_max_m, e.tracking.energy_j / 1000, e.name);
+    if (e.refusal) text += fmt::format("{:>13} {}\n", "why:", sentence(*e.refusal));
+    if (!e.spread.influences.empty() && e.spread.influences.front().share > 0.01) {
+      const SoilInfluence& most = e.spread.influences.front();
+      text += fmt::format("{:>13} {} of {}: {:.0f} % of the margin's variance\n",
+                          "decides:", most.parameter, most.soil, 100 * most.share);
+    }
+    if (e.spread.direct_draws < e.spread.draws) {
+      const PathMargins& error = e.spread.surrogate_error;
+      text += fmt::format(
+          "{:>13} {} of {} draws by the wheel model; error of the others, taken "
+          "off: {:.4f}\n",
+          "draws:", e.spread.direct_draws, e.spread.draws,
+          std::max({error.cornering, error.tip_over, error.traction}));
+    }
+  }
+  return text;
+}
+
+/// A vehicle may roll a little faster than it is meant to.
+PlanningProblem with_tolerant_speed(PlanningProblem problem, double speed_max_mps) {
+  problem.speed_max_mps = kSpeedTolerance * speed_max_mps;
+  return problem;
+}
+
+double checked_speed_mps(const EvaluationRequest& request, const PlanningProblem& problem) {
+  if (!request.speed_mps) return problem.speed_max_mps;
+  if (*request.speed_mps > problem.vehicle.speed_max_mps) {
+    throw InputError(
+        fmt::format("--speed: {} is not valid (allowed: above 0 to {}, the largest of "
+                    "{})",
+                    *request.speed_mps, problem.vehicle.speed_max_mps, problem.vehicle.name));
+  }
+  return *request.speed_mps;
+}
+
+EvaluatedPath evaluated(PathEvaluation evaluation, const PlanningProblem& problem) {
+  return {.evaluation = std::move(evaluation),
+          .vehicle = problem.vehicle.name,
+          .gravity_mps2 = problem.gravity_mps2,
+          .limits = problem.limits,
+          .recorded_margin_min = {}};
+}
+
+}  // namespace
+
+ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& request) {
+  require_writable_folder(request.folder.path);
+  const PlanningProblem& problem = scenario.problem;
+  const double speed_max_mps = checked_speed_mps(request, problem);
+  // Everything is read before anything is judged.
+  std::vector<GivenPath> paths;
+  for (const std::string& file : request.path_files) {
+    paths.push_back(read_path(file, problem, speed_max_mps));
+  }
+  std::vector<Manoeuvre> manoeuvres;
+  if (request.manoeuvre_file) manoeuvres = read_manoeuvres(*request.manoeuvre_file, problem);
+  require_results_fit(request.folder, {"evaluation.json", "report.html"});
+  for (const std::string& notice : scenario.notices) notify(notice, request.quiet);
+  for (const GivenPath& path : paths) {
+    for (const std::string& notice : path.notices) notify(notice, request.quiet);
+  }
+
+  const std::stop_token stop = stop_on_interrupt();
+  const auto begun = std::chrono::steady_clock::now();
+  EvaluationResult result{.settings = {.deviation_max_m = request.deviation_max_m,
+                                       .soil_draws = request.soil_draws,
+                                       .seed = problem.search.seed,
+                                       .threads = problem.search.threads,
+                                       .stop = stop}};
+  {
+    ProgressLine line(request.quiet);
+    const std::size_t count = paths.size() + manoeuvres.size();
+    const auto show = [&] {
+      const auto done = static_cast<double>(result.paths.size());
+      const auto feasible = std::ranges::count_if(
+          result.paths, [](const EvaluatedPath& path) { return path.evaluation.feasible; });
+      line.show({.stage = "evaluating",
+                 .share = done / static_cast<double>(count),
+                 .found = static_cast<int>(feasible)});
+    };
+    const PlanningProblem tolerant = with_tolerant_speed(problem, speed_max_mps);
+    const World world(tolerant, WorldUse::kVerdict, 1);
+    for (const GivenPath& path : paths) {
+      if (stop.stop_requested()) break;
+      show();
+      PathEvaluation evaluation = evaluate(world, path.path, result.settings);
+      if (stop.stop_requested()) break;
+      result.paths.push_back(evaluated(std::move(evaluation), problem));
+      result.paths.back().recorded_margin_min = path.recorded_margin_min;
+    }
+    for (const Manoeuvre& manoeuvre : manoeuvres) {
+      if (stop.stop_requested()) break;
+      show();
+      // Another vehicle brings its own limits; the margin asked for is the scenario's.
+      Limits limits = problem.limits;
+      if (manoeuvre.vehicle.name != problem.vehicle.name) {
+        limits = default_limits(manoeuvre.vehicle);
+        limits.margin_min = problem.limits.margin_min;
+      }
+      const PreparedManoeuvre prepared = prepare(manoeuvre, limits, problem);
+      const World plane(prepared.problem, WorldUse::kVerdict, 1);
+      PathEvaluation evaluation =
+          std::visit([&](const auto& course) { return evaluate(plane, course, result.settings); },
+                     prepared.course);
+      if (stop.stop_requested()) break;
+      result.paths.push_back(evaluated(std::move(evaluation), prepared.problem));
+      result.paths.back().on_the_map = false;
+    }
+    result.interrupted = stop.stop_requested();
+  }
+  rank(result);
+  result.evaluation_time_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  write_evaluation_files(problem, result, request.folder);
+  if (request.json) {
+    fmt::print("{}", evaluation_json(problem, result));
+  } else if (!request.quiet) {
+    fmt::print("{}report: {}\n", summary(result), (request.folder.path / "report.html").string());
+  }
+  if (result.interrupted) return kInterrupted;
+  return result.any_feasible() ? kYes : kNo;
+}
+
+}  // namespace regoplan

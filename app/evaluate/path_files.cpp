@@ -1,0 +1,326 @@
+#include "app/evaluate/path_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numbers>
+
+#include "app/io/csv_cells.h"
+#include "app/io/number_text.h"
+#include "app/io/value_range.h"
+#include "planner/evaluation/course_bounds.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// A CSV table of numbers under a header; cells are read when asked for.
+class PathTable {
+ public:
+  explicit PathTable(const std::string& file) : file_(file) {
+    std::ifstream stream(file);
+    if (!stream) throw InputError(file + ": no such file, or it cannot be read");
+    std::string line;
+    int number = 0;
+    while (std::getline(stream, line)) {
+      ++number;
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+      if (line.find_first_not_of(" ,\t") == std::string::npos) continue;
+      auto cells = split_cells(line);
+      if (!cells) throw error(number, "a quote is not closed");
+      for (std::string& cell : *cells) cell = trimmed(cell);
+      if (columns_.empty()) {
+        columns_ = std::move(*cells);
+        header_line_ = number;
+      } else if (cells->size() != columns_.size()) {
+        throw error(number,
+                    fmt::format("{} cells (the header has {})", cells->size(), columns_.size()));
+      } else {
+        rows_.push_back({number, std::move(*cells)});
+      }
+    }
+    if (columns_.empty()) throw InputError(file + ": empty (expected a header line)");
+    for (const std::string& column : columns_) {
+      if (std::ranges::count(columns_, column) > 1) {
+        throw error(header_line_, "column " + column + " given twice");
+      }
+    }
+  }
+
+  bool has(std::string_view column) const {
+    return std::ranges::find(columns_, column) != columns_.end();
+  }
+  std::size_t rows() const { return rows_.size(); }
+  const std::vector<std::string>& columns() const { return columns_; }
+
+  double number(std::size_t row, std::string_view column, const ValueRange& allowed,
+                std::string_view why = "") const {
+    const auto found = std::ranges::find(columns_, column);
+    if (found == columns_.end()) {
+      throw error(header_line_, fmt::format("column {} is missing", column));
+    }
+    const std::string& cell = rows_[row].cells[static_cast<std::size_t>(found - columns_.begin())];
+    const std::optional<double> value = parse_number(cell);
+    if (!value || !allowed.contains(*value)) {
+      throw error(rows_[row].line,
+                  fmt::format("{}: {} is not valid (allowed: {}{})", column,
+                              cell.empty() ? "an empty cell" : cell, allowed.text(), why));
+    }
+    return *value;
+  }
+
+  /// Nothing where the cell is empty.
+  std::optional<double> number_if_any(std::size_t row, std::string_view column) const {
+    const auto found = std::ranges::find(columns_, column);
+    const std::string& cell = rows_[row].cells[static_cast<std::size_t>(found - columns_.begin())];
+    if (cell.empty()) return std::nullopt;
+    return number(row, column, kAnyNumber);
+  }
+
+  InputError error(int line, std::string_view what) const {
+    return InputError(fmt::format("{}:{}: {}", file_, line, what));
+  }
+  int line(std::size_t row) const { return rows_[row].line; }
+  const std::string& file() const { return file_; }
+
+ private:
+  static std::string trimmed(const std::string& text) {
+    const std::size_t from = text.find_first_not_of(" \t");
+    if (from == std::string::npos) return "";
+    return text.substr(from, text.find_last_not_of(" \t") - from + 1);
+  }
+
+  struct Row {
+    int line;
+    std::vector<std::string> cells;
+  };
+  std::string file_;
+  int header_line_ = 1;
+  std::vector<std::string> columns_;
+  std::vector<Row> rows_;
+};
+
+bool is_candidate(const PathTable& table) {
+  return std::ranges::all_of(std::initializer_list<const char*>{"time_s", "yaw_deg", "speed_mps",
+                                                                "steer_deg", "demand_n", "margin"},
+                             [&](const char* column) { return table.has(column); });
+}
+
+/// A point beyond the map is out of bounds, a verdict; one beyond its surroundings is a mistake.
+PathCurve curve_of(const PathTable& table, const GridFrame& map) {
+  constexpr const char* kWhy = ", the map and as far around it as its diagonal";
+  const double diagonal_m = std::hypot(map.east_m() - map.west_m, map.north_m - map.south_m());
+  const ValueRange x{.min = map.west_m - diagonal_m, .max = map.east_m() + diagonal_m};
+  const ValueRange y{.min = map.south_m() - diagonal_m, .max = map.north_m + diagonal_m};
+  std::vector<PathPoint> points;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    points.push_back(
+        {.x_m = table.number(i, "x_m", x, kWhy), .y_m = table.number(i, "y_m", y, kWhy)});
+  }
+  const int last_line = table.rows() == 0 ? 1 : table.line(table.rows() - 1);
+  try {
+    PathCurve curve(points);
+    if (curve.length_m() <= kCourseLengthMax_m) return curve;
+    throw InputError(fmt::format("the path is {:.4g} m long (allowed: at most {} m)",
+                                 curve.length_m(), kCourseLengthMax_m));
+  } catch (const InputError& bad) {
+    throw table.error(last_line, bad.what());
+  }
+}
+
+/// The curvature that sets the leading wheel to a steering angle; nothing where no wheel steers.
+std::optional<double> curvature_for(const Vehicle& vehicle, double steer_rad) {
+  const auto largest_at = [&](double curvature) {
+    double largest = 0;
+    for (const WheelMount& wheel : vehicle.wheels) {
+      if (!wheel.steered || wheel.x_m <= vehicle.turn_centre_x_m) continue;
+      const double angle = steer_angle_rad(vehicle, wheel, curvature);
+      if (std::abs(angle) > std::abs(largest)) largest = angle;
+    }
+    return largest;
+  };
+  double low = -vehicle.curvature_max_1pm, high = vehicle.curvature_max_1pm;
+  if (largest_at(high) == 0) return std::nullopt;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (low + high) / 2;
+    (largest_at(middle) < steer_rad ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+/// What was commanded at a row of a candidate.
+RecordedMoment moment_at(const PathTable& table, std::size_t i, const Vehicle& vehicle) {
+  RecordedMoment moment;
+  moment.time_s = table.number(i, "time_s", kAtLeast0);
+  const double speed = table.number(i, "speed_mps", kAnyNumber);
+  VehicleState& state = moment.state;
+  state.x_m = table.number(i, "x_m", kAnyNumber);
+  state.y_m = table.number(i, "y_m", kAnyNumber);
+  state.yaw_rad = table.number(i, "yaw_deg", kAnyNumber) * kDegree;
+  state.motion.vx_mps = speed;
+  state.rim_speed_mps = speed;
+  if (table.has("yaw_rate_rad_s")) {
+    state.motion.yaw_rate_rad_s = table.number(i, "yaw_rate_rad_s", kAnyNumber);
+  }
+  if (table.has("curvature_1pm")) {
+    state.curvature_1pm = table.number(i, "curvature_1pm", kAnyNumber);
+  } else {
+    const auto curvature =
+        curvature_for(vehicle, table.number(i, "steer_deg", kAnyNumber) * kDegree);
+    if (!curvature) {
+      throw table.error(table.line(i),
+                        "column curvature_1pm is missing, and no wheel of the vehicle steers");
+    }
+    state.curvature_1pm = *curvature;
+  }
+  if (table.has("acceleration_mps2")) {
+    state.rim_acceleration_mps2 = table.number(i, "acceleration_mps2", kAnyNumber);
+  }
+  return moment;
+}
+
+/// Backward differences, as the step that led to each row had it.
+void add_accelerations(std::vector<RecordedMoment>& moments, double most_mps2) {
+  for (std::size_t i = 1; i < moments.size(); ++i) {
+    const RecordedMoment &a = moments[i - 1], &b = moments[i];
+    const double rate = (b.state.motion.vx_mps - a.state.motion.vx_mps) / (b.time_s - a.time_s);
+    moments[i].state.rim_acceleration_mps2 = std::clamp(rate, -most_mps2, most_mps2);
+  }
+}
+
+GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
+                         double speed_max_mps) {
+  const Vehicle& vehicle = problem.vehicle;
+  PathCurve curve = curve_of(table, problem.map.elevation().frame);
+  std::vector<RecordedMoment> moments;
+  std::vector<SpeedProfile::Node> nodes;
+  double margin_min = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    // Rolling downhill, the vehicle itself may be a little faster than its limit.
+    constexpr double kRounding = 1e-3;
+    // At rest on a slope it may creep backwards.
+    constexpr double kCreep_mps = VehicleDynamics::kStandstillSpeed_mps;
+    table.number(i, "speed_mps", {.min = -kCreep_mps, .max = speed_max_mps * (1 + kRounding)},
+                 ", the largest speed");
+    RecordedMoment moment = moment_at(table, i, vehicle);
+    moment.s_m = curve.point_arc_m()[i];
+    if (!moments.empty() && !(moment.time_s > moments.back().time_s)) {
+      throw table.error(table.line(i), fmt::format("time_s: {} is not valid (allowed: above {}, "
+                                                   "the row before)",
+                                                   moment.time_s, moments.back().time_s));
+    }
+    const double speed = std::max(0.0, moment.state.motion.vx_mps);
+    if (nodes.empty() || moment.s_m > nodes.back().s_m) {
+      const bool both_rest = !nodes.empty() && nodes.back().speed_mps + speed <= 0;
+      nodes.push_back({moment.s_m, both_rest ? 1e-3 : speed});
+    }
+    margin_min = std::min(margin_min, table.number_if_any(i, "margin").value_or(margin_min));
+    moments.push_back(moment);
+  }
+  if (!table.has("acceleration_mps2")) add_accelerations(moments, vehicle.acceleration_max_mps2);
+  return {.path = {.name = table.file(),
+                   .curve = std::move(curve),
+                   .speed = SpeedProfile(std::move(nodes)),
+                   .recorded = std::move(moments)},
+          .recorded_margin_min = margin_min,
+          .notices = {}};
+}
+
+/// Whether all speeds of a table are meant backwards: the first that is not 0 tells.
+bool drives_in_reverse(const PathTable& table) {
+  for (std::size_t i = 0; table.has("speed_mps") && i < table.rows(); ++i) {
+    const double speed = table.number(i, "speed_mps", kAnyNumber);
+    if (speed != 0) return speed < 0;
+  }
+  return false;
+}
+
+/// Speeds that stand in the table, without their sign, as far as the vehicle's acceleration follows
+/// them.
+SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const Vehicle& vehicle,
+                         double speed_max_mps, std::vector<std::string>& notices) {
+  std::vector<SpeedProfile::Node> nodes;
+  const bool reverse = drives_in_reverse(table);
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const bool end = i == 0 || i + 1 == table.rows();
+    const char* ends = end ? "" : "; 0 only at the ends";
+    const double speed =
+        reverse
+            ? -table.number(i, "speed_mps", {.min = -speed_max_mps, .max = 0, .max_excluded = !end},
+                            fmt::format(", all of a path in one direction{}", ends))
+            : table.number(i, "speed_mps", {.min = 0, .max = speed_max_mps, .min_excluded = !end},
+                           fmt::format(", the largest speed{}", ends));
+    const double s = curve.point_arc_m()[i];
+    if (!nodes.empty() && !(s > nodes.back().s_m)) {
+      nodes.back().speed_mps = speed;  // of points too near to each other the last counts
+    } else {
+      nodes.push_back({s, speed});
+    }
+  }
+  SpeedProfile profile = limited_by_acceleration(
+      nodes, nodes.front().speed_mps, nodes.back().speed_mps, vehicle.acceleration_max_mps2);
+  constexpr double kNoticed_mps = 1e-3;
+  const auto lowered = std::ranges::find_if(nodes, [&](const SpeedProfile::Node& node) {
+    return profile.at(node.s_m).speed_mps < node.speed_mps - kNoticed_mps;
+  });
+  if (lowered != nodes.end()) {
+    notices.push_back(fmt::format(
+        "{}: speeds are lowered to what the acceleration of {} m/s2 follows, first {:.1f} m along "
+        "({:.2f} for {:.2f} m/s)",
+        table.file(), vehicle.acceleration_max_mps2, lowered->s_m,
+        profile.at(lowered->s_m).speed_mps, lowered->speed_mps));
+  }
+  return profile;
+}
+
+GivenPath point_path(const PathTable& table, const PlanningProblem& problem, double speed_max_mps) {
+  PathCurve curve = curve_of(table, problem.map.elevation().frame);
+  std::vector<std::string> notices;
+  if (curve.thinned() > 0) {
+    notices.push_back(fmt::format("{}: {} points nearer than {} m to the one before are left out",
+                                  table.file(), curve.thinned(), PathCurve::kSpacingMin_m));
+  }
+  std::vector<std::string> ignored;
+  for (const std::string& column : table.columns()) {
+    if (column != "x_m" && column != "y_m" && column != "speed_mps") ignored.push_back(column);
+  }
+  if (!ignored.empty()) {
+    notices.push_back(
+        fmt::format("{}: columns ignored: {}", table.file(), fmt::join(ignored, ", ")));
+  }
+  SpeedProfile speed = table.has("speed_mps")
+                           ? given_speed(table, curve, problem.vehicle, speed_max_mps, notices)
+                           : limited_by_acceleration(
+                                 {{0, speed_max_mps}, {curve.length_m(), speed_max_mps}},
+                                 problem.start.speed_mps, 0, problem.vehicle.acceleration_max_mps2);
+  return {.path = {.name = table.file(),
+                   .curve = std::move(curve),
+                   .speed = std::move(speed),
+                   .reverse = drives_in_reverse(table)},
+          .recorded_margin_min = {},
+          .notices = std::move(notices)};
+}
+
+}  // namespace
+
+GivenPath read_path(const std::string& file, const PlanningProblem& problem, double speed_max_mps) {
+  const PathTable table(file);
+  GivenPath given = is_candidate(table) ? candidate_path(table, problem, speed_max_mps)
+                                        : point_path(table, problem, speed_max_mps);
+  const ReferencePath& path = given.path;
+  if (!(drive_steps(path) <= kDriveStepsMax)) {
+    throw InputError(fmt::format("{}: at its speeds it takes {:.3g} s (allowed: at most {:.3g} s)",
+                                 file, path.speed.duration_s(path.curve.length_m()),
+                                 drive_time_max_s(path.speed.speed_max_mps())));
+  }
+  return given;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,55 @@
+#include "app/io/csv_cells.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace regoplan {
+
+std::string number_cell(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
+std::string text_cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    if (letter == '"') quoted += '"';
+    quoted += letter;
+  }
+  return quoted + "\"";
+}
+
+std::string own_text_cell(std::string_view text) {
+  const bool formula =
+      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+  return text_cell(formula ? fmt::format("'{}", text) : std::string(text));
+}
+
+std::optional<std::vector<std::string>> split_cells(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char letter = line[i];
+    if (quoted) {
+      if (letter != '"') {
+        cells.back() += letter;
+      } else if (i + 1 < line.size() && line[i + 1] == '"') {
+        cells.back() += '"';
+        ++i;
+      } else {
+        quoted = false;
+      }
+    } else if (letter == '"' && cells.back().empty()) {
+      quoted = true;
+    } else if (letter == ',') {
+      cells.emplace_back();
+    } else {
+      cells.back() += letter;
+    }
+  }
+  if (quoted) return {};
+  return cells;
+}
+
+}  // namespace regoplan

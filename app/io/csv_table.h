@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/io/value_range.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+
+/// A number of a table that is none of those allowed there.
+struct CellOutOfRange {
+  std::int64_t line = 0;
+  std::string column;
+  double value = 0;
+  std::string allowed;  ///< in words
+};
+
+class OutOfRangeError : public InputError {
+ public:
+  OutOfRangeError(const InputError& error, CellOutOfRange cell)
+      : InputError(error), cell_(std::move(cell)) {}
+
+  const CellOutOfRange& cell() const { return cell_; }
+
+ private:
+  CellOutOfRange cell_;
+};
+
+/// A CSV table with a header (RFC 4180, one line a row), read row by row. What is wrong with it is
+/// an InputError that names file and line.
+class CsvTable {
+ public:
+  using Cells = std::vector<std::string>;
+
+  /// \param file the table's name, for errors
+  /// \throws InputError for a missing header and a column given twice
+  CsvTable(std::istream& stream, std::string file);
+
+  const Cells& columns() const { return columns_; }
+  std::optional<std::size_t> find_column(std::string_view sought) const;
+  /// \throws InputError where there is none
+  std::size_t column(std::string_view sought) const;
+
+  /// The next row, as wide as the header; nothing at the end. Empty lines count at the end only.
+  std::optional<Cells> next();
+  /// Where the row stands that `next` gave last.
+  std::int64_t line() const { return line_; }
+
+  /// A cell of the row that `next` gave last.
+  /// \param hint what may be meant instead, for the error
+  /// \throws OutOfRangeError for a number outside `allowed`, InputError for what is no number
+  double number(const Cells& cells, std::size_t index, const ValueRange& allowed,
+                std::string_view hint = "") const;
+
+  InputError error(const std::string& what) const;
+
+ private:
+  std::optional<Cells> next_line();
+
+  std::istream& stream_;
+  std::string file_;
+  std::int64_t line_ = 0;
+  Cells columns_;
+};
+
+}  // namespace regoplan

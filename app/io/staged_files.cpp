@@ -1,0 +1,171 @@
+#include "app/io/staged_files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "app/io/result_manifest.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kStagingPrefix = ".regoplan-";
+
+fs::path tidy(const fs::path& folder) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();  // "a/b/" is "a/b"
+}
+
+/// The topmost of the folders towards `folder` that do not exist yet; empty where it exists.
+fs::path topmost_missing(const fs::path& folder) {
+  fs::path missing;
+  for (fs::path at = tidy(folder); !fs::exists(at); at = at.parent_path()) {
+    missing = at;
+  }
+  return missing;
+}
+
+/// An open folder that no other process has locked; -1 where one has, or it is gone.
+int locked(const fs::path& folder) {
+  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  struct stat status {};
+  // Whoever swept it in between has left a folder without a name.
+  if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0 &&
+      status.st_nlink > 0) {
+    return file;
+  }
+  if (file >= 0) close(file);
+  return -1;
+}
+
+bool is_staging(const fs::path& folder) {
+  const std::string name = folder.filename().string();
+  return name.starts_with(kStagingPrefix) && name.size() > kStagingPrefix.size() &&
+         name.find_first_not_of("0123456789", kStagingPrefix.size()) == std::string::npos;
+}
+
+/// Removes the hidden folders of processes that have ended: nobody holds their locks.
+void sweep(const fs::path& folder) {
+  std::error_code failed;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+    if (is_staging(at->path()) && !at->is_symlink(failed)) left.push_back(at->path());
+  }
+  for (const fs::path& staging : left) {
+    const int lock = locked(staging);
+    if (lock < 0) continue;
+    fs::remove_all(staging, failed);
+    close(lock);
+  }
+}
+
+[[noreturn]] void fail(const fs::path& file, std::string_view what) {
+  throw InputError(fmt::format("{}: {}", file.string(), what));
+}
+
+}  // namespace
+
+void require_writable_folder(const fs::path& folder) {
+  const fs::path missing = topmost_missing(folder);
+  const fs::path existing = missing.empty() ? folder : missing.parent_path();
+  if (!fs::is_directory(existing)) fail(existing, "not a folder");
+  if (access(existing.c_str(), W_OK | X_OK) != 0) fail(existing, "not writable");
+}
+
+void require_results_fit(const ResultFolder& folder, const std::vector<std::string>& names) {
+  require_writable_folder(folder.path);
+  const ResultManifest manifest(folder.path);
+  for (const std::string& name : names) {
+    const fs::path file = folder.path / name;
+    const fs::file_status there = fs::status(file);
+    if (!fs::exists(there)) continue;
+    if (!fs::is_regular_file(there)) fail(file, "stands in the way, no regular file");
+    if (!folder.force && !manifest.is_own(name)) {
+      fail(file, "was not written by regoplan, or was changed since; --force replaces it");
+    }
+  }
+}
+
+StagedFiles::StagedFiles(const ResultFolder& folder)
+    : folder_{tidy(folder.path), folder.force}, made_(topmost_missing(folder_.path)) {
+  require_writable_folder(folder_.path);
+  if (made_.empty()) sweep(folder_.path);
+  // A folder that a killed process of the same number left may still be there, or be swept by
+  // another process while it is made.
+  staging_ = folder_.path / fmt::format("{}{}", kStagingPrefix, getpid());
+  for (int attempt = 0; attempt < 10 && lock_ < 0; ++attempt) {
+    std::error_code failed;
+    fs::create_directories(staging_, failed);
+    if (failed) fail(staging_, failed.message());
+    lock_ = locked(staging_);
+  }
+  if (lock_ < 0) fail(staging_, "is in use by another process");
+}
+
+StagedFiles::~StagedFiles() {
+  std::error_code ignored;  // nothing can be done about a leftover
+  fs::remove_all(staging_, ignored);
+  close(lock_);
+  if (made_.empty()) return;
+  // Folders that hold nothing yet go again.
+  for (fs::path at = folder_.path; fs::remove(at, ignored) && at != made_;) at = at.parent_path();
+}
+
+std::string StagedFiles::path(const std::string& name) {
+  if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
+  return (staging_ / name).string();
+}
+
+void StagedFiles::write(const RenderedFile& file) {
+  const std::string target = path(file.name);
+  std::ofstream stream(target, std::ios::binary);
+  stream << file.content;
+  stream.close();
+  if (!stream) fail(target, "cannot be written (disk full?)");
+}
+
+void StagedFiles::commit() {
+  require_results_fit(folder_, names_);
+  ResultManifest manifest(folder_.path);
+  // Killed at any moment, each file is one of the two that the manifest then knows.
+  for (const std::string& name : names_) manifest.add(name, staging_ / name);
+  write_manifest(manifest.text());
+  for (const std::string& name : names_) move(name);
+  for (const std::string& name : names_) manifest.set(name, folder_.path / name);
+  write_manifest(manifest.text());
+}
+
+bool StagedFiles::remove(const std::string& name) {
+  ResultManifest manifest(folder_.path);
+  if (!manifest.is_own(name)) return false;
+  std::error_code failed;
+  fs::remove(folder_.path / name, failed);
+  manifest.remove(name);
+  write_manifest(manifest.text());
+  return true;
+}
+
+void StagedFiles::write_manifest(const std::string& text) {
+  std::ofstream stream(staging_ / ResultManifest::kName, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) fail(staging_ / ResultManifest::kName, "cannot be written (disk full?)");
+  move(ResultManifest::kName);
+}
+
+void StagedFiles::move(const std::string& name) const {
+  std::error_code failed;
+  fs::rename(staging_ / name, folder_.path / name, failed);
+  if (failed) fail(folder_.path / name, failed.message());
+}
+
+}  // namespace regoplan

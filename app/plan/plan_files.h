@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/io/staged_files.h"
+#include "planner/problem/plan_result.h"
+#include "planner/problem/planning_problem.h"
+
+namespace regoplan {
+
+/// The text of plan.json. Two runs of the same problem under an iteration budget differ in
+/// `planning_time_s`, `verification_time_s` and `first_verified_s` only.
+std::string plan_json(const PlanningProblem& problem, const PlanResult& result);
+
+/// The table of a candidate's points: candidate-K.csv.
+std::string candidate_csv(const PlanningProblem& problem, const Candidate& candidate);
+
+/// A candidate's path in map coordinates, GeoJSON with a `crs` member: candidate-K.geojson.
+std::string candidate_geojson(const PlanningProblem& problem, const Candidate& candidate);
+
+/// The files that a plan of this problem may come to.
+std::vector<std::string> plan_file_names(const PlanningProblem& problem);
+
+/// Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, and where the plan has them
+/// as GeoTIFF in the map's place margin.tif and supply.tif, a band for each speed (see
+/// `TerrainRasters`), all or none. Takes away the candidate files and rasters of an earlier plan in
+/// the same folder that are not written again.
+/// \throws InputError where the folder takes no files
+void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
+                      const ResultFolder& folder);
+
+}  // namespace regoplan

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "planner/problem/plan_result.h"
+#include "planner/problem/planning_problem.h"
+
+namespace regoplan {
+
+/// The verdict in one sentence, with the margin of the best candidate and what binds it.
+std::string plan_headline(const PlanResult& result);
+
+/// A result for people: one self-contained HTML page with the verdict, the candidates on the map,
+/// what decides along each of them, what was rejected and why, and how it was decided. Its data
+/// stand in it as JSON, with the key names and units of `plan.json`.
+std::string plan_report(const PlanningProblem& problem, const PlanResult& result);
+
+}  // namespace regoplan

@@ -1,0 +1,94 @@
+#include "app/plan/plan_run.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "app/command/progress_line.h"
+#include "app/io/interrupt.h"
+#include "app/plan/plan_files.h"
+#include "app/plan/plan_report.h"
+#include "planner/plan.h"
+
+namespace regoplan {
+namespace {
+
+/// The time of an answer is counted from here, the reading of the map included.
+const std::chrono::steady_clock::time_point kProgramStart = std::chrono::steady_clock::now();
+
+/// A path at once, before anything is ranked.
+std::string verified_line(const Candidate& candidate, double since_start_s) {
+  return fmt::format("after {:.1f} s: verified {}path of {}, {:.1f} m in {:.1f} s, margin {:.3f}\n",
+                     since_start_s, candidate.improvement ? "improved " : "", candidate.planner,
+                     candidate.length_m, candidate.duration_s, candidate.margin_min);
+}
+
+std::string candidate_row(const Candidate& candidate) {
+  const auto& spread = candidate.spread;
+  return fmt::format(
+      "{:>4} {:>12} {:>9.1f} {:>10.1f} {:>9.1f} {:>10} {:>10.3f} {:>11} {:>9}\n", candidate.rank,
+      candidate.planner, candidate.length_m, candidate.duration_s, candidate.energy_j / 1000,
+      spread ? fmt::format("{:.3f}", spread->p05) : "-", candidate.margin_min,
+      name(candidate.limiting.margin),
+      spread ? fmt::format("{:.0f}/{}", spread->feasible.share * spread->draws, spread->draws)
+             : "-");
+}
+
+std::string summary(const PlanResult& result) {
+  std::string text = plan_headline(result) + "\n";
+  if (result.interrupted) text = "Interrupted. " + text;
+  if (const auto gap = duration_gap(result)) {
+    text += fmt::format(
+        "No path of this problem is faster than {:.1f} s; gap of the fastest: {:.0f} %.\n",
+        *result.least_duration_s, 100 * *gap);
+  }
+  if (!result.candidates.empty()) {
+    text += fmt::format("{:>4} {:>12} {:>9} {:>10} {:>9} {:>10} {:>10} {:>11} {:>9}\n", "rank",
+                        "planner", "length_m", "duration_s", "energy_kj", "margin_p05",
+                        "margin_min", "limited by", "draws ok");
+  }
+  for (const Candidate& candidate : result.candidates) text += candidate_row(candidate);
+  std::string rejected;
+  for (int i = 0; i < kRejectionCount; ++i) {
+    const auto count = result.rejected.at(static_cast<std::size_t>(i));
+    if (count == 0) continue;
+    rejected += fmt::format("{}{} {}", rejected.empty() ? "" : ", ",
+                            name(static_cast<Rejection>(i)), count);
+  }
+  return text + fmt::format("rejected states: {}\n", rejected.empty() ? "none" : rejected);
+}
+
+ExitStatus status_of(const PlanResult& result) {
+  if (result.interrupted) return kInterrupted;
+  return result.status == PlanStatus::kFeasible ? kYes : kNo;
+}
+
+}  // namespace
+
+ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
+  require_results_fit(output.folder, plan_file_names(scenario.problem));
+  for (const std::string& notice : scenario.notices) notify(notice, output.quiet);
+  ProgressLine line(output.quiet);
+  const auto say = [&](const std::string& text) {
+    if (output.quiet || output.json) return;
+    line.wipe();
+    fmt::print("{}", text);
+    std::fflush(stdout);
+  };
+  const PlanResult result =
+      plan(scenario.problem,
+           {.on_progress = [&](const PlanProgress& progress) { line.show(progress); },
+            .on_verified = [&](const Candidate& path,
+                               double since_start_s) { say(verified_line(path, since_start_s)); },
+            .on_answer = [&](const PlanResult& answer) { say(summary(answer)); },
+            .stop = stop_on_interrupt(),
+            .started = kProgramStart});
+  line.wipe();
+  write_plan_files(scenario.problem, result, output.folder);
+  if (output.json) fmt::print("{}", plan_json(scenario.problem, result));
+  say(fmt::format("report: {}\n", (output.folder.path / "report.html").string()));
+  return status_of(result);
+}
+
+}  // namespace regoplan

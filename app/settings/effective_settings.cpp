@@ -1,0 +1,98 @@
+#include "app/settings/effective_settings.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/io/number_text.h"
+#include "app/settings/vehicle_settings.h"
+
+namespace regoplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The degrees that read back to these radians.
+double degrees(double angle_rad) {
+  return parse_number(number_in_unit(angle_rad, std::numbers::pi / 180)).value();
+}
+
+/// YAML that regoplan wrote, where what is not quoted is a number or a truth value if it looks so.
+Json as_json(const YAML::Node& yaml) {
+  if (yaml.IsSequence()) {
+    Json list = Json::array();
+    for (const YAML::Node& item : yaml) list.push_back(as_json(item));
+    return list;
+  }
+  if (yaml.IsMap()) {
+    Json mapping = Json::object();
+    for (const auto& entry : yaml) mapping[entry.first.Scalar()] = as_json(entry.second);
+    return mapping;
+  }
+  const std::string& text = yaml.Scalar();
+  if (yaml.Tag() == "!") return text;
+  if (text == "true" || text == "false") return text == "true";
+  const std::optional<double> number = parse_number(text);
+  return number ? Json(*number) : Json(text);
+}
+
+Json start_json(const StartState& start) {
+  return {{"x_m", start.x_m},
+          {"y_m", start.y_m},
+          {"heading_deg", degrees(start.heading_rad)},
+          {"speed_mps", start.speed_mps}};
+}
+
+Json goal_json(const Goal& goal) {
+  Json json{{"x_m", goal.x_m},
+            {"y_m", goal.y_m},
+            {"radius_m", goal.radius_m},
+            {"speed_mps", {{"max", goal.speed_max_mps}}}};
+  if (goal.heading_rad) {
+    json["heading_deg"] = degrees(*goal.heading_rad);
+    json["heading_tolerance_deg"] = degrees(goal.heading_tolerance_rad);
+  }
+  return json;
+}
+
+Json limits_json(const Limits& limits) {
+  return {{"margin_min", limits.margin_min},
+          {"slip_max", limits.slip_max},
+          {"slip_angle_max_deg", degrees(limits.slip_angle_max_rad)},
+          {"slope_max_deg", degrees(limits.slope_max_rad)},
+          {"sinkage_max_m", limits.sinkage_max_m},
+          {"probability_min", limits.probability_min}};
+}
+
+Json search_json(const Search& search) {
+  const Objective& objective = search.objective;
+  Json json{{"name", search.planner},
+            {"objective",
+             {{"per_s", objective.per_s},
+              {"per_m", objective.per_m},
+              {"per_j", objective.per_j},
+              {"per_exposed_s", objective.per_exposed_s},
+              {"exposed_below", objective.exposed_below}}}};
+  if (search.time_s) json["time_s"] = *search.time_s;
+  if (search.iterations) json["iterations"] = *search.iterations;
+  json["improve"] = search.improve;
+  json["seed"] = search.seed;
+  json["candidates"] = search.candidates;
+  json["soil_draws"] = search.soil_draws;
+  return json;
+}
+
+}  // namespace
+
+Json effective_settings(const PlanningProblem& problem) {
+  return {{"vehicle", as_json(YAML::Load(vehicle_text(problem.vehicle)))},
+          {"gravity_mps2", problem.gravity_mps2},
+          {"start", start_json(problem.start)},
+          {"goal", goal_json(problem.goal)},
+          {"speed_mps", {{"max", problem.speed_max_mps}}},
+          {"limits", limits_json(problem.limits)},
+          {"planner", search_json(problem.search)}};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,51 @@
+#include "app/settings/map_notices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace regoplan {
+namespace {
+
+std::string cell_text(const GridFrame& frame) {
+  return fmt::format("{:.4g} x {:.4g} m", frame.cell_width_m, frame.cell_height_m);
+}
+
+/// Whether heights come in steps of a metre, as they do where they are counts of something.
+bool in_whole_metres(const std::vector<float>& heights_m) {
+  float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
+  for (const float height_m : heights_m) {
+    if (std::isnan(height_m)) continue;
+    if (height_m != std::floor(height_m)) return false;
+    lowest = std::min(lowest, height_m);
+    highest = std::max(highest, height_m);
+  }
+  return lowest < highest;
+}
+
+}  // namespace
+
+std::vector<std::string> map_notices(const TerrainMap& map, const Vehicle& vehicle) {
+  const GridFrame& frame = map.elevation().frame;
+  const double cell_m = std::max(frame.cell_width_m, frame.cell_height_m);
+  const double vehicle_m = vehicle.body.y_max_m - vehicle.body.y_min_m;
+  std::vector<std::string> notices;
+  if (cell_m > vehicle_m) {
+    notices.push_back(fmt::format(
+        "the elevation's cells of {} are wider than the {} ({:.4g} m): what lies between their "
+        "centres is not judged; remedy: finer elevations, and rocks for what is known to stand "
+        "there",
+        cell_text(frame), vehicle.name, vehicle_m));
+  }
+  constexpr double kCoarse_m = 10;  // where a step of a metre is a slope of 6 deg
+  if (cell_m < kCoarse_m && in_whole_metres(map.elevation().height_m)) {
+    notices.push_back(fmt::format(
+        "the elevation's heights are whole metres, in cells of {}: steps of {:.0f} deg; remedy, "
+        "where they are counts of another unit: regoplan map import --scale METRES_A_UNIT",
+        cell_text(frame), std::atan(1 / cell_m) * 57.29577951308232));
+  }
+  return notices;
+}
+
+}  // namespace regoplan

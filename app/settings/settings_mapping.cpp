@@ -1,0 +1,100 @@
+#include "app/settings/settings_mapping.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace regoplan {
+namespace {
+
+/// Levenshtein distance: how many letters differ.
+std::size_t edits_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t above = row[j + 1];
+      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+/// `mass_kg` is all of `vehicle.mass_kg`.
+bool means_all_of(const SettingsNode& value, std::string_view field) {
+  return fmt::format(".{}", value.path()).ends_with(fmt::format(".{}", field));
+}
+
+}  // namespace
+
+SettingsError placed_error(const SettingsNode& node, const ValueError& bad) {
+  const SettingsNode* value = node.find(bad.field());
+  const std::string what = fmt::format("{} is not valid (allowed: {})", bad.value(), bad.allowed());
+  return value && means_all_of(*value, bad.field()) ? value->error(what)
+                                                    : (value ? *value : node).error(bad.what());
+}
+
+SettingsError placed_error(const SettingsNode& node, const InputError& bad) {
+  // Checks begin with the field: "start.x_m: ...", "wheels: ...".
+  const std::string_view what = bad.what();
+  const std::size_t colon = what.find(": ");
+  const SettingsNode* value =
+      colon == std::string_view::npos ? nullptr : node.find(what.substr(0, colon));
+  if (!value) return node.error(what);
+  return value->error(means_all_of(*value, what.substr(0, colon)) ? what.substr(colon + 2) : what);
+}
+
+SettingsMapping::SettingsMapping(const SettingsNode& node) : node_(node) {
+  node.mapping();
+}
+
+const SettingsNode* SettingsMapping::optional(std::string_view key) {
+  asked_.emplace(key);
+  for (const SettingsEntry& entry : node_.mapping()) {
+    if (entry.key == key) return &entry.value;
+  }
+  return nullptr;
+}
+
+const SettingsNode& SettingsMapping::required(std::string_view key) {
+  if (const SettingsNode* value = optional(key)) return *value;
+  // A misspelt key is the likeliest reason.
+  for (const SettingsEntry& entry : node_.mapping()) {
+    if (!asked_.contains(entry.key) && edits_between(entry.key, key) <= 2) {
+      throw node_.error(fmt::format("{} is missing (line {} has {})", key, entry.line, entry.key));
+    }
+  }
+  throw node_.error(fmt::format("{} is missing", key));
+}
+
+double SettingsMapping::number(std::string_view key, const ValueRange& allowed) {
+  return required(key).number(allowed);
+}
+
+double SettingsMapping::number_or(std::string_view key, const ValueRange& allowed,
+                                  double fallback) {
+  const SettingsNode* value = optional(key);
+  return value ? value->number(allowed) : fallback;
+}
+
+void SettingsMapping::reject_unread_keys() const {
+  for (const SettingsEntry& entry : node_.mapping()) {
+    if (asked_.contains(entry.key)) continue;
+    const auto nearest = std::ranges::min_element(
+        asked_, {}, [&entry](const std::string& key) { return edits_between(entry.key, key); });
+    const bool near =
+        nearest != asked_.end() && 2 * edits_between(entry.key, *nearest) <= entry.key.size();
+    const std::string hint = near ? fmt::format("did you mean {}?", *nearest)
+                                  : fmt::format("known: {}", fmt::join(asked_, ", "));
+    throw SettingsError(fmt::format("{}:{}: {}: unknown key ({})", node_.file(), entry.line,
+                                    entry.value.path(), hint));
+  }
+}
+
+}  // namespace regoplan

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "benchmarking/suite.h"
+#include "planner/problem/planning_problem.h"
+
+namespace regoplan {
+
+/// Reads SUITE.yaml:
+///
+///     name: six_by_five
+///     scenarios: [scenarios/crater_rim.yaml, {name: rim, file: FILE.yaml}]
+///     planners: [RRT, {name: RRT_greedy, planner: RRT, parameters: {goal_bias: 0.3}}]
+///     seeds: 20                       # 1 to 20, or a list
+///     time_s: 2                       # of each search
+///     iterations: 5000                # optional, a further bound
+///     memory_mb: 2048                 # optional, as the following
+///     soil_draws: 100
+///     progress_interval_s: 0.05
+///     sweep: {speed_mps.max: [1, 2]}  # every combination of the values
+///
+/// Files are relative to the suite; names have letters, digits, `_`, `-` and `.` only.
+/// \throws SettingsError
+Suite read_suite(const std::string& file);
+
+/// The problem of a suite's scenario, or of any other sweep point of it, at a sweep point.
+/// \throws InputError naming the experiment where a value is not possible
+PlanningProblem at_sweep_point(PlanningProblem problem, const Suite& suite, std::size_t scenario,
+                               std::size_t sweep_point);
+
+/// A number that changes when anything changes that the scenario's problem is made of: file, map,
+/// soils, rocks. Hexadecimal.
+std::string digest(const std::string& scenario_file, const PlanningProblem& problem);
+
+}  // namespace regoplan

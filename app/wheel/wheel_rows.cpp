@@ -1,0 +1,163 @@
+#include "app/wheel/wheel_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <istream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <ostream>
+
+#include "app/io/csv_cells.h"
+#include "app/io/csv_table.h"
+#include "app/io/number_text.h"
+#include "app/io/value_range.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Condition {
+  const char* column;
+  ValueRange allowed;
+};
+constexpr std::array<Condition, 3> kConditions{{
+    {"load_n", kAbove0},
+    {"slip_ratio", {.min = -1, .max = 1}},
+    {"slip_angle_deg", {.min = -90, .max = 90}},
+}};
+
+/// Columns that a mechanism may need; each may be left out.
+struct Circumstance {
+  const char* column;
+  ValueRange allowed;
+  double WheelConditions::*member;
+  double unit;
+};
+constexpr std::array<Circumstance, 5> kCircumstances{{
+    {"speed_mps", kAtLeast0, &WheelConditions::speed_mps, 1},
+    {"position_m", kAnyNumber, &WheelConditions::position_m, 1},
+    {"time_s", kAnyNumber, &WheelConditions::time_s, 1},
+    {"heading_deg", kAnyNumber, &WheelConditions::heading_rad, kDegree},
+    {"wheel_angle_deg", kAnyNumber, &WheelConditions::wheel_angle_rad, kDegree},
+}};
+constexpr ValueRange kPasses{.min = 1, .max = 1e6};
+
+constexpr std::array<const char*, 7> kResults{"fx_n", "fy_n", "torque_nm", "sinkage_m",
+                                              "fc_n", "fb_n", "status"};
+
+using Cells = CsvTable::Cells;
+
+/// What a row says of the circumstances; only where a mechanism asks for them is it read.
+WheelConditions read_circumstances(const CsvTable& table, const Cells& cells) {
+  WheelConditions conditions;
+  for (const Circumstance& circumstance : kCircumstances) {
+    if (const auto column = table.find_column(circumstance.column)) {
+      conditions.*circumstance.member =
+          circumstance.unit * table.number(cells, *column, circumstance.allowed);
+    }
+  }
+  if (const auto column = table.find_column("pass")) {
+    conditions.pass = static_cast<int>(table.number(cells, *column, kPasses));
+  }
+  return conditions;
+}
+
+Cells result_cells(const WheelForces& forces, double slip_angle_rad) {
+  Cells cells(kResults.size());
+  cells.back() = name(forces.status);
+  if (!has_forces(forces.status)) return cells;
+  const double sine = std::sin(slip_angle_rad);
+  const double cosine = std::cos(slip_angle_rad);
+  const std::array values{forces.fx_n,
+                          forces.fy_n,
+                          forces.torque_nm,
+                          forces.sinkage_m,
+                          forces.fx_n * sine + forces.fy_n * cosine,   // eq. (18)
+                          forces.fx_n * cosine - forces.fy_n * sine};  // eq. (19)
+  std::ranges::transform(values, cells.begin(), number_cell);
+  return cells;
+}
+
+std::string csv_line(const Cells& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    line += text_cell(cell);
+  }
+  return line + '\n';
+}
+
+nlohmann::ordered_json json_row(const Cells& columns, const Cells& cells) {
+  nlohmann::ordered_json row = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::optional<double> number = parse_number(cells[i]);
+    if (number) {
+      row[columns[i]] = *number;
+    } else if (cells[i].empty()) {
+      row[columns[i]] = nullptr;
+    } else {
+      row[columns[i]] = cells[i];
+    }
+  }
+  return row;
+}
+
+}  // namespace
+
+WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& file,
+                                   const WheelModel& model, const WheelRowSinks& sinks,
+                                   const std::stop_token& stop) {
+  CsvTable table(conditions, file);
+  std::array<std::size_t, kConditions.size()> condition_columns{};
+  for (std::size_t i = 0; i < kConditions.size(); ++i) {
+    condition_columns.at(i) = table.column(kConditions.at(i).column);
+  }
+
+  WheelRowsResult result;
+  Cells columns = table.columns();
+  for (std::string& column : columns) {
+    if (std::ranges::find(kResults, column) == kResults.end()) continue;
+    result.renamed.push_back(column);
+    column.insert(0, "input_");
+  }
+  columns.insert(columns.end(), kResults.begin(), kResults.end());
+  if (sinks.csv) *sinks.csv << csv_line(columns);
+  if (sinks.json) *sinks.json << R"({"rows": [)";
+
+  while (std::optional<Cells> cells = table.next()) {
+    if (stop.stop_requested()) break;
+    std::array<double, kConditions.size()> values{};
+    for (std::size_t i = 0; i < kConditions.size(); ++i) {
+      values.at(i) = table.number(*cells, condition_columns.at(i), kConditions.at(i).allowed);
+    }
+    const auto [load_n, slip, slip_angle_deg] = values;
+    const double slip_angle_rad = slip_angle_deg * kDegree;
+    const WheelMotion motion = motion_at(slip, slip_angle_rad);
+    const WheelForces forces =
+        model.spec().mechanisms.empty()
+            ? model.forces(load_n, motion)
+            : model.channels(load_n, motion, read_circumstances(table, *cells)).forces;
+    for (std::string& cell : result_cells(forces, slip_angle_rad)) {
+      cells->push_back(std::move(cell));
+    }
+    if (sinks.csv) *sinks.csv << csv_line(*cells);
+    if (sinks.json) *sinks.json << (result.rows ? ",\n" : "\n") << json_row(columns, *cells).dump();
+    if ((sinks.csv && !*sinks.csv) || (sinks.json && !*sinks.json)) {
+      throw InputError("the rows cannot be written (disk full?)");
+    }
+    ++result.rows;
+  }
+  result.interrupted = stop.stop_requested();
+  if (sinks.json) {
+    *sinks.json << "\n], \"interrupted\": " << (result.interrupted ? "true" : "false") << "}\n";
+  }
+  return result;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,87 @@
+#include "planner/certificate/undecided.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "planner/certificate/least_length.h"
+#include "planner/problem/rejection_text.h"
+
+namespace regoplan {
+namespace {
+
+/// A round time, some times what there was.
+double more_time_s(double time_s) {
+  constexpr double kTimes = 2.5;
+  const double decade = std::pow(10, std::floor(std::log10(kTimes * time_s)));
+  for (const double round : {1.0, 2.0, 5.0}) {
+    if (round * decade >= kTimes * time_s) return round * decade;
+  }
+  return 10 * decade;
+}
+
+/// The rejected state that stands for those nearest to the goal: of their most frequent reason, the
+/// one that missed its limit by the smallest share.
+std::string narrowest_place(const PlanningProblem& problem,
+                            const std::vector<RejectedState>& rejected) {
+  const LeastLength way(problem);
+  constexpr double kNear = 1.1, kNear_m = 2;
+  std::vector<double> left_m;
+  for (const RejectedState& state : rejected) {
+    const bool inside = problem.map.inside(state.x_m, state.y_m);
+    left_m.push_back(inside ? way.to_goal_m(state.x_m, state.y_m)
+                            : std::numeric_limits<double>::infinity());
+  }
+  const double nearest_m = *std::min_element(left_m.begin(), left_m.end());
+  if (!std::isfinite(nearest_m)) return "";
+  std::array<int, kRejectionCount> counts{};
+  const auto near = [&](std::size_t i) { return left_m[i] <= kNear * nearest_m + kNear_m; };
+  for (std::size_t i = 0; i < rejected.size(); ++i) {
+    if (near(i)) ++counts[static_cast<std::size_t>(rejected[i].reason)];
+  }
+  const auto reason =
+      static_cast<Rejection>(std::max_element(counts.begin(), counts.end()) - counts.begin());
+  const auto missed_by = [](const RejectedState& state) {
+    const double share = std::abs(state.value - state.limit) / std::max(std::abs(state.limit), 0.1);
+    return std::isfinite(share) ? share : std::numeric_limits<double>::max();
+  };
+  std::size_t best = rejected.size();
+  for (std::size_t i = 0; i < rejected.size(); ++i) {
+    if (!near(i) || rejected[i].reason != reason) continue;
+    if (best == rejected.size() || missed_by(rejected[i]) < missed_by(rejected[best])) best = i;
+  }
+  return fmt::format("nearest to the goal, with at least {:.0f} m to go, it was stopped by {}",
+                     left_m[best], rejection_text(rejected[best]));
+}
+
+}  // namespace
+
+std::string why_undecided(const PlanningProblem& problem, const PlanResult& result,
+                          const SearchEnd& end) {
+  std::string time;
+  if (problem.search.time_s && (end.cut_short || end.unverified > 0)) {
+    time = fmt::format("{:.4g} s did not suffice, give it {:.4g} s", *problem.search.time_s,
+                       more_time_s(*problem.search.time_s));
+  }
+  const std::string found =
+      fmt::format("{} {}", end.found, end.found == 1 ? "path was" : "paths were");
+  std::string text;
+  if (!result.overturned.empty()) {
+    text = fmt::format("{} found, none passed its verification: {}", found,
+                       result.overturned.front().verified.reason);
+  } else if (end.found > 0) {
+    text = found + " found and not yet verified";
+  } else {
+    text = "no path was found";
+    const std::string place =
+        result.rejected_states.empty() ? "" : narrowest_place(problem, result.rejected_states);
+    if (!place.empty()) text += "; " + place;
+  }
+  return time.empty() ? text : time + ": " + text;
+}
+
+}  // namespace regoplan

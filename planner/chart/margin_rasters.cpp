@@ -1,0 +1,143 @@
+#include "planner/chart/margin_rasters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "maps/ground_finder.h"
+#include "planner/chart/feasibility_chart.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr int kSideMax = 1024;
+constexpr double kSpeedShares[] = {0.25, 0.5, 0.75, 1};
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+ChartSettings chart_settings(const PlanningProblem& problem) {
+  ChartSettings settings{.vehicle = problem.vehicle,
+                         .soils = problem.map.soils(),
+                         .wheel_variant = problem.wheel_variant,
+                         .mechanisms = problem.mechanisms,
+                         .generic = problem.generic,
+                         .gravity_mps2 = problem.gravity_mps2,
+                         .limits = problem.limits,
+                         .speeds_mps = {},
+                         .slopes_rad = {},
+                         .slope_max_rad = problem.limits.slope_max_rad,
+                         .threads = problem.search.threads};
+  for (const double share : kSpeedShares) {
+    settings.speeds_mps.push_back(share * problem.speed_max_mps);
+  }
+  constexpr double kStep_rad = 5 * kDegree;
+  for (int i = 0; i * kStep_rad < problem.limits.slope_max_rad; ++i) {
+    settings.slopes_rad.push_back(i * kStep_rad);
+  }
+  settings.slopes_rad.push_back(problem.limits.slope_max_rad);
+  return settings;
+}
+
+/// A function of the slope, linear between its nodes; beyond the last that of the last.
+struct OverSlope {
+  std::vector<double> slopes_rad, values;
+
+  double at(double slope_rad) const {
+    const auto next = std::ranges::upper_bound(slopes_rad, slope_rad);
+    if (next == slopes_rad.begin()) return values.front();
+    if (next == slopes_rad.end()) return values.back();
+    const auto k = static_cast<std::size_t>(next - slopes_rad.begin());
+    const double share = (slope_rad - slopes_rad[k - 1]) / (slopes_rad[k] - slopes_rad[k - 1]);
+    return values[k - 1] + share * (values[k] - values[k - 1]);
+  }
+};
+
+std::vector<OverSlope> margins_of(const FeasibilityChart& chart, std::size_t soils) {
+  std::vector<OverSlope> margins(soils);
+  for (const SideSlope& at : chart.side_slopes) {
+    OverSlope& margin = margins[static_cast<std::size_t>(at.soil)];
+    margin.slopes_rad.push_back(at.slope_rad);
+    margin.values.push_back(at.any_heading);
+  }
+  return margins;
+}
+
+std::vector<OverSlope> supplies_of(const FeasibilityChart& chart, std::size_t soils,
+                                   double speed_mps) {
+  std::vector<OverSlope> supplies(soils);
+  for (const SafeCurvature& at : chart.curvatures) {
+    if (at.speed_mps != speed_mps) continue;
+    OverSlope& supply = supplies[static_cast<std::size_t>(at.soil)];
+    supply.slopes_rad.push_back(at.slope_rad);
+    supply.values.push_back(at.supply_n);
+  }
+  return supplies;
+}
+
+GridFrame coarser(GridFrame frame, int factor) {
+  frame.columns = (frame.columns + factor - 1) / factor;
+  frame.rows = (frame.rows + factor - 1) / factor;
+  frame.cell_width_m *= factor;
+  frame.cell_height_m *= factor;
+  return frame;
+}
+
+/// The ground of a cell.
+struct Cell {
+  std::size_t soil = 0;
+  double slope_rad = kNone;  ///< NaN: where none of this is known
+};
+
+std::vector<Cell> cells_of(const PlanningProblem& problem, const GridFrame& frame) {
+  const GroundFinder ground(problem.map, problem.vehicle);
+  std::vector<Cell> cells;
+  cells.reserve(static_cast<std::size_t>(frame.columns) * static_cast<std::size_t>(frame.rows));
+  for (int row = 0; row < frame.rows; ++row) {
+    for (int column = 0; column < frame.columns; ++column) {
+      const double x_m = frame.west_m + (column + 0.5) * frame.cell_width_m;
+      const double y_m = frame.north_m - (row + 0.5) * frame.cell_height_m;
+      const std::optional<int> soil = problem.map.soil_index(x_m, y_m);
+      const GroundPatch patch = soil ? ground.at(x_m, y_m, 0) : GroundPatch{};
+      const double tilt = patch.tilt_rad();
+      if (!patch.known || tilt > problem.limits.slope_max_rad) {
+        cells.push_back({});
+      } else {
+        cells.push_back({.soil = static_cast<std::size_t>(*soil), .slope_rad = tilt});
+      }
+    }
+  }
+  return cells;
+}
+
+std::vector<float> raster_of(const std::vector<Cell>& cells, const std::vector<OverSlope>& soils) {
+  std::vector<float> values;
+  values.reserve(cells.size());
+  for (const Cell& cell : cells) {
+    values.push_back(static_cast<float>(
+        std::isnan(cell.slope_rad) ? kNone : soils[cell.soil].at(cell.slope_rad)));
+  }
+  return values;
+}
+
+}  // namespace
+
+TerrainRasters terrain_rasters(const PlanningProblem& problem) {
+  const ChartSettings settings = chart_settings(problem);
+  const FeasibilityChart chart = feasibility_chart(settings);
+  const GridFrame& fine = problem.map.elevation().frame;
+  const int factor = (std::max(fine.columns, fine.rows) + kSideMax - 1) / kSideMax;
+  TerrainRasters rasters{.frame = coarser(fine, factor),
+                         .margin = {},
+                         .speeds_mps = settings.speeds_mps,
+                         .supply_n = {}};
+  const std::vector<Cell> cells = cells_of(problem, rasters.frame);
+  const std::size_t soils = settings.soils.size();
+  rasters.margin = raster_of(cells, margins_of(chart, soils));
+  for (const double speed_mps : settings.speeds_mps) {
+    rasters.supply_n.push_back(raster_of(cells, supplies_of(chart, soils, speed_mps)));
+  }
+  return rasters;
+}
+
+}  // namespace regoplan

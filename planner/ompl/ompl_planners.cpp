@@ -1,0 +1,69 @@
+#include "planner/ompl/ompl_planners.h"
+
+#include <ompl/control/planners/est/EST.h>
+#include <ompl/control/planners/kpiece/KPIECE1.h>
+#include <ompl/control/planners/pdst/PDST.h>
+#include <ompl/control/planners/rrt/RRT.h>
+#include <ompl/control/planners/sst/SST.h>
+
+#include <algorithm>
+
+#include "planner/ompl/lattice.h"
+#include "planner/ompl/map_decomposition.h"
+#include "planner/ompl/stable_sparse.h"
+#include "planner/ompl/state_cost.h"
+
+namespace regoplan {
+
+namespace ob = ompl::base;
+namespace oc = ompl::control;
+
+namespace {
+
+/// How far the longest motion gets from standstill.
+double longest_first_motion_m(const OmplProblem& problem) {
+  const PlanningProblem& asked = problem.world().problem();
+  const double time_s = problem.space()->getMaxControlDuration() * problem.step_s();
+  const double a = asked.vehicle.acceleration_max_mps2;
+  const double rising_s = std::min(time_s, asked.speed_max_mps / a);
+  return a * rising_s * rising_s / 2 + asked.speed_max_mps * (time_s - rising_s);
+}
+
+}  // namespace
+
+ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
+  const oc::SpaceInformationPtr& si = problem.space();
+  const double map_size_m = problem.diagonal_m();
+  if (name == "Lattice") return std::make_shared<Lattice>(problem);
+  if (name == "StableSparse") return std::make_shared<StableSparse>(problem);
+  if (name == "StateCost") return std::make_shared<StateCost>(problem);
+  if (name == "SyclopRRT") return make_syclop_rrt(problem);
+  if (name == "SyclopEST") return make_syclop_est(problem);
+  if (name == "SST") {
+    auto sst = std::make_shared<oc::SST>(si);
+    // Where a whole motion ends within the pruning radius of its start, the tree never leaves it.
+    const double pruning_m = 0.3 * longest_first_motion_m(problem);
+    sst->setSelectionRadius(5 * pruning_m);
+    sst->setPruningRadius(pruning_m);
+    sst->setGoalBias(0.05);
+    return sst;
+  }
+  if (name == "RRT") {
+    auto rrt = std::make_shared<oc::RRT>(si);
+    rrt->setGoalBias(0.1);
+    rrt->setIntermediateStates(false);
+    return rrt;
+  }
+  if (name == "KPIECE1") return std::make_shared<oc::KPIECE1>(si);
+  if (name == "EST") {
+    auto est = std::make_shared<oc::EST>(si);
+    est->setGoalBias(0.1);
+    est->setRange(0.1 * map_size_m);
+    return est;
+  }
+  auto pdst = std::make_shared<oc::PDST>(si);
+  pdst->setGoalBias(0.1);
+  return pdst;
+}
+
+}  // namespace regoplan

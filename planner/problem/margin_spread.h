@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/runtime/draw_statistics.h"
+
+namespace regoplan {
+
+/// How a candidate's smallest stability margin spreads over what is known of the soils.
+struct MarginSpread {
+  /// What a place without any steady trim counts as: limits are broken there.
+  static constexpr double kBroken = -1;
+
+  int draws = 0;
+  double p05 = 0;                    ///< 5 % quantile of the smallest margin
+  double p05_low = 0, p05_high = 0;  ///< its 95 % interval, of sampling alone
+  Probability feasible;              ///< that the smallest margin is allowed
+};
+
+/// \param smallest margin of each draw, at least one \param margin_min the least that is allowed
+MarginSpread margin_spread(const std::vector<double>& smallest, double margin_min);
+
+}  // namespace regoplan

@@ -1,0 +1,64 @@
+// The words under which the planner's enumerations stand in files.
+#include "planner/problem/plan_result.h"
+#include "planner/problem/planning_problem.h"
+
+namespace regoplan {
+
+std::string_view name(Rejection rejection) {
+  switch (rejection) {
+    case Rejection::kBounds:
+      return "bounds";
+    case Rejection::kUnknownTerrain:
+      return "unknown_terrain";
+    case Rejection::kObstacle:
+      return "obstacle";
+    case Rejection::kSlope:
+      return "slope";
+    case Rejection::kSinkage:
+      return "sinkage";
+    case Rejection::kSlip:
+      return "slip";
+    case Rejection::kSlipAngle:
+      return "slip_angle";
+    case Rejection::kTraction:
+      return "traction";
+    case Rejection::kTipOver:
+      return "tip_over";
+    case Rejection::kCornering:
+      return "cornering";
+  }
+  return "";
+}
+
+std::string_view name(MarginKind kind) {
+  switch (kind) {
+    case MarginKind::kCornering:
+      return "cornering";
+    case MarginKind::kTipOver:
+      return "tip_over";
+    case MarginKind::kTraction:
+      return "traction";
+  }
+  return "";
+}
+
+std::string_view name(PlanStatus status) {
+  switch (status) {
+    case PlanStatus::kFeasible:
+      return "feasible";
+    case PlanStatus::kInfeasible:
+      return "infeasible";
+    case PlanStatus::kUndecided:
+      return "undecided";
+  }
+  return "";
+}
+
+const std::vector<std::string>& planner_names() {
+  static const std::vector<std::string> names{"auto", "Lattice",   "StableSparse", "StateCost",
+                                              "SST",  "RRT",       "KPIECE1",      "EST",
+                                              "PDST", "SyclopRRT", "SyclopEST"};
+  return names;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,160 @@
+#include "planner/problem/planning_problem.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "maps/ground_finder.h"
+#include "planner/problem/obstacles.h"
+#include "planner/runtime/draw_statistics.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+void require(const char* field, double value, bool valid, const char* allowed) {
+  if (!std::isfinite(value) || !valid) throw ValueError(field, value, allowed);
+}
+
+void validate_place(const TerrainMap& map, const char* what, double x_m, double y_m) {
+  const GridFrame& frame = map.elevation().frame;
+  if (!map.inside(x_m, y_m)) {
+    throw InputError(
+        fmt::format("{}: ({}, {}) lies outside the map (allowed: x_m {} to {}, y_m {} to {})", what,
+                    x_m, y_m, frame.west_m, frame.east_m(), frame.south_m(), frame.north_m));
+  }
+  if (std::isnan(map.height_m(x_m, y_m))) {
+    throw InputError(
+        fmt::format("{}: the elevation at ({}, {}) is unknown (nodata or NaN)", what, x_m, y_m));
+  }
+  if (!map.soil_index(x_m, y_m)) {
+    throw InputError(
+        fmt::format("{}: the soil at ({}, {}) is unmapped or forbidden", what, x_m, y_m));
+  }
+}
+
+void validate(const Limits& limits) {
+  require("limits.margin_min", limits.margin_min, limits.margin_min >= 0 && limits.margin_min < 1,
+          "0 to below 1");
+  require("limits.slip_max", limits.slip_max, limits.slip_max > 0 && limits.slip_max <= 0.95,
+          "above 0 to 0.95");
+  require("limits.slip_angle_max_deg", limits.slip_angle_max_rad / kDegree,
+          limits.slip_angle_max_rad > 0 && limits.slip_angle_max_rad <= 60 * kDegree,
+          "above 0 to 60");
+  require("limits.slope_max_deg", limits.slope_max_rad / kDegree,
+          limits.slope_max_rad > 0 && limits.slope_max_rad <= 60 * kDegree, "above 0 to 60");
+  require("limits.sinkage_max_m", limits.sinkage_max_m, limits.sinkage_max_m > 0, "above 0");
+  require("limits.probability_min", limits.probability_min,
+          limits.probability_min >= 0 && limits.probability_min < 1, "0 to below 1");
+}
+
+void validate(const Objective& objective) {
+  const auto weight = [](const char* field, double value) {
+    require(field, value, value >= 0, "0 or above");
+  };
+  weight("planner.objective.per_s", objective.per_s);
+  weight("planner.objective.per_m", objective.per_m);
+  weight("planner.objective.per_j", objective.per_j);
+  weight("planner.objective.per_exposed_s", objective.per_exposed_s);
+  require("planner.objective.exposed_below", objective.exposed_below, objective.exposed_below > 0,
+          "above 0");
+  if (objective.per_s + objective.per_m + objective.per_j <= 0) {
+    throw InputError("planner.objective: one of per_s, per_m and per_j must be above 0");
+  }
+}
+
+void validate(const Search& search) {
+  validate(search.objective);
+  const std::vector<std::string>& names = planner_names();
+  if (std::find(names.begin(), names.end(), search.planner) == names.end()) {
+    throw InputError(fmt::format("planner.name: {} is not known (allowed: {})", search.planner,
+                                 fmt::join(names, ", ")));
+  }
+  if (search.time_s.has_value() == search.iterations.has_value()) {
+    throw InputError("planner: give exactly one of time_s and iterations");
+  }
+  if (search.time_s) {
+    require("planner.time_s", *search.time_s, *search.time_s > 0, "above 0");
+  } else {
+    require("planner.iterations", static_cast<double>(*search.iterations),
+            *search.iterations > 0 && *search.iterations <= 2000000000, "1 to 2e9");
+  }
+  require("planner.candidates", search.candidates,
+          search.candidates >= 1 && search.candidates <= 100, "1 to 100");
+  require("planner.soil_draws", search.soil_draws,
+          search.soil_draws >= 1 && search.soil_draws <= 100000, "1 to 100000");
+  require("planner.threads", search.threads, search.threads >= 1 && search.threads <= 256,
+          "1 to 256");
+}
+
+}  // namespace
+
+Limits default_limits(const Vehicle& vehicle) {
+  return {.margin_min = 0.05,
+          .slip_max = vehicle.slip_max,
+          .slip_angle_max_rad = vehicle.slip_angle_max_rad,
+          .slope_max_rad = vehicle.slope_max_rad,
+          .sinkage_max_m = vehicle.sinkage_max_m};
+}
+
+WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil) {
+  return {.variant = problem.wheel_variant,
+          .wheel = problem.vehicle.wheel,
+          .soil = soil,
+          .gravity_mps2 = problem.gravity_mps2,
+          .mechanisms = problem.mechanisms,
+          .generic = problem.generic};
+}
+
+void validate(const PlanningProblem& problem) {
+  validate(problem.vehicle);
+  require("gravity_mps2", problem.gravity_mps2,
+          problem.gravity_mps2 > 0 && problem.gravity_mps2 <= 100, "above 0 to 100");
+  require("speed_mps.max", problem.speed_max_mps,
+          problem.speed_max_mps > 0 && problem.speed_max_mps <= problem.vehicle.speed_max_mps,
+          fmt::format("above 0 to the vehicle's {}", problem.vehicle.speed_max_mps).c_str());
+  require("start.heading_deg", problem.start.heading_rad / kDegree, true, "a finite number");
+  require("start.speed_mps", problem.start.speed_mps,
+          problem.start.speed_mps >= 0 && problem.start.speed_mps <= problem.speed_max_mps,
+          "0 to speed_mps.max");
+  require("goal.radius_m", problem.goal.radius_m, problem.goal.radius_m > 0, "above 0");
+  require("goal.speed_mps.max", problem.goal.speed_max_mps,
+          problem.goal.speed_max_mps >= 0 && problem.goal.speed_max_mps <= problem.speed_max_mps,
+          "0 to speed_mps.max");
+  if (problem.goal.heading_rad) {
+    require("goal.heading_tolerance_deg", problem.goal.heading_tolerance_rad / kDegree,
+            problem.goal.heading_tolerance_rad > 0, "above 0");
+  }
+  validate(problem.limits);
+  validate(problem.search);
+  const double shown = probability_of(problem.search.soil_draws, problem.search.soil_draws).low;
+  if (shown < problem.limits.probability_min) {
+    throw InputError(
+        fmt::format("planner.soil_draws: {} draws show at most {:.4f}, less than "
+                    "limits.probability_min {} (allowed: more draws)",
+                    problem.search.soil_draws, shown, problem.limits.probability_min));
+  }
+  validate_place(problem.map, "start", problem.start.x_m, problem.start.y_m);
+  validate_place(problem.map, "goal", problem.goal.x_m, problem.goal.y_m);
+
+  const GroundFinder ground(problem.map, problem.vehicle);
+  const GroundPatch patch =
+      ground.at(problem.start.x_m, problem.start.y_m, problem.start.heading_rad);
+  if (!patch.known) {
+    throw InputError("start: a wheel stands outside the map or on unknown or forbidden ground");
+  }
+  const Obstacles obstacles(problem.map, problem.vehicle, 0);
+  if (obstacles.hit({.x_m = problem.start.x_m,
+                     .y_m = problem.start.y_m,
+                     .yaw_rad = problem.start.heading_rad},
+                    patch)) {
+    throw InputError(fmt::format("start: the vehicle at ({}, {}) touches a rock or the ground",
+                                 problem.start.x_m, problem.start.y_m));
+  }
+}
+
+}  // namespace regoplan

@@ -1,0 +1,282 @@
+#include "planner/problem/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+std::vector<WheelModel> models_of(const PlanningProblem& problem, WorldUse use) {
+  std::vector<WheelModel> models;
+  for (const MapSoil& soil : problem.map.soils()) {
+    models.emplace_back(wheel_model_spec(problem, soil.soil.mean),
+                        use == WorldUse::kSearch ? WheelAccuracy::kFast : WheelAccuracy::kExact);
+  }
+  return models;
+}
+
+std::optional<ForceTable> table_of(const PlanningProblem& problem, const MapSoil& soil) {
+  const double nominal_load_n = problem.vehicle.mass_kg * problem.gravity_mps2 /
+                                static_cast<double>(problem.vehicle.wheels.size());
+  // Far below what the supply's bound and the reserves of a search leave; no verdict rests on it.
+  constexpr TableAccuracy kAccuracy{.at_999_permille = 5e-3, .at_worst = 2e-2};
+  try {
+    return ForceTable::cached({.model = wheel_model_spec(problem, soil.soil.mean),
+                               .nominal_load_n = nominal_load_n,
+                               .accuracy = kAccuracy});
+  } catch (const InputError&) {
+    return std::nullopt;  // no table is that accurate: the search asks the model itself
+  }
+}
+
+std::vector<std::optional<ForceTable>> tables_of(const PlanningProblem& problem, WorldUse use) {
+  std::vector<std::optional<ForceTable>> tables;
+  for (const MapSoil& soil : problem.map.soils()) {
+    tables.push_back(use == WorldUse::kSearch ? table_of(problem, soil) : std::nullopt);
+  }
+  return tables;
+}
+
+std::vector<WheelLaw> views_of(const std::vector<WheelModel>& models,
+                               const std::vector<std::optional<ForceTable>>& tables) {
+  std::vector<WheelLaw> laws;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    laws.push_back(tables[i] ? WheelLaw(*tables[i]) : WheelLaw(models[i]));
+  }
+  return laws;
+}
+
+double edge_reach_m(const PlanningProblem& problem) {
+  const BodyBox& body = problem.vehicle.body;
+  const GridFrame& frame = problem.map.elevation().frame;
+  return std::hypot(std::max(body.x_max_m, -body.x_min_m), std::max(body.y_max_m, -body.y_min_m)) +
+         std::max(frame.cell_width_m, frame.cell_height_m) + World::kSearchClearance_m;
+}
+
+double largest_by_magnitude(const Vehicle& vehicle, double curvature_1pm) {
+  double largest = 0;
+  for (const WheelMount& wheel : vehicle.wheels) {
+    const double angle = steer_angle_rad(vehicle, wheel, curvature_1pm);
+    // Front wheels tell the direction: a left turn is positive.
+    if (wheel.x_m > vehicle.turn_centre_x_m && std::abs(angle) > std::abs(largest)) largest = angle;
+  }
+  return largest;
+}
+
+RejectedState at_state(const VehicleState& state) {
+  return {.x_m = state.x_m,
+          .y_m = state.y_m,
+          .yaw_rad = state.yaw_rad,
+          .speed_mps = state.motion.vx_mps,
+          .curvature_1pm = state.curvature_1pm};
+}
+
+/// The first margin, in the order of `Rejection`, that is missing or too small.
+std::optional<RejectedState> rejected_by(const StateMargins& margins, double margin_min,
+                                         RejectedState rejection) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  rejection.limit = margin_min;
+  const auto because = [&](Rejection reason, double value) {
+    rejection.reason = reason;
+    rejection.value = value;
+    return rejection;
+  };
+  if (!margins.supply) {
+    return because(
+        margins.no_supply == NoSupply::kTraction ? Rejection::kTraction : Rejection::kCornering,
+        kNone);
+  }
+  // A lateral demand beyond the supply has no trim and hence no traction: that is cornering.
+  if (margins.traction && *margins.traction < margin_min) {
+    return because(Rejection::kTraction, *margins.traction);
+  }
+  if (margins.tip_over < margin_min) return because(Rejection::kTipOver, margins.tip_over);
+  if (*margins.cornering < margin_min) return because(Rejection::kCornering, *margins.cornering);
+  if (!margins.traction) return because(Rejection::kTraction, kNone);
+  return std::nullopt;
+}
+
+}  // namespace
+
+TrimLimits trim_limits(const PlanningProblem& problem) {
+  return {.slip_angle_max_rad = problem.limits.slip_angle_max_rad,
+          .slip_max = problem.limits.slip_max,
+          .sinkage_max_m = problem.limits.sinkage_max_m,
+          .steer_angle_max_rad = problem.vehicle.steer_angle_max_rad,
+          .torque_max_nm =
+              problem.vehicle.torque_max_nm.value_or(std::numeric_limits<double>::infinity())};
+}
+
+World::World(const PlanningProblem& problem, WorldUse use, int threads)
+    : problem_(problem),
+      use_(use),
+      models_(models_of(problem, use)),
+      force_tables_(tables_of(problem, use)),
+      laws_(views_of(models_, force_tables_)),
+      edge_reach_m_(edge_reach_m(problem)),
+      ground_(problem.map, problem.vehicle),
+      known_(problem.map),
+      dynamics_(
+          problem.vehicle, laws_,
+          [this](double x_m, double y_m, double yaw_rad) { return ground_.at(x_m, y_m, yaw_rad); },
+          problem.gravity_mps2),
+      polygon_(problem.vehicle),
+      obstacles_(problem.map, problem.vehicle, use == WorldUse::kSearch ? kSearchClearance_m : 0) {
+  if (use != WorldUse::kSearch) return;
+  for (const WheelLaw& law : laws_) {
+    supply_tables_.emplace_back(problem.vehicle, law, trim_limits(problem),
+                                problem.vehicle.mass_kg * problem.gravity_mps2,
+                                problem.limits.slope_max_rad, threads);
+  }
+}
+
+VehicleState World::start() const {
+  const StartState& start = problem_.start;
+  return dynamics_.rolling_state(start.x_m, start.y_m, start.heading_rad, start.speed_mps);
+}
+
+bool World::at_goal(const VehicleState& state) const {
+  if (!within_goal(state)) return false;
+  const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
+  const double speed_mps = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+  const double speed_max_mps = share * problem_.goal.speed_max_mps;
+  return (speed_max_mps > 0 && speed_mps <= speed_max_mps) || dynamics_.at_rest(state);
+}
+
+bool World::within_goal(const VehicleState& state) const {
+  const Goal& goal = problem_.goal;
+  const double share = use_ == WorldUse::kSearch ? kSearchGoalShare : 1;
+  if (std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m) > share * goal.radius_m) return false;
+  return !goal.heading_rad ||
+         std::abs(std::remainder(state.yaw_rad - *goal.heading_rad, 2 * std::numbers::pi)) <=
+             share * goal.heading_tolerance_rad;
+}
+
+double World::search_step_s() const {
+  constexpr double kTravel_m = 0.3, kLongest_s = 2.5;
+  const GridFrame& frame = problem_.map.elevation().frame;
+  const double travel = std::min({kTravel_m, frame.cell_width_m, frame.cell_height_m});
+  return std::min(travel / problem_.speed_max_mps, kLongest_s);
+}
+
+StateMargins World::margins(const VehicleState& state, const GroundPatch& patch) const {
+  const SupplyQuestion question = question_of(dynamics_, state, patch);
+  const bool tabled = !supply_tables_.empty() && !question.reverse && question.crab_rad == 0;
+  const SupplyAnswer answer =
+      tabled ? TabledSupply(supply_tables_).answer(question, problem_.vehicle.wheels.size())
+             : SolvedSupply(problem_.vehicle, dynamics_.sharing(), laws_, trim_limits(problem_))
+                   .answer(question);
+  return margins_of(dynamics_, polygon_, question, answer);
+}
+
+std::optional<RejectedState> World::rejected(const VehicleState& state, const WheelStrain& strain,
+                                             std::optional<double> margin_min) const {
+  RejectedState rejection = at_state(state);
+  const auto because = [&](Rejection reason, double value, double limit) {
+    rejection.reason = reason;
+    rejection.value = value;
+    rejection.limit = limit;
+    return rejection;
+  };
+  const Limits& limits = problem_.limits;
+  constexpr double kRounding = 1e-3;  // in which a speed counts as held
+  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+  if (!problem_.map.inside(state.x_m, state.y_m))
+    return because(Rejection::kBounds, kNoNumber, kNoNumber);
+  // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
+  const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+  // A search keeps a reserve, but may start as fast as the problem says.
+  const double speed_allowed_mps =
+      use_ == WorldUse::kSearch
+          ? std::max(0.995 * problem_.speed_max_mps, (1 + kRounding / 2) * problem_.start.speed_mps)
+          : (1 + kRounding) * problem_.speed_max_mps;
+  if (speed > speed_allowed_mps) {
+    return because(Rejection::kBounds, speed, problem_.speed_max_mps);
+  }
+  const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
+  if (!patch.known || (use_ == WorldUse::kSearch && beside_the_edge(state))) {
+    return because(Rejection::kUnknownTerrain, kNoNumber, kNoNumber);
+  }
+  if (obstacles_.hit(state, patch)) {
+    return because(Rejection::kObstacle, kNoNumber, kNoNumber);
+  }
+  const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
+  const double tilt = patch.tilt_rad();
+  if (tilt > share * limits.slope_max_rad) {
+    return because(Rejection::kSlope, tilt, limits.slope_max_rad);
+  }
+  if (strain.sinkage_m > share * limits.sinkage_max_m) {
+    return because(Rejection::kSinkage, strain.sinkage_m, limits.sinkage_max_m);
+  }
+  if (std::abs(strain.slip) > share * limits.slip_max) {
+    return because(Rejection::kSlip, strain.slip, limits.slip_max);
+  }
+  if (std::abs(strain.slip_angle_rad) > share * limits.slip_angle_max_rad) {
+    return because(Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad);
+  }
+  if (!margin_min) return std::nullopt;
+  return rejected_by(margins(state, patch), *margin_min, rejection);
+}
+
+bool World::beside_the_edge(const VehicleState& state) const {
+  const double x = state.x_m, y = state.y_m;
+  if (known_.around(x, y, edge_reach_m_)) return false;
+  const auto ends = [&](double dx_m, double dy_m) {
+    return !ground_.at(x + dx_m, y + dy_m, state.yaw_rad).known;
+  };
+  constexpr double c = kSearchClearance_m;
+  return ends(c, c) || ends(c, -c) || ends(-c, c) || ends(-c, -c);
+}
+
+Judgement World::judge(const VehicleState& state, const WheelStrain& strain, double time_s) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const std::optional<RejectedState> rejection = rejected(state, strain, std::nullopt);
+  const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
+  if (!patch.known) {
+    TrajectoryPoint point = point_of(state, strain, time_s, patch, {});
+    point.z_m = point.demand_n = point.tip_over_margin = kNone;
+    return {.point = point, .rejected = rejection};
+  }
+  const StateMargins found = margins(state, patch);
+  return {.point = point_of(state, strain, time_s, patch, found),
+          .rejected = rejection ? rejection
+                                : rejected_by(found, problem_.limits.margin_min, at_state(state))};
+}
+
+TrajectoryPoint World::describe(const VehicleState& state, const WheelStrain& strain,
+                                double time_s) const {
+  const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
+  return point_of(state, strain, time_s, patch, margins(state, patch));
+}
+
+TrajectoryPoint World::point_of(const VehicleState& state, const WheelStrain& strain, double time_s,
+                                const GroundPatch& patch, const StateMargins& margins) const {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return {.time_s = time_s,
+          .x_m = state.x_m,
+          .y_m = state.y_m,
+          .z_m = patch.z_m,
+          .yaw_rad = state.yaw_rad,
+          .speed_mps = state.motion.vx_mps,
+          .yaw_rate_rad_s = state.motion.yaw_rate_rad_s,
+          .steer_rad = largest_by_magnitude(problem_.vehicle, state.curvature_1pm),
+          .curvature_1pm = state.curvature_1pm,
+          .acceleration_mps2 = state.rim_acceleration_mps2,
+          .slip_max = strain.slip,
+          .slip_angle_max_rad = strain.slip_angle_rad,
+          .sinkage_max_m = strain.sinkage_m,
+          .soil = problem_.map.soil_index(state.x_m, state.y_m).value_or(-1),
+          .demand_n = margins.demand_n,
+          .supply_min_n = margins.supply ? margins.supply->right_n : kNone,
+          .supply_max_n = margins.supply ? margins.supply->left_n : kNone,
+          .cornering_margin = margins.cornering.value_or(kNone),
+          .tip_over_margin = margins.tip_over,
+          .traction_margin = margins.traction.value_or(kNone),
+          .margin = margins.stability().value_or(kNone)};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,250 @@
+#include "planner/soils/soil_uncertainty.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include "planner/problem/world.h"
+#include "planner/soils/soil_surrogate.h"
+#include "terramech/parallel_for.h"
+
+namespace regoplan {
+namespace {
+
+PathMargins counted(const StateMargins& margins) {
+  const double cornering = margins.cornering.value_or(-1);
+  // Beyond the supply no trim gives traction either; the cornering margin tells by how much.
+  return {.cornering = cornering,
+          .tip_over = margins.tip_over,
+          .traction = margins.traction.value_or(std::min(cornering, 0.0))};
+}
+
+std::vector<VehicleState> states_at(const std::vector<VehicleState>& states,
+                                    const std::vector<std::size_t>& places) {
+  std::vector<VehicleState> chosen;
+  for (const std::size_t i : places) chosen.push_back(states[i]);
+  return chosen;
+}
+
+/// Fills in quantiles, probability and influences from the margins of every draw.
+void summarize(SoilSpread& spread, const PlanningProblem& problem, const SoilNumbers& numbers,
+               const std::vector<PathMargins>& margins, const Eigen::MatrixXd& deviations) {
+  const auto quantiles = [&](const auto& value) {
+    std::vector<double> values;
+    for (const PathMargins& one : margins) values.push_back(value(one));
+    return quantiles_of(std::move(values));
+  };
+  spread.cornering = quantiles([](const PathMargins& m) { return m.cornering; });
+  spread.tip_over = quantiles([](const PathMargins& m) { return m.tip_over; });
+  spread.traction = quantiles([](const PathMargins& m) { return m.traction; });
+  spread.margin = quantiles([](const PathMargins& m) { return m.smallest(); });
+  std::vector<double> smallest_margins;
+  for (const PathMargins& one : margins) smallest_margins.push_back(one.smallest());
+  spread.margin_p05_interval = quantile_interval(smallest_margins, 0.05, {.low = -1, .high = 1});
+  const auto allowed = std::count_if(margins.begin(), margins.end(), [&](const PathMargins& m) {
+    return m.smallest() >= problem.limits.margin_min;
+  });
+  spread.feasible = probability_of(static_cast<int>(allowed), static_cast<int>(margins.size()));
+  if (margins.size() < kDrawsANumber * numbers.size()) return;
+  Eigen::VectorXd smallest(static_cast<Eigen::Index>(margins.size()));
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    smallest[static_cast<Eigen::Index>(i)] = margins[i].smallest();
+  }
+  const LinearInfluence influence = linear_influence(deviations, smallest);
+  spread.explained = influence.explained;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const auto index = static_cast<Eigen::Index>(k);
+    spread.influences.push_back(
+        {.soil = problem.map.soils()[numbers[k].soil].name,
+         .parameter = std::string(soil_parameters()[numbers[k].parameter].name),
+         .share = influence.share[index],
+         .margin_per_std = influence.slope[index]});
+  }
+  std::stable_sort(
+      spread.influences.begin(), spread.influences.end(),
+      [](const SoilInfluence& a, const SoilInfluence& b) { return a.share > b.share; });
+}
+
+}  // namespace
+
+double PathMargins::smallest() const {
+  return std::min({cornering, tip_over, traction});
+}
+
+PathMargins smallest_of(const std::vector<PathMargins>& places) {
+  PathMargins smallest;
+  for (const PathMargins& place : places) {
+    smallest = {.cornering = std::min(smallest.cornering, place.cornering),
+                .tip_over = std::min(smallest.tip_over, place.tip_over),
+                .traction = std::min(smallest.traction, place.traction)};
+  }
+  return smallest;
+}
+
+std::vector<std::size_t> decisive_places(const std::vector<VehicleState>& states,
+                                         const std::vector<PathMargins>& at_mean) {
+  constexpr double kApart_m = 2;
+  std::set<std::size_t> chosen;
+  const auto take_smallest = [&](double PathMargins::*kind, std::size_t most) {
+    std::vector<std::size_t> order(states.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return at_mean[a].*kind < at_mean[b].*kind;
+    });
+    std::vector<std::size_t> taken;
+    for (const std::size_t i : order) {
+      if (taken.size() == most) break;
+      const auto near = [&](std::size_t other) {
+        return std::hypot(states[i].x_m - states[other].x_m, states[i].y_m - states[other].y_m) <
+               kApart_m;
+      };
+      if (std::none_of(taken.begin(), taken.end(), near)) taken.push_back(i);
+    }
+    chosen.insert(taken.begin(), taken.end());
+  };
+  take_smallest(&PathMargins::cornering, 3);
+  take_smallest(&PathMargins::traction, 3);
+  take_smallest(&PathMargins::tip_over, 1);
+  return {chosen.begin(), chosen.end()};
+}
+
+PathMargins margins_at(const TrajectoryPoint& point) {
+  const auto or_else = [](double value, double other) { return std::isnan(value) ? other : value; };
+  const double cornering = or_else(point.cornering_margin, -1);
+  return {.cornering = cornering,
+          .tip_over = or_else(point.tip_over_margin, -1),
+          .traction = or_else(point.traction_margin, std::min(cornering, 0.0))};
+}
+
+SoilDraw soil_draw(const std::vector<MapSoil>& soils, std::uint64_t seed, int number) {
+  std::seed_seq sequence{seed, static_cast<std::uint64_t>(number)};
+  std::mt19937_64 random(sequence);
+  SoilDraw drawn;
+  for (const MapSoil& soil : soils) drawn.push_back(draw(soil.soil, random));
+  return drawn;
+}
+
+std::vector<PathMargins> margins_on(const PlanningProblem& problem,
+                                    const std::vector<VehicleState>& states,
+                                    const SoilDraw& soils) {
+  const std::vector<WheelModel> models = models_of(problem, soils);
+  const std::vector<WheelLaw> laws(models.begin(), models.end());
+  const GroundFinder ground(problem.map, problem.vehicle);
+  const VehicleDynamics dynamics(
+      problem.vehicle, laws,
+      [&](double x_m, double y_m, double yaw_rad) { return ground.at(x_m, y_m, yaw_rad); },
+      problem.gravity_mps2);
+  const SupportPolygon polygon(problem.vehicle);
+  const SolvedSupply supply(problem.vehicle, dynamics.sharing(), laws, trim_limits(problem));
+  std::vector<PathMargins> margins;
+  for (const VehicleState& state : states) {
+    const GroundPatch patch = ground.at(state.x_m, state.y_m, state.yaw_rad);
+    const SupplyQuestion question = question_of(dynamics, state, patch);
+    margins.push_back(counted(margins_of(dynamics, polygon, question, supply.answer(question))));
+  }
+  return margins;
+}
+
+SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,
+                       const std::vector<PathMargins>& at_mean, const SpreadSettings& settings) {
+  const int draws = settings.draws, threads = settings.threads;
+  assert(states.size() == at_mean.size() && !states.empty() && draws > 1);
+  const std::vector<std::size_t> places = decisive_places(states, at_mean);
+  const std::vector<VehicleState> decisive = states_at(states, places);
+  const SoilNumbers numbers = uncertain_numbers(problem, decisive);
+  SoilSpread spread{.places = static_cast<int>(places.size())};
+  if (numbers.empty()) {
+    const PathMargins known = smallest_of(at_mean);
+    const auto fixed = [](double value) { return Quantiles{value, value, value}; };
+    spread.cornering = fixed(known.cornering);
+    spread.tip_over = fixed(known.tip_over);
+    spread.traction = fixed(known.traction);
+    spread.margin = fixed(known.smallest());
+    spread.margin_p05_interval = {.low = known.smallest(), .high = known.smallest()};
+    const double share = known.smallest() >= problem.limits.margin_min ? 1 : 0;
+    spread.feasible = {.share = share, .low = share, .high = share};
+    return spread;
+  }
+
+  std::vector<SoilDraw> soils;
+  for (int i = 0; i < draws; ++i) soils.push_back(soil_draw(problem.map.soils(), settings.seed, i));
+  const Eigen::MatrixXd deviations = standard_deviations(problem.map.soils(), numbers, soils);
+
+  // The first draws by the wheel model: those the surrogate is made from, and those that check it.
+  const int learned = std::min(draws, SoilSurrogate::kTrainingDraws);
+  constexpr int kChecked = 30;
+  const int checked = std::min(draws - learned, kChecked);
+  const auto direct = static_cast<std::size_t>(learned) + static_cast<std::size_t>(checked);
+  constexpr std::size_t kElsewhere = 4;  // other places, in each draw that checks
+  std::vector<std::vector<PathMargins>> judged(static_cast<std::size_t>(draws));
+  std::vector<PathMargins> elsewhere(direct);
+  parallel_for(direct, threads, [&](std::size_t i) {
+    if (settings.stop.stop_requested()) return;
+    judged[i] = margins_on(problem, decisive, soils[i]);
+    if (i < static_cast<std::size_t>(learned)) return;
+    std::vector<std::size_t> others;
+    const std::size_t turn = i - static_cast<std::size_t>(learned);
+    for (std::size_t k = 0; k < kElsewhere; ++k) {
+      others.push_back((turn + k * kChecked) * states.size() / (kElsewhere * kChecked));
+    }
+    elsewhere[i] = smallest_of(margins_on(problem, states_at(states, others), soils[i]));
+  });
+
+  if (settings.stop.stop_requested()) return spread;
+
+  std::vector<PathMargins> margins(static_cast<std::size_t>(draws));
+  for (std::size_t i = 0; i < direct; ++i) {
+    margins[i] = smallest_of({smallest_of(judged[i]), elsewhere[i]});
+  }
+  spread.draws = draws;
+  spread.direct_draws = static_cast<int>(direct);
+  if (static_cast<int>(direct) < draws) {
+    std::vector<PlaceProbe> probes;
+    for (const VehicleState& state : decisive) probes.emplace_back(problem, state);
+    std::vector features(decisive.size(), std::vector<PlaceProbe::Features>(margins.size()));
+    parallel_for(margins.size(), threads, [&](std::size_t i) {
+      if (settings.stop.stop_requested()) return;
+      const std::vector<WheelModel> models = models_of(problem, soils[i]);
+      for (std::size_t k = 0; k < probes.size(); ++k) features[k][i] = probes[k].features(models);
+    });
+    if (settings.stop.stop_requested()) return spread;
+    const SoilSurrogate surrogate(features, judged, static_cast<std::size_t>(learned));
+    const auto say = [&](std::size_t i) {
+      std::vector<PlaceProbe::Features> of_places;
+      for (const auto& of_place : features) of_places.push_back(of_place[i]);
+      return surrogate.smallest(of_places);
+    };
+    PathMargins& error = spread.surrogate_error;
+    for (std::size_t i = static_cast<std::size_t>(learned); i < direct; ++i) {
+      const PathMargins said = say(i);
+      error.cornering = std::max(error.cornering, said.cornering - margins[i].cornering);
+      error.tip_over = std::max(error.tip_over, said.tip_over - margins[i].tip_over);
+      error.traction = std::max(error.traction, said.traction - margins[i].traction);
+    }
+    constexpr double kTrusted = 0.03;
+    if (std::max({error.cornering, error.tip_over, error.traction}) <= kTrusted) {
+      for (std::size_t i = direct; i < margins.size(); ++i) {
+        const PathMargins said = say(i);
+        margins[i] = {.cornering = std::max(-1.0, said.cornering - error.cornering),
+                      .tip_over = std::max(-1.0, said.tip_over - error.tip_over),
+                      .traction = std::max(-1.0, said.traction - error.traction)};
+      }
+    } else {
+      const auto all = static_cast<std::size_t>(std::min(draws, kDirectDrawsMax));
+      margins.resize(std::max(all, direct));
+      parallel_for(margins.size() - direct, threads, [&](std::size_t k) {
+        if (settings.stop.stop_requested()) return;
+        margins[direct + k] = smallest_of(margins_on(problem, decisive, soils[direct + k]));
+      });
+      spread.draws = spread.direct_draws = static_cast<int>(margins.size());
+    }
+  }
+  summarize(spread, problem, numbers, margins,
+            deviations.topRows(static_cast<Eigen::Index>(margins.size())));
+  return spread;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "planner/runtime/draw_statistics.h"
+
+namespace regoplan {
+
+/// What a path is ranked by.
+struct Standing {
+  /// The smaller ranks first, whatever the value.
+  enum Tier { kByQuantile, kByShareOfDraws, kByMarginAtMeanSoils, kInfeasible };
+
+  Tier tier = kByMarginAtMeanSoils;
+  double value = 0;  ///< the larger the better
+  double high = 0;   ///< upper end of the value's own sampling error
+  double duration_s = 0;
+  double length_m = 0;
+};
+
+/// Puts the tier and value of a path's draws into a standing: by the 5 % quantile of the smallest
+/// margin, or by the share of draws that hold where that quantile says that limits are broken.
+/// \param p05_high upper end of the quantile's interval
+void set_by_draws(Standing& standing, double p05, double p05_high, const Probability& feasible);
+
+/// Indices from the best down. The best of those left leads a group: whoever is of its tier and
+/// lies within its own sampling error of the leader is tied with it. In a group the faster ranks
+/// first, then the shorter.
+std::vector<std::size_t> rank_order(const std::vector<Standing>& standings);
+
+}  // namespace regoplan

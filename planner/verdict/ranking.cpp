@@ -1,0 +1,79 @@
+#include "planner/verdict/ranking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "planner/soils/standing.h"
+
+namespace regoplan {
+namespace {
+
+/// The farthest that a path strays from another.
+double stray_m(const Candidate& path, const Candidate& other) {
+  double farthest = 0;
+  for (const TrajectoryPoint& point : path.points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const TrajectoryPoint& there : other.points) {
+      nearest = std::min(nearest, std::hypot(point.x_m - there.x_m, point.y_m - there.y_m));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+bool differ(const Candidate& path, const Candidate& other) {
+  constexpr double kLeast_m = 2, kShareOfWay = 0.04;
+  const double apart = std::max(stray_m(path, other), stray_m(other, path));
+  return apart >= std::max(kLeast_m, kShareOfWay * other.length_m);
+}
+
+Standing standing_of(const Candidate& candidate) {
+  Standing standing{.value = candidate.margin_min,
+                    .high = candidate.margin_min,
+                    .duration_s = candidate.duration_s,
+                    .length_m = candidate.length_m};
+  if (const auto& spread = candidate.spread) {
+    set_by_draws(standing, spread->p05, spread->p05_high, spread->feasible);
+  }
+  return standing;
+}
+
+}  // namespace
+
+std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most) {
+  const auto wider = [](const VerifiedPath& a, const VerifiedPath& b) {
+    return a.candidate.margin_min > b.candidate.margin_min;
+  };
+  const auto faster = [](const VerifiedPath& a, const VerifiedPath& b) {
+    return a.candidate.duration_s < b.candidate.duration_s;
+  };
+  std::stable_sort(paths.begin(), paths.end(), wider);
+  if (paths.size() > 2) {
+    const auto fastest = std::min_element(paths.begin() + 1, paths.end(), faster);
+    std::rotate(paths.begin() + 1, fastest, fastest + 1);
+  }
+  std::vector<VerifiedPath> chosen;
+  for (VerifiedPath& path : paths) {
+    if (static_cast<int>(chosen.size()) == most) break;
+    const auto differs = [&](const VerifiedPath& other) {
+      return differ(path.candidate, other.candidate);
+    };
+    if (std::all_of(chosen.begin(), chosen.end(), differs)) chosen.push_back(std::move(path));
+  }
+  return chosen;
+}
+
+void rank(std::vector<VerifiedPath>& paths) {
+  std::vector<Standing> standings;
+  for (const VerifiedPath& path : paths) standings.push_back(standing_of(path.candidate));
+  std::vector<VerifiedPath> ranked;
+  for (const std::size_t i : rank_order(standings)) {
+    ranked.push_back(std::move(paths[i]));
+    ranked.back().candidate.rank = static_cast<int>(ranked.size());
+  }
+  paths = std::move(ranked);
+}
+
+}  // namespace regoplan

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "planner/verdict/verified_path.h"
+
+namespace regoplan {
+
+/// Of paths that passed, at most so many that really differ: each strays from every other by at
+/// least 2 m and 4 % of the way somewhere. The one with the largest margin comes first, then the
+/// fastest, then the others from the largest margin down.
+std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most);
+
+/// Ranks by `rank_order`: by the soils' draws; paths without draws come last, by their margin at
+/// the mean soils. Numbers the ranks from 1.
+void rank(std::vector<VerifiedPath>& paths);
+
+}  // namespace regoplan
