@@ -9,6 +9,7 @@
 
 #include "app/evaluate/evaluation_report.h"
 #include "app/io/staged_files.h"
+#include "app/settings/effective_settings.h"
 #include "app/settings/model_settings.h"
 #include "planner/problem/rejection_text.h"
 
@@ -22,8 +23,12 @@ double degrees(double rad) {
 }
 
 Json refusal_json(const Refusal& refusal) {
-  const ShownUnit unit = shown_unit(refusal.reason);
-  return {{"reason", refusal.reason},
+  const RejectedQuantity& counted = quantity(refusal.reason);
+  const auto shown = [&](double Exceeded::*number) {
+    return refusal.exceeded ? Json((*refusal.exceeded).*number / counted.si_per_shown)
+                            : Json(nullptr);
+  };
+  return {{"reason", name(refusal.reason)},
           {"when", refusal.while_stopping   ? "stopping"
                    : refusal.while_tracking ? "driven"
                                             : "commanded"},
@@ -31,9 +36,9 @@ Json refusal_json(const Refusal& refusal) {
           {"y_m", refusal.y_m},
           {"distance_m", refusal.s_m},
           {"time_s", refusal.time_s},
-          {"value", refusal.value * unit.per_si},
-          {"limit", refusal.limit * unit.per_si},
-          {"unit", unit.name}};
+          {"value", shown(&Exceeded::found)},
+          {"limit", shown(&Exceeded::limit)},
+          {"unit", counted.unit}};
 }
 
 Json limiting_json(const PathEvaluation& evaluation) {
@@ -165,12 +170,7 @@ std::string evaluation_json(const PlanningProblem& problem, const EvaluationResu
                     {"damping", law.damping},
                     {"reaction_s", law.reaction_s},
                     {"slip_memory_s", law.slip_memory_s}}},
-                  {"limits",
-                   {{"margin_min", problem.limits.margin_min},
-                    {"slip_max", problem.limits.slip_max},
-                    {"slip_angle_max_deg", degrees(problem.limits.slip_angle_max_rad)},
-                    {"slope_max_deg", degrees(problem.limits.slope_max_rad)},
-                    {"sinkage_max_m", problem.limits.sinkage_max_m}}},
+                  {"limits", limits_json(problem.limits)},
                   {"vehicle", problem.vehicle.name},
                   {"model", variant_name(problem.wheel_variant)},
                   {"gravity_mps2", problem.gravity_mps2},

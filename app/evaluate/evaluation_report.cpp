@@ -152,17 +152,12 @@ Candidate as_candidate(const EvaluatedPath& path) {
 /// A mark where a path is refused, as pictures of plans know it; nothing where the reason is none
 /// of a state.
 std::optional<RejectedState> as_mark(const Refusal& refusal) {
-  for (int i = 0; i < kRejectionCount; ++i) {
-    const auto reason = static_cast<Rejection>(i);
-    if (name(reason) != refusal.reason) continue;
-    return RejectedState{.reason = reason,
-                         .x_m = refusal.x_m,
-                         .y_m = refusal.y_m,
-                         .value = refusal.value,
-                         .limit = refusal.limit,
-                         .while_stopping = refusal.while_stopping};
-  }
-  return std::nullopt;
+  if (static_cast<int>(refusal.reason) >= kRejectionCount) return std::nullopt;
+  return RejectedState{.reason = refusal.reason,
+                       .x_m = refusal.x_m,
+                       .y_m = refusal.y_m,
+                       .exceeded = refusal.exceeded,
+                       .while_stopping = refusal.while_stopping};
 }
 
 nlohmann::json picture_data(const PlanningProblem& problem, const EvaluationResult& result) {

@@ -7,6 +7,7 @@
 
 #include "app/page/report_map.h"
 #include "app/page/spread_json.h"
+#include "app/settings/effective_settings.h"
 #include "planner/driving/wheel_loads_along.h"
 #include "planner/problem/rejection_text.h"
 #include "planner/verdict/pareto.h"
@@ -164,15 +165,18 @@ json rejected_states_json(const std::vector<RejectedState>& states) {
   json rows = json::array();
   for (std::size_t k = 0; k < count; ++k) {
     const RejectedState& state = states[k * states.size() / count];
-    const double unit = shown_unit(name(state.reason)).per_si;
+    const double si_per_shown = quantity(state.reason).si_per_shown;
+    const auto shown = [&](double Exceeded::*number) {
+      return state.exceeded ? json(rounded((*state.exceeded).*number / si_per_shown, 5)) : json();
+    };
     rows.push_back({{"reason", name(state.reason)},
                     {"x_m", rounded(state.x_m, 3)},
                     {"y_m", rounded(state.y_m, 3)},
                     {"yaw_deg", rounded(degrees(state.yaw_rad), 2)},
                     {"speed_mps", rounded(state.speed_mps, 3)},
                     {"curvature_1pm", rounded(state.curvature_1pm, 5)},
-                    {"value", rounded(state.value * unit, 5)},
-                    {"limit", rounded(state.limit * unit, 5)}});
+                    {"value", shown(&Exceeded::found)},
+                    {"limit", shown(&Exceeded::limit)}});
   }
   return rows;
 }
@@ -255,7 +259,8 @@ json search_json(const Search& search) {
 json problem_json(const PlanningProblem& problem) {
   const StartState& start = problem.start;
   const Goal& goal = problem.goal;
-  const Limits& limits = problem.limits;
+  json limits = limits_json(problem.limits);
+  limits["speed_max_mps"] = problem.speed_max_mps;
   json row = {
       {"start",
        {{"x_m", start.x_m},
@@ -267,14 +272,7 @@ json problem_json(const PlanningProblem& problem) {
         {"y_m", goal.y_m},
         {"radius_m", goal.radius_m},
         {"speed_max_mps", goal.speed_max_mps}}},
-      {"limits",
-       {{"margin_min", limits.margin_min},
-        {"slip_max", limits.slip_max},
-        {"slip_angle_max_deg", degrees(limits.slip_angle_max_rad)},
-        {"slope_max_deg", degrees(limits.slope_max_rad)},
-        {"sinkage_max_m", limits.sinkage_max_m},
-        {"probability_min", limits.probability_min},
-        {"speed_max_mps", problem.speed_max_mps}}},
+      {"limits", limits},
       {"vehicle", vehicle_json(problem.vehicle)},
       {"wheel_variant",
        problem.wheel_variant == WheelVariant::kYoshida2004 ? "yoshida2004" : "ishigami2007"},

@@ -31,15 +31,6 @@ std::string candidate_file(int rank, std::string_view extension) {
   return fmt::format("candidate-{}.{}", rank, extension);
 }
 
-Json limits_json(const Limits& limits) {
-  return {{"margin_min", limits.margin_min},
-          {"slip_max", limits.slip_max},
-          {"slip_angle_max_deg", degrees(limits.slip_angle_max_rad)},
-          {"slope_max_deg", degrees(limits.slope_max_rad)},
-          {"sinkage_max_m", limits.sinkage_max_m},
-          {"probability_min", limits.probability_min}};
-}
-
 Json objective_json(const Objective& objective) {
   return {{"per_s", objective.per_s},
           {"per_m", objective.per_m},

@@ -56,15 +56,6 @@ Json goal_json(const Goal& goal) {
   return json;
 }
 
-Json limits_json(const Limits& limits) {
-  return {{"margin_min", limits.margin_min},
-          {"slip_max", limits.slip_max},
-          {"slip_angle_max_deg", degrees(limits.slip_angle_max_rad)},
-          {"slope_max_deg", degrees(limits.slope_max_rad)},
-          {"sinkage_max_m", limits.sinkage_max_m},
-          {"probability_min", limits.probability_min}};
-}
-
 Json search_json(const Search& search) {
   const Objective& objective = search.objective;
   Json json{{"name", search.planner},
@@ -84,6 +75,15 @@ Json search_json(const Search& search) {
 }
 
 }  // namespace
+
+Json limits_json(const Limits& limits) {
+  Json json;
+  for (const LimitKey& limit : limit_keys()) {
+    const std::string shown = number_in_unit(limits.*limit.value, limit.si_per_shown);
+    json[std::string(limit.key)] = parse_number(shown).value();
+  }
+  return json;
+}
 
 Json effective_settings(const PlanningProblem& problem) {
   return {{"vehicle", as_json(YAML::Load(vehicle_text(problem.vehicle)))},

@@ -10,4 +10,7 @@ namespace regoplan {
 /// a SCENARIO.yaml: beside a `map`, it reads back to the same problem bit for bit.
 nlohmann::ordered_json effective_settings(const PlanningProblem& problem);
 
+/// The limits alone, under their keys.
+nlohmann::ordered_json limits_json(const Limits& limits);
+
 }  // namespace regoplan

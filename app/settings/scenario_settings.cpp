@@ -20,8 +20,6 @@ namespace regoplan {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr ValueRange kShare{.min = 0, .max = 1, .min_excluded = true};
-constexpr ValueRange kAngle_deg{.min = 0, .max = 90, .min_excluded = true};
 constexpr ValueRange kHeading_deg{.min = -360, .max = 360};
 
 StartState read_start(const SettingsNode& node) {
@@ -63,20 +61,14 @@ Goal read_goal(const SettingsNode& node, double speed_max_mps) {
   });
 }
 
-Limits read_limits(const SettingsNode& node, Limits defaults) {
+Limits read_limits(const SettingsNode& node, const Limits& defaults) {
   return read_mapping(node, [&defaults](SettingsMapping& mapping) {
-    const auto angle_rad = [&mapping](const char* key, double fallback_rad) {
-      const SettingsNode* given = mapping.optional(key);
-      return given ? given->number(kAngle_deg) * kDegree : fallback_rad;
-    };
-    return Limits{
-        .margin_min = mapping.number_or("margin_min", {.min = 0, .max = 1}, defaults.margin_min),
-        .slip_max = mapping.number_or("slip_max", kShare, defaults.slip_max),
-        .slip_angle_max_rad = angle_rad("slip_angle_max_deg", defaults.slip_angle_max_rad),
-        .slope_max_rad = angle_rad("slope_max_deg", defaults.slope_max_rad),
-        .sinkage_max_m = mapping.number_or("sinkage_max_m", kAbove0, defaults.sinkage_max_m),
-        .probability_min =
-            mapping.number_or("probability_min", {.min = 0, .max = 1}, defaults.probability_min)};
+    Limits limits = defaults;
+    for (const LimitKey& limit : limit_keys()) {
+      const SettingsNode* given = mapping.optional(limit.key);
+      if (given) limits.*limit.value = given->number(limit.shown_range) * limit.si_per_shown;
+    }
+    return limits;
   });
 }
 

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -22,31 +21,34 @@ constexpr int kMost = 1000000;
 
 /// A number of a problem that a suite may vary.
 struct SweepKey {
-  std::string_view key;
-  void (*set)(PlanningProblem&, double);
+  std::string key;
+  std::function<void(PlanningProblem&, double)> set;
 };
 
-constexpr double kDegree = std::numbers::pi / 180;
+std::vector<SweepKey> known_sweep_keys() {
+  std::vector<SweepKey> keys{
+      {"speed_mps.max", [](PlanningProblem& p, double v) { p.speed_max_mps = v; }},
+      {"start.speed_mps", [](PlanningProblem& p, double v) { p.start.speed_mps = v; }},
+      {"goal.speed_mps.max", [](PlanningProblem& p, double v) { p.goal.speed_max_mps = v; }},
+      {"goal.radius_m", [](PlanningProblem& p, double v) { p.goal.radius_m = v; }},
+      {"gravity_mps2", [](PlanningProblem& p, double v) { p.gravity_mps2 = v; }}};
+  for (const LimitKey& limit : limit_keys()) {
+    keys.push_back({fmt::format("limits.{}", limit.key), [&limit](PlanningProblem& p, double v) {
+                      p.limits.*limit.value = v * limit.si_per_shown;
+                    }});
+  }
+  return keys;
+}
 
-constexpr SweepKey kSweepKeys[] = {
-    {"speed_mps.max", [](PlanningProblem& p, double v) { p.speed_max_mps = v; }},
-    {"start.speed_mps", [](PlanningProblem& p, double v) { p.start.speed_mps = v; }},
-    {"goal.speed_mps.max", [](PlanningProblem& p, double v) { p.goal.speed_max_mps = v; }},
-    {"goal.radius_m", [](PlanningProblem& p, double v) { p.goal.radius_m = v; }},
-    {"gravity_mps2", [](PlanningProblem& p, double v) { p.gravity_mps2 = v; }},
-    {"limits.margin_min", [](PlanningProblem& p, double v) { p.limits.margin_min = v; }},
-    {"limits.slip_max", [](PlanningProblem& p, double v) { p.limits.slip_max = v; }},
-    {"limits.sinkage_max_m", [](PlanningProblem& p, double v) { p.limits.sinkage_max_m = v; }},
-    {"limits.slope_max_deg",
-     [](PlanningProblem& p, double v) { p.limits.slope_max_rad = v * kDegree; }},
-    {"limits.slip_angle_max_deg",
-     [](PlanningProblem& p, double v) { p.limits.slip_angle_max_rad = v * kDegree; }},
-};
+const std::vector<SweepKey>& sweep_keys() {
+  static const std::vector<SweepKey> keys = known_sweep_keys();
+  return keys;
+}
 
+/// Nothing for a number that cannot be varied.
 const SweepKey* sweep_key(std::string_view key) {
-  const auto* found = std::find_if(std::begin(kSweepKeys), std::end(kSweepKeys),
-                                   [&](const SweepKey& known) { return known.key == key; });
-  return found == std::end(kSweepKeys) ? nullptr : found;
+  const auto found = std::ranges::find(sweep_keys(), key, &SweepKey::key);
+  return found == sweep_keys().end() ? nullptr : &*found;
 }
 
 /// A name that may stand in OMPL's logs, file names and shells.
@@ -149,7 +151,7 @@ std::vector<SweepPoint> read_sweep(const SettingsNode& node) {
   for (const SettingsEntry& entry : node.mapping()) {
     if (!sweep_key(entry.key)) {
       std::vector<std::string_view> known;
-      for (const SweepKey& key : kSweepKeys) known.push_back(key.key);
+      for (const SweepKey& key : sweep_keys()) known.push_back(key.key);
       throw entry.value.error(
           fmt::format("cannot be varied (allowed: {})", fmt::join(known, ", ")));
     }

@@ -14,8 +14,8 @@
 #include "app/io/csv_cells.h"
 #include "app/io/csv_table.h"
 #include "app/io/number_text.h"
-#include "app/io/value_range.h"
 #include "terramech/input_error.h"
+#include "terramech/value_range.h"
 
 namespace regoplan {
 namespace {

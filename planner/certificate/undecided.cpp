@@ -46,8 +46,9 @@ std::string narrowest_place(const PlanningProblem& problem,
   const auto reason =
       static_cast<Rejection>(std::max_element(counts.begin(), counts.end()) - counts.begin());
   const auto missed_by = [](const RejectedState& state) {
-    const double share = std::abs(state.value - state.limit) / std::max(std::abs(state.limit), 0.1);
-    return std::isfinite(share) ? share : std::numeric_limits<double>::max();
+    if (!state.exceeded) return std::numeric_limits<double>::max();
+    const auto [found, limit] = *state.exceeded;
+    return std::abs(found - limit) / std::max(std::abs(limit), 0.1);
   };
   std::size_t best = rejected.size();
   for (std::size_t i = 0; i < rejected.size(); ++i) {

@@ -29,12 +29,7 @@ class Plane {
         dynamics_(
             settings.vehicle, laws_, [](double, double, double) { return GroundPatch{}; },
             settings.gravity_mps2),
-        polygon_(settings.vehicle),
-        supply_(settings.vehicle, dynamics_.sharing(), laws_,
-                {.slip_angle_max_rad = settings.limits.slip_angle_max_rad,
-                 .slip_max = settings.limits.slip_max,
-                 .sinkage_max_m = settings.limits.sinkage_max_m,
-                 .steer_angle_max_rad = settings.vehicle.steer_angle_max_rad}) {}
+        judge_(dynamics_, laws_, strain_limits(settings.limits)) {}
   Plane(const Plane&) = delete;
   Plane& operator=(const Plane&) = delete;
 
@@ -45,8 +40,7 @@ class Plane {
                             .slope_forward = std::tan(slope_rad) * std::cos(uphill_rad),
                             .slope_left = std::tan(slope_rad) * std::sin(uphill_rad)};
     const VehicleState state = dynamics_.rolling_state(0, 0, 0, speed_mps, curvature_1pm);
-    const SupplyQuestion question = question_of(dynamics_, state, patch);
-    return margins_of(dynamics_, polygon_, question, supply_.answer(question));
+    return judge_.margins(state, patch);
   }
 
   /// What forbids a curvature, to either side; nothing where it is safe.
@@ -77,8 +71,7 @@ class Plane {
   WheelModel model_;
   std::vector<WheelLaw> laws_;
   VehicleDynamics dynamics_;
-  SupportPolygon polygon_;
-  SolvedSupply supply_;
+  MarginJudge judge_;
 };
 
 /// Forces depend on velocity ratios only: a slow speed stands for all.

@@ -71,13 +71,12 @@ Rejection reason_at(const World& world, const RejectedState& rejected, const Veh
 }
 
 Refusal refusal_of(const World& world, const RejectedState& rejected, const Station& at) {
-  return {.reason = std::string(name(reason_at(world, rejected, at.state))),
+  return {.reason = reason_at(world, rejected, at.state),
           .x_m = rejected.x_m,
           .y_m = rejected.y_m,
           .s_m = at.s_m,
           .time_s = at.time_s,
-          .value = rejected.value,
-          .limit = rejected.limit};
+          .exceeded = rejected.exceeded};
 }
 
 /// Why the vehicle cannot stop where it has arrived.
@@ -103,15 +102,14 @@ std::optional<Refusal> refusal_of(const World& world, const TrackingRun& run,
       refusal = refusal_of(world, *run.rejected, {last.s_m, last.time_s, last.state});
       break;
     case TrackingEnd::kStrayed:
-      refusal.reason = "deviation";
-      refusal.value = std::abs(last.offset_m);
-      refusal.limit = deviation_allowed_m;
+      refusal.reason = Rejection::kDeviation;
+      refusal.exceeded = {.found = std::abs(last.offset_m), .limit = deviation_allowed_m};
       break;
     case TrackingEnd::kStalled:
-      refusal.reason = "stalled";
+      refusal.reason = Rejection::kStalled;
       break;
     case TrackingEnd::kDynamics:
-      refusal.reason = "dynamics";
+      refusal.reason = Rejection::kDynamics;
       break;
   }
   refusal.while_tracking = true;
@@ -129,14 +127,7 @@ std::optional<CorneringLimit> cornering_limit(const World& world, const VehicleS
   }
   const SupplyQuestion question = question_of(dynamics, state, patch);
   if (!(question.normal_n > 0)) return std::nullopt;
-  std::vector<WheelLaw> laws;
-  for (std::size_t i = 0; i < problem.vehicle.wheels.size(); ++i) {
-    laws.push_back(world.soil_laws()[static_cast<std::size_t>(patch.soil.at(i))]);
-  }
-  const SteadyManoeuvre manoeuvre =
-      manoeuvre_of(problem.vehicle, dynamics.sharing(), laws, question);
-  const SupplyResult result =
-      cornering_supply(manoeuvre, question.force.forward_n, trim_limits(problem), true);
+  const SupplyResult result = world.margin_judge().supply(question);
   if (!result.supply) return std::nullopt;
   const double demand = question.force.left_n;
   const SupplyEnd& left = result.supply->left;
@@ -181,13 +172,14 @@ void judge_steady(PathEvaluation& evaluation, const World& verdict,
     if (judgement.rejected) {
       evaluation.refusal = refusal_of(verdict, *judgement.rejected, station);
     } else if (!(std::abs(station.state.curvature_1pm) <= curvature_max * (1 + 1e-9))) {
-      evaluation.refusal = Refusal{.reason = "steering",
-                                   .x_m = station.state.x_m,
-                                   .y_m = station.state.y_m,
-                                   .s_m = station.s_m,
-                                   .time_s = station.time_s,
-                                   .value = std::abs(station.state.curvature_1pm),
-                                   .limit = curvature_max};
+      evaluation.refusal =
+          Refusal{.reason = Rejection::kSteering,
+                  .x_m = station.state.x_m,
+                  .y_m = station.state.y_m,
+                  .s_m = station.s_m,
+                  .time_s = station.time_s,
+                  .exceeded = Exceeded{.found = std::abs(station.state.curvature_1pm),
+                                       .limit = curvature_max}};
     }
   }
 }
@@ -201,8 +193,8 @@ double default_deviation_max_m(const Vehicle& vehicle) {
 std::string sentence(const Refusal& refusal) {
   return fmt::format("{}{} at ({:.2f}, {:.2f}), {:.1f} m along, {:.1f} s{}",
                      refusal.while_stopping ? kCannotStop : std::string_view(),
-                     rejection_text(refusal.reason, refusal.value, refusal.limit), refusal.x_m,
-                     refusal.y_m, refusal.s_m, refusal.time_s,
+                     rejection_text(refusal.reason, refusal.exceeded), refusal.x_m, refusal.y_m,
+                     refusal.s_m, refusal.time_s,
                      refusal.while_tracking && !refusal.while_stopping ? ", when driven" : "");
 }
 
@@ -287,9 +279,8 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
                          .feasible = {.share = 0, .low = 0, .high = 0}};
   }
   // What the soils cannot mend.
-  static constexpr std::string_view kOfMargins[] = {"traction", "tip_over", "cornering"};
   if (evaluation.refusal && !evaluation.refusal->while_tracking &&
-      std::ranges::find(kOfMargins, evaluation.refusal->reason) == std::end(kOfMargins)) {
+      !is_margin(evaluation.refusal->reason)) {
     evaluation.spread.feasible = {.share = 0, .low = 0, .high = 0};
   }
   return evaluation;

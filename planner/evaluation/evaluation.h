@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -38,12 +37,10 @@ struct CorneringLimit {
 struct Refusal {
   bool while_tracking = false;  ///< else of the commanded path itself
   bool while_stopping = false;  ///< beyond its end, where a drive that arrives at speed stops
-  std::string reason;  ///< a `Rejection`'s name, or steering, deviation, stalled, dynamics, speed
+  Rejection reason = Rejection::kBounds;
   double x_m = 0, y_m = 0;
   double s_m = 0, time_s = 0;
-  double value = kNone, limit = kNone;  ///< of what the reason names; radians and SI
-
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  std::optional<Exceeded> exceeded = {};
 };
 
 /// Why, with place and numbers, in a sentence without its stop.

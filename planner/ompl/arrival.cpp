@@ -122,7 +122,9 @@ class Approaches {
   std::vector<ControlSegment> take() { return std::move(controls_); }
 
  private:
-  double most_1pm() const { return curvature_reach_1pm(problem_, speed_mps_); }
+  double most_1pm() const {
+    return curvature_reach_1pm(world_, from_.vehicle.x_m, from_.vehicle.y_m, speed_mps_);
+  }
 
   bool heads_right(double turn_rad) const {
     const Goal& goal = problem_.goal;

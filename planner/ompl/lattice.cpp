@@ -179,12 +179,14 @@ void Lattice::search_for_first(const ob::PlannerTerminationCondition& stop) {
   // may go much faster than where it turns fastest, and greedier ones.
   constexpr double kCareful = 2.5, kGreedy = 4, kMuchFaster = 1.5;
   std::vector<Round> rounds;
+  const double turning_mps =
+      fastest_turning_mps(problem_.world(), asked.start.x_m, asked.start.y_m);
   double top_mps = asked.speed_max_mps;
   do {
     rounds.push_back({.resolution = resolutions.front(), .weight = kCareful});
     rounds.back().resolution.speed_max_mps = top_mps;
     top_mps /= 2;
-  } while (top_mps > kMuchFaster * fastest_turning_mps(asked));
+  } while (top_mps > kMuchFaster * turning_mps);
   for (const LatticeResolution& resolution : resolutions) {
     rounds.push_back({.resolution = resolution, .weight = kGreedy});
   }

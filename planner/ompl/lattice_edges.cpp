@@ -122,8 +122,8 @@ std::uint64_t lattice_cell(const LatticeResolution& resolution, const PlanningPr
 
 std::vector<Drive> lattice_drives(const LatticeResolution& resolution, const OmplProblem& lattice,
                                   const VehicleState& from) {
-  const PlanningProblem& problem = lattice.world().problem();
-  const Vehicle& vehicle = problem.vehicle;
+  const World& world = lattice.world();
+  const Vehicle& vehicle = world.problem().vehicle;
   const double step_s = lattice.step_s();
   const double speed_now = from.rim_speed_mps;
   std::vector<Drive> drives;
@@ -138,7 +138,7 @@ std::vector<Drive> lattice_drives(const LatticeResolution& resolution, const Omp
     const double target = share * resolution.speed_max_mps;
     const double end =
         speed_after_mps(vehicle, std::max(0.0, speed_now), target, resolution.travel_m);
-    const double reach = curvature_reach_1pm(problem, std::max(speed_now, end));
+    const double reach = curvature_reach_1pm(world, from.x_m, from.y_m, std::max(speed_now, end));
     const int steps =
         steps_of(vehicle, resolution.travel_m, std::max(0.0, speed_now), target, step_s);
     for (int i = -resolution.curvatures; i <= resolution.curvatures; ++i) {
@@ -151,7 +151,7 @@ std::vector<Drive> lattice_drives(const LatticeResolution& resolution, const Omp
   }
   if (!resolution.reverse || speed_now > kSlow * resolution.speed_max_mps) return drives;
   const double target = -kSlow * resolution.speed_max_mps;
-  const double reach = curvature_reach_1pm(problem, target);
+  const double reach = curvature_reach_1pm(world, from.x_m, from.y_m, target);
   const int steps =
       steps_of(vehicle, resolution.travel_m, std::max(0.0, -speed_now), -target, step_s);
   for (int i = -resolution.curvatures; i <= resolution.curvatures; ++i) {
@@ -190,8 +190,8 @@ double rough_cost_to_go(const LatticeResolution& resolution, const OmplProblem& 
   const double away_m = std::hypot(state.x_m - problem.goal.x_m, state.y_m - problem.goal.y_m);
   // Turns are driven at the speed that turns fastest; what they add counts at that speed.
   const double top = kFast * resolution.speed_max_mps;
-  const double turning =
-      std::clamp(fastest_turning_mps(problem), kSlow * resolution.speed_max_mps, top);
+  const double turning = std::clamp(fastest_turning_mps(lattice.world(), state.x_m, state.y_m),
+                                    kSlow * resolution.speed_max_mps, top);
   double excess_m = 0;
   if (problem.goal.heading_rad) {
     const double around_m = tightest_way_m(problem, resolution.reverse, state);

@@ -1,5 +1,7 @@
 #include "planner/ompl/ompl_planners.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <ompl/control/planners/est/EST.h>
 #include <ompl/control/planners/kpiece/KPIECE1.h>
 #include <ompl/control/planners/pdst/PDST.h>
@@ -12,6 +14,7 @@
 #include "planner/ompl/map_decomposition.h"
 #include "planner/ompl/stable_sparse.h"
 #include "planner/ompl/state_cost.h"
+#include "terramech/input_error.h"
 
 namespace regoplan {
 
@@ -61,9 +64,13 @@ ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
     est->setRange(0.1 * map_size_m);
     return est;
   }
-  auto pdst = std::make_shared<oc::PDST>(si);
-  pdst->setGoalBias(0.1);
-  return pdst;
+  if (name == "PDST") {
+    auto pdst = std::make_shared<oc::PDST>(si);
+    pdst->setGoalBias(0.1);
+    return pdst;
+  }
+  throw InputError(fmt::format("planner.name: {} is not known (allowed: {})", name,
+                               fmt::join(planner_names(), ", ")));
 }
 
 }  // namespace regoplan

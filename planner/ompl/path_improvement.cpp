@@ -117,17 +117,18 @@ PathPoint beyond(const PlanningProblem& problem, const std::vector<PathPoint>& k
 }
 
 /// What curvature allows along a curve, about every metre.
-std::vector<SpeedProfile::Node> allowed_by_curvature(const PlanningProblem& problem,
-                                                     const PathCurve& curve) {
+std::vector<SpeedProfile::Node> allowed_by_curvature(const World& world, const PathCurve& curve) {
   constexpr double kEvery_m = 1;
-  const double top = kTopShare * problem.speed_max_mps;
+  const double top = kTopShare * world.problem().speed_max_mps;
   std::vector<SpeedProfile::Node> most;
   const int count = std::max(1, static_cast<int>(curve.length_m() / kEvery_m));
   for (int i = 0; i <= count; ++i) {
     const double s = curve.length_m() * i / count;
-    const double curvature = std::max(1e-6, std::abs(curve.at(s).curvature_1pm));
+    const auto at = curve.at(s);
+    const double curvature = std::max(1e-6, std::abs(at.curvature_1pm));
     // The reach falls with the square of the speed.
-    const double holding = top * std::sqrt(curvature_reach_1pm(problem, top) / curvature);
+    const double holding =
+        top * std::sqrt(curvature_reach_1pm(world, at.x_m, at.y_m, top) / curvature);
     most.push_back({s, std::clamp(holding, kSlowestShare * top, top)});
   }
   return most;
@@ -196,9 +197,8 @@ Driven along(SearchSteps& steps, const PathCurve& curve, const SpeedProfile& spe
   return path;
 }
 
-/// Too fast downhill is out of bounds.
 bool slower_may_help(Rejection rejection) {
-  return rejection == Rejection::kBounds || rejection == Rejection::kSlip ||
+  return rejection == Rejection::kSpeed || rejection == Rejection::kSlip ||
          rejection == Rejection::kSlipAngle || rejection == Rejection::kTraction ||
          rejection == Rejection::kTipOver || rejection == Rejection::kCornering;
 }
@@ -209,7 +209,7 @@ Driven fastest_along(SearchSteps& steps, const PathCurve& curve, double cost_bel
   constexpr int kTries = 40;
   constexpr double kSlower = 0.96, kBefore_m = 8, kAfter_m = 4;
   const PlanningProblem& problem = steps.world().problem();
-  std::vector<SpeedProfile::Node> most = allowed_by_curvature(problem, curve);
+  std::vector<SpeedProfile::Node> most = allowed_by_curvature(steps.world(), curve);
   Driven path;
   for (int i = 0; i < kTries; ++i) {
     path = along(steps, curve, fastest(problem, most), cost_below);
@@ -228,8 +228,12 @@ Driven cheaper_beside(SearchSteps& steps, const Driven& path) {
   const PlanningProblem& problem = steps.world().problem();
   const std::vector<PathPoint> knots = knots_of(path.states, 1 / problem.vehicle.curvature_max_1pm);
   if (knots.size() < 4) return path;
-  const double at_speed = curvature_reach_1pm(problem, kTopShare * problem.speed_max_mps);
-  const std::vector<PathPoint> proposed = smoothed(problem, knots, 0.8 * at_speed);
+  double at_speed_1pm = problem.vehicle.curvature_max_1pm;
+  for (const PathPoint& knot : knots) {
+    at_speed_1pm = std::min(at_speed_1pm, curvature_reach_1pm(steps.world(), knot.x_m, knot.y_m,
+                                                              kTopShare * problem.speed_max_mps));
+  }
+  const std::vector<PathPoint> proposed = smoothed(problem, knots, 0.8 * at_speed_1pm);
   Driven best = path;
   for (const double share : {1.0, 0.6, 0.3, 0.0}) {
     std::vector<PathPoint> points;

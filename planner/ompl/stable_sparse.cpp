@@ -63,19 +63,19 @@ Drive StableSparse::drawn_drive(const VehicleState& from, const VehicleState& to
   constexpr double kReverse = 0.05, kReverseSpeedShare = 0.3;
   const double reverse_mps = kReverseSpeedShare * problem.speed_max_mps;
   if (choice >= 1 - kReverse && from.rim_speed_mps < reverse_mps) {
-    const double reach = curvature_reach_1pm(problem, reverse_mps);
+    const double reach = curvature_reach_1pm(problem_.world(), from.x_m, from.y_m, reverse_mps);
     drive.control = {.speed_target_mps = -reverse_mps,
                      .curvature_target_1pm = random_.uniformReal(-reach, reach)};
     return drive;
   }
   const double speed = drawn_speed_mps(problem, random_);
   if (choice < kGuided) {
-    const CostToGo::Place place = aim(problem, problem_.way(), from, speed, random_);
-    drive.control = control_toward(problem, from, place.x_m, place.y_m, speed);
+    const CostToGo::Place place = aim(problem_.world(), problem_.way(), from, speed, random_);
+    drive.control = control_toward(problem_.world(), from, place.x_m, place.y_m, speed);
   } else if (choice < kGuided + kToward) {
-    drive.control = control_toward(problem, from, toward.x_m, toward.y_m, speed);
+    drive.control = control_toward(problem_.world(), from, toward.x_m, toward.y_m, speed);
   } else {
-    drive.control = drawn_control(problem, random_);
+    drive.control = drawn_control(problem_.world(), from, random_);
   }
   return drive;
 }

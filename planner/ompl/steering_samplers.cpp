@@ -20,17 +20,26 @@ const VehicleState& vehicle(const ob::State* state) {
   return state->as<VehicleSpace::StateType>()->vehicle;
 }
 
-constexpr double kShareOfWeight = 0.38;  // what loose soil gives, with margin to spare
+/// A turn slips the wheels and tilted ground takes of the supply: not all that straight driving
+/// leaves is there to turn with. Where straight driving has nothing to spare, turns are still
+/// tried.
+double turning_share(const World& world, double x_m, double y_m) {
+  constexpr double kTurning = 0.8, kLeast = 0.05;
+  return std::max(kLeast, kTurning * world.lateral_share(x_m, y_m));
+}
 
 }  // namespace
 
-double fastest_turning_mps(const PlanningProblem& problem) {
-  return std::sqrt(kShareOfWeight * problem.gravity_mps2 / problem.vehicle.curvature_max_1pm);
+double fastest_turning_mps(const World& world, double x_m, double y_m) {
+  const PlanningProblem& problem = world.problem();
+  return std::sqrt(turning_share(world, x_m, y_m) * problem.gravity_mps2 /
+                   problem.vehicle.curvature_max_1pm);
 }
 
-double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps) {
+double curvature_reach_1pm(const World& world, double x_m, double y_m, double speed_mps) {
+  const PlanningProblem& problem = world.problem();
   const double reach =
-      kShareOfWeight * problem.gravity_mps2 / std::max(speed_mps * speed_mps, 1e-9);
+      turning_share(world, x_m, y_m) * problem.gravity_mps2 / std::max(speed_mps * speed_mps, 1e-9);
   return std::min(reach, problem.vehicle.curvature_max_1pm);
 }
 
@@ -41,23 +50,24 @@ double drawn_speed_mps(const PlanningProblem& problem, ompl::RNG& random) {
   return problem.speed_max_mps * (cruises ? kCruise : random.uniformReal(kSlowest, 1));
 }
 
-VehicleControl drawn_control(const PlanningProblem& problem, ompl::RNG& random) {
-  const double speed = drawn_speed_mps(problem, random);
+VehicleControl drawn_control(const World& world, const VehicleState& from, ompl::RNG& random) {
+  const double speed = drawn_speed_mps(world.problem(), random);
   // Mostly gentle: the cube keeps straight driving likely.
   const double t = random.uniformReal(-1, 1);
   return {.speed_target_mps = speed,
-          .curvature_target_1pm = curvature_reach_1pm(problem, speed) * t * std::abs(t)};
+          .curvature_target_1pm =
+              curvature_reach_1pm(world, from.x_m, from.y_m, speed) * t * std::abs(t)};
 }
 
-CostToGo::Place aim(const PlanningProblem& problem, const CostToGo& way, const VehicleState& state,
+CostToGo::Place aim(const World& world, const CostToGo& way, const VehicleState& state,
                     double speed_mps, ompl::RNG& random) {
-  const double turning_radius_m = 1 / curvature_reach_1pm(problem, speed_mps);
+  const double turning_radius_m = 1 / curvature_reach_1pm(world, state.x_m, state.y_m, speed_mps);
   return way.ahead(state.x_m, state.y_m, random.uniformReal(0.5, 1.5) * turning_radius_m);
 }
 
-VehicleControl control_toward(const PlanningProblem& problem, const VehicleState& state, double x_m,
-                              double y_m, double speed_mps) {
-  const double reach = curvature_reach_1pm(problem, speed_mps);
+VehicleControl control_toward(const World& world, const VehicleState& state, double x_m, double y_m,
+                              double speed_mps) {
+  const double reach = curvature_reach_1pm(world, state.x_m, state.y_m, speed_mps);
   return {.speed_target_mps = speed_mps,
           .curvature_target_1pm = pursuit_curvature_1pm(state, x_m, y_m, reach)};
 }
@@ -78,16 +88,18 @@ SteeringSampler::SteeringSampler(const oc::ControlSpace* space, const World& wor
     : oc::ControlSampler(space), world_(world), way_(way) {}
 
 void SteeringSampler::sample(oc::Control* control) {
-  VehicleControlSpace::set(control, drawn_control(world_.problem(), rng_));
+  VehicleControlSpace::set(control, drawn_control(world_, world_.start(), rng_));
 }
 
 void SteeringSampler::sample(oc::Control* control, const ob::State* state) {
-  const PlanningProblem& problem = world_.problem();
-  if (rng_.uniform01() < 0.5) return sample(control);
-  const double speed = drawn_speed_mps(problem, rng_);
-  const CostToGo::Place place = aim(problem, way_, vehicle(state), speed, rng_);
+  if (rng_.uniform01() < 0.5) {
+    VehicleControlSpace::set(control, drawn_control(world_, vehicle(state), rng_));
+    return;
+  }
+  const double speed = drawn_speed_mps(world_.problem(), rng_);
+  const CostToGo::Place place = aim(world_, way_, vehicle(state), speed, rng_);
   VehicleControlSpace::set(control,
-                           control_toward(problem, vehicle(state), place.x_m, place.y_m, speed));
+                           control_toward(world_, vehicle(state), place.x_m, place.y_m, speed));
 }
 
 void SteeringSampler::sampleNext(oc::Control* control, const oc::Control* /*previous*/,
@@ -127,7 +139,7 @@ unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* sou
   const PlanningProblem& problem = world_.problem();
   const VehicleState& from = vehicle(source);
   const CostToGo::Place place = rng_.uniform01() < kGuided
-                                    ? aim(problem, way_, from, drawn_speed_mps(problem, rng_), rng_)
+                                    ? aim(world_, way_, from, drawn_speed_mps(problem, rng_), rng_)
                                     : CostToGo::Place{vehicle(target).x_m, vehicle(target).y_m};
   const double away = std::hypot(place.x_m - from.x_m, place.y_m - from.y_m);
   ob::State* reached = si_->allocState();
@@ -137,8 +149,8 @@ unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* sou
   double best_distance = 0;
   for (int i = 0; i < kTries; ++i) {
     const bool free_try = i + 1 == kTries;
-    const VehicleControl choice = free_try ? drawn_control(problem, rng_)
-                                           : control_toward(problem, from, place.x_m, place.y_m,
+    const VehicleControl choice = free_try ? drawn_control(world_, from, rng_)
+                                           : control_toward(world_, from, place.x_m, place.y_m,
                                                             drawn_speed_mps(problem, rng_));
     VehicleControlSpace::set(tried, choice);
     const double travel = std::max(choice.speed_target_mps, 1e-6) * si_->getPropagationStepSize();

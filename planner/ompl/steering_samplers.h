@@ -10,29 +10,30 @@ namespace regoplan {
 
 class OmplProblem;
 
-/// Curvature whose centripetal force the softest soil of the map can give on the flat, with margin
-/// to spare: 0.38 of the weight, within the steering.
-double curvature_reach_1pm(const PlanningProblem& problem, double speed_mps);
+/// Curvature whose centripetal force the soil under the vehicle can give on level ground, with
+/// margin to spare, within the steering. \param world of a search
+double curvature_reach_1pm(const World& world, double x_m, double y_m, double speed_mps);
 
-/// The speed at which the tightest turn is what the soil can hold: none turns the vehicle faster.
-double fastest_turning_mps(const PlanningProblem& problem);
+/// The speed at which the tightest turn is what the soil there can hold: none turns the vehicle
+/// faster.
+double fastest_turning_mps(const World& world, double x_m, double y_m);
 
 /// A speed target: half of the time the fastest that stays below the limit downhill.
 double drawn_speed_mps(const PlanningProblem& problem, ompl::RNG& random);
 
 /// A speed as above and a curvature within its reach, mostly gentle.
-VehicleControl drawn_control(const PlanningProblem& problem, ompl::RNG& random);
+VehicleControl drawn_control(const World& world, const VehicleState& from, ompl::RNG& random);
 
 /// Where to steer for on the cheapest way: as far ahead as the vehicle needs to turn in.
-CostToGo::Place aim(const PlanningProblem& problem, const CostToGo& way, const VehicleState& state,
+CostToGo::Place aim(const World& world, const CostToGo& way, const VehicleState& state,
                     double speed_mps, ompl::RNG& random);
 
 /// Pure pursuit of a place, within the reach of the speed.
-VehicleControl control_toward(const PlanningProblem& problem, const VehicleState& state, double x_m,
-                              double y_m, double speed_mps);
+VehicleControl control_toward(const World& world, const VehicleState& state, double x_m, double y_m,
+                              double speed_mps);
 
-/// Controls that steer: a curvature drawn among those whose centripetal force the softest soil of
-/// the map can give on the flat at the speed drawn, half of the time toward the goal where the
+/// Controls that steer: a curvature drawn among those whose centripetal force the soil
+/// there can give on the flat at the speed drawn, half of the time toward the goal where the
 /// state is known.
 class SteeringSampler : public ompl::control::ControlSampler {
  public:

@@ -4,32 +4,6 @@
 
 namespace regoplan {
 
-std::string_view name(Rejection rejection) {
-  switch (rejection) {
-    case Rejection::kBounds:
-      return "bounds";
-    case Rejection::kUnknownTerrain:
-      return "unknown_terrain";
-    case Rejection::kObstacle:
-      return "obstacle";
-    case Rejection::kSlope:
-      return "slope";
-    case Rejection::kSinkage:
-      return "sinkage";
-    case Rejection::kSlip:
-      return "slip";
-    case Rejection::kSlipAngle:
-      return "slip_angle";
-    case Rejection::kTraction:
-      return "traction";
-    case Rejection::kTipOver:
-      return "tip_over";
-    case Rejection::kCornering:
-      return "cornering";
-  }
-  return "";
-}
-
 std::string_view name(MarginKind kind) {
   switch (kind) {
     case MarginKind::kCornering:

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +9,7 @@
 
 #include "planner/problem/margin_spread.h"
 #include "planner/problem/planning_problem.h"
+#include "planner/problem/rejection.h"
 #include "planner/problem/terrain_rasters.h"
 
 namespace regoplan {
@@ -88,22 +88,6 @@ struct Candidate {
   std::optional<MarginSpread> spread;  ///< over the soils' draws, once there are some
   LimitingPlace limiting;
   Verification verified;
-};
-
-/// A place where the search met the edge of feasibility.
-struct RejectedState {
-  static constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-
-  Rejection reason = Rejection::kBounds;
-  double x_m = 0;
-  double y_m = 0;
-  double yaw_rad = 0;
-  double speed_mps = 0;
-  double curvature_1pm = 0;
-  double value =
-      kNoNumber;  ///< what was found (margin, slip, rad, m, m/s), where there is a number
-  double limit = kNoNumber;     ///< what was allowed
-  bool while_stopping = false;  ///< beyond a path's end, on the way that it takes to stop
 };
 
 /// The best candidate under other circumstances: what carries its feasibility.

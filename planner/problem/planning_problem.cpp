@@ -9,12 +9,11 @@
 #include "maps/ground_finder.h"
 #include "planner/problem/obstacles.h"
 #include "planner/runtime/draw_statistics.h"
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
 
 void require(const char* field, double value, bool valid, const char* allowed) {
   if (!std::isfinite(value) || !valid) throw ValueError(field, value, allowed);
@@ -35,21 +34,6 @@ void validate_place(const TerrainMap& map, const char* what, double x_m, double 
     throw InputError(
         fmt::format("{}: the soil at ({}, {}) is unmapped or forbidden", what, x_m, y_m));
   }
-}
-
-void validate(const Limits& limits) {
-  require("limits.margin_min", limits.margin_min, limits.margin_min >= 0 && limits.margin_min < 1,
-          "0 to below 1");
-  require("limits.slip_max", limits.slip_max, limits.slip_max > 0 && limits.slip_max <= 0.95,
-          "above 0 to 0.95");
-  require("limits.slip_angle_max_deg", limits.slip_angle_max_rad / kDegree,
-          limits.slip_angle_max_rad > 0 && limits.slip_angle_max_rad <= 60 * kDegree,
-          "above 0 to 60");
-  require("limits.slope_max_deg", limits.slope_max_rad / kDegree,
-          limits.slope_max_rad > 0 && limits.slope_max_rad <= 60 * kDegree, "above 0 to 60");
-  require("limits.sinkage_max_m", limits.sinkage_max_m, limits.sinkage_max_m > 0, "above 0");
-  require("limits.probability_min", limits.probability_min,
-          limits.probability_min >= 0 && limits.probability_min < 1, "0 to below 1");
 }
 
 void validate(const Objective& objective) {
@@ -93,12 +77,10 @@ void validate(const Search& search) {
 
 }  // namespace
 
-Limits default_limits(const Vehicle& vehicle) {
-  return {.margin_min = 0.05,
-          .slip_max = vehicle.slip_max,
-          .slip_angle_max_rad = vehicle.slip_angle_max_rad,
-          .slope_max_rad = vehicle.slope_max_rad,
-          .sinkage_max_m = vehicle.sinkage_max_m};
+StrainLimits strain_limits(const Limits& limits) {
+  return {.slip_angle_max_rad = limits.slip_angle_max_rad,
+          .slip_max = limits.slip_max,
+          .sinkage_max_m = limits.sinkage_max_m};
 }
 
 WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil) {

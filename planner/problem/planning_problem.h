@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "maps/terrain_map.h"
+#include "planner/problem/limits.h"
+#include "terramech/margin_judge.h"
 #include "terramech/vehicle.h"
 #include "terramech/wheel_model.h"
 
@@ -34,23 +36,6 @@ struct Goal {
 
   bool operator==(const Goal&) const = default;
 };
-
-/// Hard limits that every accepted state keeps.
-struct Limits {
-  double margin_min = 0.05;  ///< smallest stability margin (cornering, tip-over, traction)
-  double slip_max = 0.6;
-  double slip_angle_max_rad = 0;
-  double slope_max_rad = 0;
-  double sinkage_max_m = 0;
-  /// The chance constraint: candidates whose margin holds with less probability over the soils'
-  /// uncertainty are no answer. Held against the lower end of the draws' 95 % interval; 0: none.
-  double probability_min = 0;
-
-  bool operator==(const Limits&) const = default;
-};
-
-/// The limits that a vehicle brings where a scenario gives none.
-Limits default_limits(const Vehicle& vehicle);
 
 /// What a path costs in the planners that look for cheap ones (Lattice, StableSparse): a weighted
 /// sum. Margins are kept by limits, not bought.
@@ -103,26 +88,11 @@ struct PlanningProblem {
 /// The wheel model of a problem's vehicle on a soil.
 WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil);
 
+/// The limits of the wheels' strain, as margins are judged under them.
+StrainLimits strain_limits(const Limits& limits);
+
 /// \throws ValueError or InputError for what cannot be asked: start or goal outside the map or on
 /// unknown ground, start inside a rock, a limit or a budget that is not positive, ...
 void validate(const PlanningProblem& problem);
-
-/// Why a state was rejected: the first of these, in this order, that it fails.
-enum class Rejection {
-  kBounds,
-  kUnknownTerrain,
-  kObstacle,
-  kSlope,
-  kSinkage,
-  kSlip,
-  kSlipAngle,
-  kTraction,
-  kTipOver,
-  kCornering,
-};
-inline constexpr int kRejectionCount = 10;
-
-/// As it stands in files: `bounds`, `unknown_terrain`, ...
-std::string_view name(Rejection rejection);
 
 }  // namespace regoplan

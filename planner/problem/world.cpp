@@ -78,38 +78,27 @@ RejectedState at_state(const VehicleState& state) {
 /// The first margin, in the order of `Rejection`, that is missing or too small.
 std::optional<RejectedState> rejected_by(const StateMargins& margins, double margin_min,
                                          RejectedState rejection) {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  rejection.limit = margin_min;
-  const auto because = [&](Rejection reason, double value) {
+  const auto because = [&](Rejection reason, std::optional<double> margin) {
     rejection.reason = reason;
-    rejection.value = value;
+    if (margin) rejection.exceeded = {.found = *margin, .limit = margin_min};
     return rejection;
   };
   if (!margins.supply) {
     return because(
         margins.no_supply == NoSupply::kTraction ? Rejection::kTraction : Rejection::kCornering,
-        kNone);
+        std::nullopt);
   }
   // A lateral demand beyond the supply has no trim and hence no traction: that is cornering.
   if (margins.traction && *margins.traction < margin_min) {
-    return because(Rejection::kTraction, *margins.traction);
+    return because(Rejection::kTraction, margins.traction);
   }
   if (margins.tip_over < margin_min) return because(Rejection::kTipOver, margins.tip_over);
-  if (*margins.cornering < margin_min) return because(Rejection::kCornering, *margins.cornering);
-  if (!margins.traction) return because(Rejection::kTraction, kNone);
+  if (*margins.cornering < margin_min) return because(Rejection::kCornering, margins.cornering);
+  if (!margins.traction) return because(Rejection::kTraction, std::nullopt);
   return std::nullopt;
 }
 
 }  // namespace
-
-TrimLimits trim_limits(const PlanningProblem& problem) {
-  return {.slip_angle_max_rad = problem.limits.slip_angle_max_rad,
-          .slip_max = problem.limits.slip_max,
-          .sinkage_max_m = problem.limits.sinkage_max_m,
-          .steer_angle_max_rad = problem.vehicle.steer_angle_max_rad,
-          .torque_max_nm =
-              problem.vehicle.torque_max_nm.value_or(std::numeric_limits<double>::infinity())};
-}
 
 World::World(const PlanningProblem& problem, WorldUse use, int threads)
     : problem_(problem),
@@ -124,14 +113,31 @@ World::World(const PlanningProblem& problem, WorldUse use, int threads)
           problem.vehicle, laws_,
           [this](double x_m, double y_m, double yaw_rad) { return ground_.at(x_m, y_m, yaw_rad); },
           problem.gravity_mps2),
-      polygon_(problem.vehicle),
+      judge_(dynamics_, laws_, strain_limits(problem.limits)),
       obstacles_(problem.map, problem.vehicle, use == WorldUse::kSearch ? kSearchClearance_m : 0) {
   if (use != WorldUse::kSearch) return;
-  for (const WheelLaw& law : laws_) {
-    supply_tables_.emplace_back(problem.vehicle, law, trim_limits(problem),
-                                problem.vehicle.mass_kg * problem.gravity_mps2,
-                                problem.limits.slope_max_rad, threads);
+  for (std::size_t soil = 0; soil < laws_.size(); ++soil) {
+    lateral_shares_.push_back(lateral_share_of(static_cast<int>(soil)));
   }
+  judge_.use_tables(problem.limits.slope_max_rad, threads);
+}
+
+double World::lateral_share_of(int soil) const {
+  GroundPatch level{.known = true};
+  level.soil.fill(soil);
+  constexpr double kSlow_mps = 0.01;  // forces depend on ratios of velocities only
+  const StateMargins straight = judge_.margins(dynamics_.rolling_state(0, 0, 0, kSlow_mps), level);
+  if (!straight.supply) return 0;
+  const double least_n = std::min(straight.supply->left_n, -straight.supply->right_n);
+  const double weight_n = problem_.vehicle.mass_kg * problem_.gravity_mps2;
+  return std::max(0.0, least_n / weight_n - problem_.limits.margin_min);
+}
+
+double World::lateral_share(double x_m, double y_m) const {
+  if (const auto soil = problem_.map.soil_index(x_m, y_m)) {
+    return lateral_shares_[static_cast<std::size_t>(*soil)];
+  }
+  return *std::ranges::max_element(lateral_shares_);
 }
 
 VehicleState World::start() const {
@@ -163,63 +169,53 @@ double World::search_step_s() const {
   return std::min(travel / problem_.speed_max_mps, kLongest_s);
 }
 
-StateMargins World::margins(const VehicleState& state, const GroundPatch& patch) const {
-  const SupplyQuestion question = question_of(dynamics_, state, patch);
-  const bool tabled = !supply_tables_.empty() && !question.reverse && question.crab_rad == 0;
-  const SupplyAnswer answer =
-      tabled ? TabledSupply(supply_tables_).answer(question, problem_.vehicle.wheels.size())
-             : SolvedSupply(problem_.vehicle, dynamics_.sharing(), laws_, trim_limits(problem_))
-                   .answer(question);
-  return margins_of(dynamics_, polygon_, question, answer);
-}
-
 std::optional<RejectedState> World::rejected(const VehicleState& state, const WheelStrain& strain,
                                              std::optional<double> margin_min) const {
   RejectedState rejection = at_state(state);
-  const auto because = [&](Rejection reason, double value, double limit) {
+  const auto because = [&](Rejection reason, std::optional<Exceeded> exceeded = std::nullopt) {
     rejection.reason = reason;
-    rejection.value = value;
-    rejection.limit = limit;
+    rejection.exceeded = exceeded;
     return rejection;
   };
-  const Limits& limits = problem_.limits;
-  constexpr double kRounding = 1e-3;  // in which a speed counts as held
-  constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-  if (!problem_.map.inside(state.x_m, state.y_m))
-    return because(Rejection::kBounds, kNoNumber, kNoNumber);
-  // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
-  const double speed = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
-  // A search keeps a reserve, but may start as fast as the problem says.
-  const double speed_allowed_mps =
-      use_ == WorldUse::kSearch
-          ? std::max(0.995 * problem_.speed_max_mps, (1 + kRounding / 2) * problem_.start.speed_mps)
-          : (1 + kRounding) * problem_.speed_max_mps;
-  if (speed > speed_allowed_mps) {
-    return because(Rejection::kBounds, speed, problem_.speed_max_mps);
-  }
+  if (!problem_.map.inside(state.x_m, state.y_m)) return because(Rejection::kBounds);
+  if (const auto exceeded = too_fast(state)) return because(Rejection::kSpeed, exceeded);
   const GroundPatch patch = ground_.at(state.x_m, state.y_m, state.yaw_rad);
   if (!patch.known || (use_ == WorldUse::kSearch && beside_the_edge(state))) {
-    return because(Rejection::kUnknownTerrain, kNoNumber, kNoNumber);
+    return because(Rejection::kUnknownTerrain);
   }
-  if (obstacles_.hit(state, patch)) {
-    return because(Rejection::kObstacle, kNoNumber, kNoNumber);
-  }
+  if (obstacles_.hit(state, patch)) return because(Rejection::kObstacle);
+  // Each limit with what a state has of it, by magnitude.
+  struct Held {
+    Rejection reason;
+    double found;
+    double limit;
+  };
+  const Limits& limits = problem_.limits;
   const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
-  const double tilt = patch.tilt_rad();
-  if (tilt > share * limits.slope_max_rad) {
-    return because(Rejection::kSlope, tilt, limits.slope_max_rad);
-  }
-  if (strain.sinkage_m > share * limits.sinkage_max_m) {
-    return because(Rejection::kSinkage, strain.sinkage_m, limits.sinkage_max_m);
-  }
-  if (std::abs(strain.slip) > share * limits.slip_max) {
-    return because(Rejection::kSlip, strain.slip, limits.slip_max);
-  }
-  if (std::abs(strain.slip_angle_rad) > share * limits.slip_angle_max_rad) {
-    return because(Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad);
+  for (const Held& held :
+       {Held{Rejection::kSlope, patch.tilt_rad(), limits.slope_max_rad},
+        Held{Rejection::kSinkage, strain.sinkage_m, limits.sinkage_max_m},
+        Held{Rejection::kSlip, strain.slip, limits.slip_max},
+        Held{Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad}}) {
+    if (std::abs(held.found) > share * held.limit) {
+      return because(held.reason, Exceeded{.found = held.found, .limit = held.limit});
+    }
   }
   if (!margin_min) return std::nullopt;
   return rejected_by(margins(state, patch), *margin_min, rejection);
+}
+
+std::optional<Exceeded> World::too_fast(const VehicleState& state) const {
+  constexpr double kRounding = 1e-3;  // in which a speed counts as held
+  // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
+  const double speed_mps = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
+  // A search keeps a reserve, but may start as fast as the problem says.
+  const double allowed_mps =
+      use_ == WorldUse::kSearch
+          ? std::max(0.995 * problem_.speed_max_mps, (1 + kRounding / 2) * problem_.start.speed_mps)
+          : (1 + kRounding) * problem_.speed_max_mps;
+  if (!(speed_mps > allowed_mps)) return std::nullopt;
+  return Exceeded{.found = speed_mps, .limit = problem_.speed_max_mps};
 }
 
 bool World::beside_the_edge(const VehicleState& state) const {

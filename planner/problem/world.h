@@ -10,7 +10,7 @@
 #include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
 #include "terramech/force_table.h"
-#include "terramech/state_margins.h"
+#include "terramech/margin_judge.h"
 #include "terramech/vehicle_dynamics.h"
 #include "terramech/wheel_model.h"
 
@@ -41,7 +41,10 @@ class World {
   const Obstacles& obstacles() const { return obstacles_; }
 
   /// Demand, supply and margins of a state on known ground.
-  StateMargins margins(const VehicleState& state, const GroundPatch& patch) const;
+  StateMargins margins(const VehicleState& state, const GroundPatch& patch) const {
+    return judge_.margins(state, patch);
+  }
+  const MarginJudge& margin_judge() const { return judge_; }
 
   /// The first reason, in the order of `Rejection`, why a state may not be; nothing where it may.
   /// \param strain of the wheels in the step that led there
@@ -63,6 +66,11 @@ class World {
   TrajectoryPoint describe(const VehicleState& state, const WheelStrain& strain,
                            double time_s) const;
 
+  /// What the soil of a place gives sideways to a vehicle that drives straight on, on level ground,
+  /// over its weight, less the least margin; beyond the soils, the most of any soil. Of searches,
+  /// which draw their turns by it; 0 where no soil carries the vehicle.
+  double lateral_share(double x_m, double y_m) const;
+
   /// The start of the problem, rolling at its speed.
   VehicleState start() const;
   /// Whether a state lies in the goal's circle, heading as it asks.
@@ -81,6 +89,8 @@ class World {
   static constexpr double kSearchLimitShare = 0.97;
 
  private:
+  double lateral_share_of(int soil) const;
+  std::optional<Exceeded> too_fast(const VehicleState& state) const;
   /// Whether the ground ends within the clearance of a search.
   bool beside_the_edge(const VehicleState& state) const;
   TrajectoryPoint point_of(const VehicleState& state, const WheelStrain& strain, double time_s,
@@ -97,12 +107,9 @@ class World {
   GroundFinder ground_;
   KnownGround known_;
   VehicleDynamics dynamics_;
-  SupportPolygon polygon_;
+  MarginJudge judge_;
+  std::vector<double> lateral_shares_;  ///< by soil; search only
   Obstacles obstacles_;
-  std::vector<SupplyTable> supply_tables_;  ///< by soil; search only
 };
-
-/// The limits of a problem as trims know them.
-TrimLimits trim_limits(const PlanningProblem& problem);
 
 }  // namespace regoplan

@@ -105,7 +105,7 @@ PlaceProbe::PlaceProbe(const PlanningProblem& problem, const VehicleState& state
                          .motion = wheel.motion});
     }
   };
-  const TrimLimits limits = trim_limits(problem);
+  const TrimLimits limits = trim_limits(problem.vehicle, strain_limits(problem.limits));
   constexpr double kBeyondReach = 20;
   const double normal = question.normal_n;
   const auto along = [&](const PathForce& direction) {

@@ -137,13 +137,11 @@ std::vector<PathMargins> margins_on(const PlanningProblem& problem,
       problem.vehicle, laws,
       [&](double x_m, double y_m, double yaw_rad) { return ground.at(x_m, y_m, yaw_rad); },
       problem.gravity_mps2);
-  const SupportPolygon polygon(problem.vehicle);
-  const SolvedSupply supply(problem.vehicle, dynamics.sharing(), laws, trim_limits(problem));
+  const MarginJudge judge(dynamics, laws, strain_limits(problem.limits));
   std::vector<PathMargins> margins;
   for (const VehicleState& state : states) {
     const GroundPatch patch = ground.at(state.x_m, state.y_m, state.yaw_rad);
-    const SupplyQuestion question = question_of(dynamics, state, patch);
-    margins.push_back(counted(margins_of(dynamics, polygon, question, supply.answer(question))));
+    margins.push_back(counted(judge.margins(state, patch)));
   }
   return margins;
 }

@@ -36,7 +36,8 @@ TEST_F(PlanReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {
   best.spread.reset();
   best.energy_j = best.verified.margin_min = best.limiting.x_m = kNaN;
   for (TrajectoryPoint& point : result_.candidates[1].points) point = {.x_m = kNaN, .margin = kNaN};
-  result_.rejected_states.front().x_m = result_.rejected_states.front().value = kNaN;
+  result_.rejected_states.front().x_m = kNaN;
+  result_.rejected_states.front().exceeded = {.found = kNaN, .limit = 0.05};
   result_.what_ifs.front().x_m = kNaN;
   expect_drawn_without_error(drawn(result_));
 }

@@ -128,22 +128,24 @@ Candidate made_up_path(const PlanningProblem& problem, int rank, double bow_m, d
 
 RejectedState made_up_rejection(const PlanningProblem& problem, std::mt19937_64& random) {
   std::uniform_real_distribution<double> any(0, 1);
-  std::discrete_distribution<int> reasons{3, 4, 9, 22, 3, 8, 11, 6, 2, 32};
+  std::discrete_distribution<int> reasons{3, 1, 4, 9, 22, 3, 8, 11, 6, 2, 32};
   const auto reason = static_cast<Rejection>(reasons(random));
   const double limit = reason == Rejection::kSlope       ? problem.limits.slope_max_rad
                        : reason == Rejection::kSlipAngle ? problem.limits.slip_angle_max_rad
                        : reason == Rejection::kSinkage   ? problem.limits.sinkage_max_m
                        : reason == Rejection::kSlip      ? problem.limits.slip_max
+                       : reason == Rejection::kSpeed     ? problem.speed_max_mps
                                                          : problem.limits.margin_min;
-  const bool margin = reason >= Rejection::kTraction;
-  return {.reason = reason,
-          .x_m = kWest_m + kSide_m * any(random),
-          .y_m = kNorth_m - kSide_m * any(random),
-          .yaw_rad = 2 * std::numbers::pi * any(random),
-          .speed_mps = 1 + 2 * any(random),
-          .curvature_1pm = 0.4 * (any(random) - 0.5),
-          .value = margin ? limit - 0.3 * any(random) : limit * (1 + any(random)),
-          .limit = limit};
+  const bool margin = is_margin(reason);
+  return {
+      .reason = reason,
+      .x_m = kWest_m + kSide_m * any(random),
+      .y_m = kNorth_m - kSide_m * any(random),
+      .yaw_rad = 2 * std::numbers::pi * any(random),
+      .speed_mps = 1 + 2 * any(random),
+      .curvature_1pm = 0.4 * (any(random) - 0.5),
+      .exceeded = Exceeded{.found = margin ? limit - 0.3 * any(random) : limit * (1 + any(random)),
+                           .limit = limit}};
 }
 
 }  // namespace

@@ -105,7 +105,8 @@ TEST_F(PlanReport, KeepsWhatWasRejectedAndWhy) {
 
 TEST_F(PlanReport, SaysAnglesOfRejectedStatesInDegrees) {
   result_.rejected_states = {
-      {.reason = Rejection::kSlope, .value = std::acos(-1.0) / 6, .limit = std::acos(-1.0) / 12}};
+      {.reason = Rejection::kSlope,
+       .exceeded = Exceeded{.found = std::acos(-1.0) / 6, .limit = std::acos(-1.0) / 12}}};
   const json state = data_of(plan_report(problem_, result_))["rejected_states"][0];
   EXPECT_NEAR(state["value"], 30, 1e-4);
   EXPECT_NEAR(state["limit"], 15, 1e-4);
@@ -119,7 +120,7 @@ TEST_F(PlanReport, WritesWhatIsNotKnownAsNull) {
   best.spread.reset();
   best.verified.margin_min = kNaN;
   best.limiting.x_m = kNaN;
-  result_.rejected_states.front().value = kNaN;
+  result_.rejected_states.front().exceeded = {.found = kNaN, .limit = 0.05};
   result_.what_ifs.front().margin_min = kNaN;
   const std::string page = plan_report(problem_, result_);
   const json data = data_of(page);

@@ -76,7 +76,7 @@ TEST(Evaluation, APathThatEndsAtSpeedMustLeaveRoomToStop) {
   const std::vector<PathPoint> points{{10, 25}, {37, 25}};
   const PathEvaluation fast = evaluated(problem, reference(points, 2));
   ASSERT_TRUE(fast.refusal);
-  EXPECT_EQ(fast.refusal->reason, "obstacle");
+  EXPECT_EQ(fast.refusal->reason, Rejection::kObstacle);
   EXPECT_TRUE(fast.refusal->while_stopping);
   EXPECT_TRUE(
       sentence(*fast.refusal).starts_with("the vehicle cannot stop at the end: obstacle at (39."))
@@ -109,7 +109,7 @@ TEST(Evaluation, LeftAndRightTurnsAreEquallySafe) {
 TEST(Evaluation, ATurnTooFastNamesCorneringItsPlaceAndTheLimitOfTheSupply) {
   const PathEvaluation e = evaluated(turn(3.5));
   ASSERT_FALSE(e.feasible);
-  EXPECT_EQ(e.refusal->reason, "cornering");
+  EXPECT_EQ(e.refusal->reason, Rejection::kCornering);
   EXPECT_FALSE(e.refusal->while_tracking);
   EXPECT_GT(e.refusal->s_m, 2);  // not on the straight before the turn
   EXPECT_EQ(e.limiting.margin, MarginKind::kCornering);
@@ -121,7 +121,8 @@ TEST(Evaluation, ATurnTooFastNamesCorneringItsPlaceAndTheLimitOfTheSupply) {
 TEST(Evaluation, APathThatLeavesTheMapIsRefusedThere) {
   const PathEvaluation e = evaluated(flat_problem(), reference({{40, 25}, {70, 25}}, 2));
   ASSERT_FALSE(e.feasible);
-  EXPECT_TRUE(e.refusal->reason == "bounds" || e.refusal->reason == "unknown_terrain");
+  EXPECT_TRUE(e.refusal->reason == Rejection::kBounds ||
+              e.refusal->reason == Rejection::kUnknownTerrain);
   EXPECT_GT(e.refusal->x_m, 55);
   EXPECT_LE(e.refusal->x_m, 60.5);
   EXPECT_EQ(e.margin_min, -1);
@@ -133,7 +134,7 @@ TEST(Evaluation, ARockOnThePathIsAnObstacle) {
       60, firm_regolith(), flat, {{.x_m = 30, .y_m = 25, .radius_m = 1, .height_m = 1}}));
   const PathEvaluation e = evaluated(problem, reference({{10, 25}, {45, 25}}, 2));
   ASSERT_FALSE(e.feasible);
-  EXPECT_EQ(e.refusal->reason, "obstacle");
+  EXPECT_EQ(e.refusal->reason, Rejection::kObstacle);
 }
 
 TEST(Evaluation, ACornerSharperThanTheSteeringIsRefused) {
@@ -143,7 +144,7 @@ TEST(Evaluation, ACornerSharperThanTheSteeringIsRefused) {
   for (double x = 20; x >= 10; --x) points.push_back({x, 26.4});
   const PathEvaluation e = evaluated(flat_problem(), reference(points, 0.5));
   ASSERT_FALSE(e.feasible);
-  EXPECT_EQ(e.refusal->reason, "steering");
+  EXPECT_EQ(e.refusal->reason, Rejection::kSteering);
   EXPECT_NEAR(e.refusal->x_m, 20, 1.5);
 }
 

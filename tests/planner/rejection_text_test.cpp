@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <optional>
 
 #include "flat_problem.h"
 #include "planner/plan.h"
@@ -11,34 +11,38 @@ namespace regoplan {
 namespace {
 
 TEST(RejectionText, SaysAnglesInDegreesWithTheUnit) {
-  EXPECT_EQ(rejection_text({.reason = Rejection::kSlope,
-                            .x_m = 12,
-                            .y_m = 3.5,
-                            .value = 31.2 * kTestDegree,
-                            .limit = 25 * kTestDegree}),
+  EXPECT_EQ(rejection_text(
+                {.reason = Rejection::kSlope,
+                 .x_m = 12,
+                 .y_m = 3.5,
+                 .exceeded = Exceeded{.found = 31.2 * kTestDegree, .limit = 25 * kTestDegree}}),
             "slope 31.2 deg (allowed: at most 25 deg) at (12.00, 3.50)");
-  EXPECT_EQ(rejection_text("slip_angle", -17 * kTestDegree, 16 * kTestDegree),
+  EXPECT_EQ(rejection_text(Rejection::kSlipAngle, Exceeded{-17 * kTestDegree, 16 * kTestDegree}),
             "slip angle -17 deg (allowed: at most 16 deg either way)");
 }
 
 TEST(RejectionText, SaysTheUnitOfEachNumber) {
-  EXPECT_EQ(rejection_text("sinkage", 0.12, 0.1), "sinkage 0.12 m (allowed: at most 0.1 m)");
-  EXPECT_EQ(rejection_text("bounds", 3.2, 3), "speed 3.2 m/s (allowed: at most 3 m/s)");
-  EXPECT_EQ(rejection_text("slip", 0.7, 0.6), "slip 0.7 (allowed: at most 0.6)");
-  EXPECT_EQ(rejection_text("steering", 0.4, 0.2), "steering 0.4 1/m (allowed: at most 0.2 1/m)");
-  EXPECT_EQ(rejection_text("tip_over", 0.01, 0.05),
+  EXPECT_EQ(rejection_text(Rejection::kSinkage, Exceeded{0.12, 0.1}),
+            "sinkage 0.12 m (allowed: at most 0.1 m)");
+  EXPECT_EQ(rejection_text(Rejection::kSpeed, Exceeded{3.2, 3}),
+            "speed 3.2 m/s (allowed: at most 3 m/s)");
+  EXPECT_EQ(rejection_text(Rejection::kSlip, Exceeded{0.7, 0.6}),
+            "slip 0.7 (allowed: at most 0.6)");
+  EXPECT_EQ(rejection_text(Rejection::kSteering, Exceeded{0.4, 0.2}),
+            "steering 0.4 1/m (allowed: at most 0.2 1/m)");
+  EXPECT_EQ(rejection_text(Rejection::kTipOver, Exceeded{0.01, 0.05}),
             "tip over margin 0.01 (allowed: at least 0.05)");
 }
 
 TEST(RejectionText, ANumberBeyondItsLimitNeverLooksEqualToIt) {
-  EXPECT_EQ(rejection_text("slip", 0.600001, 0.6), "slip 0.600001 (allowed: at most 0.6)");
+  EXPECT_EQ(rejection_text(Rejection::kSlip, Exceeded{0.600001, 0.6}),
+            "slip 0.600001 (allowed: at most 0.6)");
 }
 
 TEST(RejectionText, WithoutANumberOnlyTheReasonIsTold) {
   EXPECT_EQ(rejection_text({.reason = Rejection::kUnknownTerrain, .x_m = 1, .y_m = 2}),
             "unknown terrain at (1.00, 2.00)");
-  EXPECT_EQ(rejection_text("cornering", -std::numeric_limits<double>::infinity(), 0.05),
-            "cornering (no steady trim)");
+  EXPECT_EQ(rejection_text(Rejection::kCornering, std::nullopt), "cornering (no steady trim)");
 }
 
 TEST(RejectionText, AStartThatIsTooSteepIsRefusedInDegrees) {

@@ -51,17 +51,32 @@ TEST(TerrainRasters, TheSupplyIsThatOfTheTightestSafeTurn) {
   EXPECT_NEAR(supply_n, std::min(turn.supply_max_n, -turn.supply_min_n), 0.01 * supply_n);
 }
 
-TEST(TerrainRasters, TheMarginIsTheSmallestOfAllHeadings) {
-  const PlanningProblem problem = on_slope(std::tan(10 * kTestDegree));
-  const TerrainRasters rasters = terrain_rasters(problem);
-  const double margin = static_cast<double>(middle(rasters, rasters.margin));
+/// The verdict's smallest margin of driving slowly straight on, over the headings.
+double least_margin(const PlanningProblem& problem) {
   const World world(problem, WorldUse::kVerdict, 1);
   double least = 1;
   for (int i = 0; i < 12; ++i) {
     const auto state = world.dynamics().rolling_state(10, 10, i * 30 * kTestDegree, 0.01);
     least = std::min(least, world.judge(state, {}, 0).point.margin);
   }
-  EXPECT_NEAR(margin, least, 2e-3);
+  return least;
+}
+
+TEST(TerrainRasters, TheMarginIsTheSmallestOfAllHeadings) {
+  const PlanningProblem problem = on_slope(std::tan(10 * kTestDegree));
+  const TerrainRasters rasters = terrain_rasters(problem);
+  EXPECT_NEAR(static_cast<double>(middle(rasters, rasters.margin)), least_margin(problem), 2e-3);
+}
+
+TEST(TerrainRasters, WeakMotorsLeaveLessMargin) {
+  PlanningProblem problem = on_slope(std::tan(10 * kTestDegree));
+  const TerrainRasters strong = terrain_rasters(problem);
+  const double climbing_nm = problem.vehicle.mass_kg * problem.gravity_mps2 *
+                             std::sin(10 * kTestDegree) * problem.vehicle.wheel.radius_m / 4;
+  problem.vehicle.torque_max_nm = 2 * climbing_nm;
+  const TerrainRasters weak = terrain_rasters(problem);
+  EXPECT_NEAR(static_cast<double>(middle(weak, weak.margin)), least_margin(problem), 2e-3);
+  EXPECT_LT(middle(weak, weak.margin), middle(strong, strong.margin) - 0.02F);
 }
 
 TEST(TerrainRasters, NothingIsKnownBeyondTheSlopeLimitAndAtTheEdge) {

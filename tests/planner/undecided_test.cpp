@@ -33,8 +33,10 @@ TEST(Undecided, APathThatWaitsForItsVerificationIsSaid) {
 TEST(Undecided, NamesTheNarrowestPlaceNearestToTheGoal) {
   PlanResult result;
   const auto add = [&](Rejection reason, double x_m, double value) {
-    result.rejected_states.push_back(
-        {.reason = reason, .x_m = x_m, .y_m = 25, .value = value, .limit = 0.05});
+    result.rejected_states.push_back({.reason = reason,
+                                      .x_m = x_m,
+                                      .y_m = 25,
+                                      .exceeded = Exceeded{.found = value, .limit = 0.05}});
   };
   add(Rejection::kTraction, 12, 0.049);  // far from the goal at 40 m: not what stops it
   add(Rejection::kTraction, 12, 0.049);

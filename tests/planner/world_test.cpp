@@ -47,7 +47,7 @@ TEST(World, EachLimitIsTheReasonWhenItAloneIsBroken) {
   EXPECT_EQ(reason(world.rejected(state, {.slip = -1.01 * limits.slip_max})), Rejection::kSlip);
   EXPECT_EQ(reason(world.rejected(state, {.slip_angle_rad = -1.01 * limits.slip_angle_max_rad})),
             Rejection::kSlipAngle);
-  EXPECT_EQ(reason(world.rejected(moving(world, 3.1, 0), {})), Rejection::kBounds);
+  EXPECT_EQ(reason(world.rejected(moving(world, 3.1, 0), {})), Rejection::kSpeed);
   VehicleState outside = state;
   outside.x_m = -1;
   EXPECT_EQ(reason(world.rejected(outside, {})), Rejection::kBounds);

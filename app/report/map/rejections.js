@@ -6,6 +6,7 @@ const SYMBOLS = [
 ];
 const REASONS = {
   bounds: {symbol: 0, colour: '#8a8f94', found: null},
+  speed: {symbol: 3, colour: '#8a8f94', found: 'speed', show: v => fixed(v, 3, 'm/s')},
   unknown_terrain: {symbol: 1, colour: '#8a8f94', found: null},
   obstacle: {symbol: 2, colour: '#5b3a1e', found: null},
   slope: {symbol: 3, colour: '#e69f00', found: 'slope', show: v => fixed(v, 1, '\u00b0')},
@@ -35,7 +36,8 @@ const REASONS = {
   },
 };
 const REASON_TEXT = {
-  bounds: 'outside the map or the allowed speeds',
+  bounds: 'outside the map',
+  speed: 'the vehicle moves faster than allowed',
   unknown_terrain: 'the ground or its soil is not known',
   obstacle: 'the body would touch a rock or the terrain',
   slope: 'the ground is steeper than allowed',

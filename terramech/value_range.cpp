@@ -1,4 +1,4 @@
-#include "app/io/value_range.h"
+#include "terramech/value_range.h"
 
 #include <fmt/format.h>
 

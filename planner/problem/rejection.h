@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace regoplan {
+
+/// Why a state was rejected: the first of these, in this order, that it fails; and, below, why a
+/// path that is driven cannot be followed.
+enum class Rejection {
+  kBounds,  ///< outside the map
+  kSpeed,
+  kUnknownTerrain,
+  kObstacle,
+  kSlope,
+  kSinkage,
+  kSlip,
+  kSlipAngle,
+  kTraction,
+  kTipOver,
+  kCornering,
+  // Of a drive along a given path, not of a state.
+  kSteering,   ///< a curvature beyond the vehicle's steering
+  kDeviation,  ///< the vehicle strayed from the path
+  kStalled,
+  kDynamics,  ///< no motion balances the forces
+};
+/// Those of states come first.
+inline constexpr int kRejectionCount = 11;
+
+/// As it stands in files: `bounds`, `speed`, `unknown_terrain`, ...
+std::string_view name(Rejection rejection);
+
+/// What the number of a reason counts, and how it is shown.
+struct RejectedQuantity {
+  std::string_view words;   ///< `slope`, `cornering margin`; empty where there is no number
+  double si_per_shown = 1;  ///< radians in a degree, for angles
+  std::string_view unit;    ///< `deg`, `m`, `m/s`, `1/m`; empty of a ratio or a margin
+  bool at_least = false;    ///< the limit is a least, as of margins; else a most
+  bool either_way = false;  ///< signed, and the limit holds for both signs
+};
+const RejectedQuantity& quantity(Rejection rejection);
+
+/// Whether a reason is one of the three stability margins.
+bool is_margin(Rejection rejection);
+
+/// What was found and what was allowed, SI, of the quantity that a reason names.
+struct Exceeded {
+  double found = 0;
+  double limit = 0;
+};
+
+/// A place where the search met the edge of feasibility.
+struct RejectedState {
+  Rejection reason = Rejection::kBounds;
+  double x_m = 0;
+  double y_m = 0;
+  double yaw_rad = 0;
+  double speed_mps = 0;
+  double curvature_1pm = 0;
+  /// Nothing where the reason has no number. Of a margin: nothing where no steady trim exists.
+  std::optional<Exceeded> exceeded = {};
+  bool while_stopping = false;  ///< beyond a path's end, on the way that it takes to stop
+};
+
+}  // namespace regoplan
