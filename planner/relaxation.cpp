@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "planner/certificate/relaxed_problem.h"
 #include "planner/ompl/search_run.h"
 #include "planner/runtime/child_processes.h"
 #include "planner/verdict/verified_path.h"
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Whether a brief search finds a path, and it passes its verification.
 bool opens_the_way(const PlanningProblem& problem) {

@@ -6,12 +6,11 @@
 #include <string>
 #include <tuple>
 
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 void require(const std::string& field, double value, bool valid, const std::string& allowed) {
   if (!valid || !std::isfinite(value)) throw ValueError(field, value, allowed);

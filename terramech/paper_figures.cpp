@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <numbers>
+
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kSlipAngles_deg{4.0, 8.0, 12.0, 16.0};
 
 FigureCurve::Point point(const WheelModel& model, double slip, double angle_deg) {

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 bool in_range(const SoilParameter& parameter, double file_value) {
   return std::isfinite(file_value) && file_value <= parameter.max &&

@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "terramech/angles.h"
 #include "terramech/ground_patch.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSteerReserve_rad = 1 * kDegree;
 constexpr double kLongest_m = 100;
 /// Below this, two positions are the same: files give millimetres.

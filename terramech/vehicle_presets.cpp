@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <numbers>
-
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 #include "terramech/vehicle.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Slip angles of the single-wheel tests that the wheel model was validated with reach 16 deg
 /// (Yoshida & Ishigami 2004, Sec. V.A): the limit of every steered vehicle here.

@@ -7,18 +7,16 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <numbers>
 
 #include "app/io/csv_cells.h"
 #include "app/io/number_text.h"
 #include "planner/evaluation/course_bounds.h"
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 #include "terramech/value_range.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A CSV table of numbers under a header; cells are read when asked for.
 class PathTable {

@@ -14,12 +14,12 @@
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "planner/problem/world.h"
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kGoalRadius_m = 3;
 
 struct StubVehicle {

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
 #include "app/io/number_text.h"
 #include "app/settings/settings_mapping.h"
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 std::array<double, 2> read_interval(const SettingsNode& node, double unit) {
   const auto& ends = node.list();

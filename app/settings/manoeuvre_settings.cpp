@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <numbers>
 
 #include "app/settings/settings_mapping.h"
 #include "app/settings/vehicle_settings.h"
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A value, or each of a list of values.
 std::vector<std::reference_wrapper<const SettingsNode>> each_of(const SettingsNode& node) {

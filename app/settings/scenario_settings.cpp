@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numbers>
 #include <thread>
 
 #include "app/settings/map_notices.h"
@@ -15,11 +14,11 @@
 #include "app/settings/terrain_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "maps/raster_files.h"
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr ValueRange kHeading_deg{.min = -360, .max = 360};
 
 StartState read_start(const SettingsNode& node) {

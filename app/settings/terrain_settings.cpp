@@ -1,14 +1,13 @@
 #include "app/settings/terrain_settings.h"
 
-#include <numbers>
 #include <utility>
 
 #include "app/settings/settings_mapping.h"
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr ValueRange kSlope_deg{.min = -45, .max = 45};
 
 DrawnCrater read_crater(const SettingsNode& node) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <string_view>
 
 #include "app/io/number_text.h"
@@ -13,11 +12,10 @@
 #include "app/settings/settings_mapping.h"
 #include "app/settings/settings_path.h"
 #include "app/settings/soil_settings.h"
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// A number of a vehicle: its key, where it is held, the SI value of the file's unit, its range.
 struct VehicleNumber {

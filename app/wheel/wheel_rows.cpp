@@ -7,20 +7,18 @@
 #include <cmath>
 #include <istream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <ostream>
 
 #include "app/io/csv_cells.h"
 #include "app/io/csv_table.h"
 #include "app/io/number_text.h"
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 #include "terramech/value_range.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Condition {
   const char* column;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "planner/problem/world.h"
+#include "terramech/angles.h"
 #include "terramech/parallel_for.h"
 
 namespace regoplan {
@@ -136,7 +137,6 @@ SafeCurvature largest_safe(const Plane& plane, const ChartSettings& settings, Sa
 
 FeasibilityChart feasibility_chart(const ChartSettings& settings) {
   FeasibilityChart chart;
-  constexpr double kDegree = std::numbers::pi / 180;
   for (std::size_t soil = 0; soil < settings.soils.size(); ++soil) {
     for (const double slope : settings.slopes_rad) {
       for (const double speed : settings.speeds_mps) {

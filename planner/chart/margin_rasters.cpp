@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "maps/ground_finder.h"
 #include "planner/chart/feasibility_chart.h"
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kSideMax = 1024;
 constexpr double kSpeedShares[] = {0.25, 0.5, 0.75, 1};
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

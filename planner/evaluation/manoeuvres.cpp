@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "planner/evaluation/course_bounds.h"
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -138,7 +139,6 @@ void require_turn_on_the_spot(const Manoeuvre& m) {
   }
   const double rate_max = m.vehicle.speed_max_mps / longest_arm_m(m.vehicle);
   if (m.turn_rate_rad_s > rate_max) {
-    constexpr double kDegree = std::numbers::pi / 180;
     throw ValueError("turn_rate_deg_s", m.turn_rate_rad_s / kDegree,
                      fmt::format("above 0 to {:.4g}, where the outermost wheel of {} goes {} m/s",
                                  rate_max / kDegree, m.vehicle.name, m.vehicle.speed_max_mps));
@@ -178,7 +178,6 @@ void require_bounded_drive(const Manoeuvre& m,
   const double steps = turns ? drive_steps(std::get<SpotTurn>(course), m.vehicle)
                              : drive_steps(std::get<ReferencePath>(course));
   if (steps <= kDriveStepsMax) return;
-  constexpr double kDegree = std::numbers::pi / 180;
   const double given = turns ? m.turn_rate_rad_s / kDegree : m.speed_mps;
   // So slow, all steps are equally long.
   throw ValueError(turns ? "turn_rate_deg_s" : "speed_mps", given,

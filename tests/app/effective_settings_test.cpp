@@ -5,11 +5,11 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 
 #include "app/settings/scenario_settings.h"
 #include "app/settings/vehicle_settings.h"
+#include "terramech/angles.h"
 #include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"
@@ -18,8 +18,6 @@ namespace regoplan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 class EffectiveSettings : public testing::Test {
  protected:

@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
+
+#include "terramech/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 TEST(NumberText, DegreesThatWereReadAreWrittenAsTheyWereGiven) {
   for (const double degrees : {37.2, 35.0, 0.1, 16.0, 22.5, 0.0, 33.333}) {

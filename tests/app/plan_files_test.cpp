@@ -111,7 +111,7 @@ TEST(PlanFiles, RejectionsStandInTheOrderInWhichTheyAreTested) {
   std::string order;
   for (const auto& [reason, count] : json["rejected"].items()) order += reason + " ";
   EXPECT_EQ(order,
-            "bounds unknown_terrain obstacle slope sinkage slip slip_angle traction tip_over "
+            "bounds speed unknown_terrain obstacle slope sinkage slip slip_angle traction tip_over "
             "cornering ");
   EXPECT_EQ(json["rejected"]["cornering"], 7);
 }

@@ -9,7 +9,6 @@
 namespace regoplan::challenge {
 namespace {
 
-using wheel_specs::kDegree;
 
 /// Dry sand whose shear is mobilised at moderate slip.
 TruthPhysics sand(const TruthConditions& at) {

@@ -9,6 +9,7 @@
 #include "maps/crater_field.h"
 #include "maps/rock_field.h"
 #include "maps/terrain_summary.h"
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
@@ -161,7 +162,6 @@ TEST(SyntheticTerrain, SlopesAreThoseOfALunarMare) {
       terrain.elevation, std::nullopt,
       {.soils = {{.name = "regolith", .source = "", .soil = {}}}, .classes = {}, .unmapped = {}},
       terrain.rocks));
-  constexpr double kDegree = std::numbers::pi / 180;
   EXPECT_GT(summary.slope_p50_rad, 1.5 * kDegree);
   EXPECT_LT(summary.slope_p50_rad, 6 * kDegree);
   EXPECT_LT(summary.slope_max_rad, 42 * kDegree) << "walls slump to repose, under some texture";

@@ -14,7 +14,6 @@
 namespace regoplan {
 namespace {
 
-using wheel_specs::kDegree;
 
 GenericCorrection some_correction() {
   return {.slip_scale = 0.25,

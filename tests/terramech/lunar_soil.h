@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "terramech/angles.h"
 #include "terramech/ground_patch.h"
 #include "terramech/supply.h"
 #include "terramech/vehicle.h"
@@ -14,7 +14,6 @@
 
 namespace regoplan {
 
-inline constexpr double kDegree = std::numbers::pi / 180;
 using named_soils::firm_regolith;
 using named_soils::home_gravity_mps2;
 using named_soils::kEarth_mps2;

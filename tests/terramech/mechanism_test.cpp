@@ -16,7 +16,6 @@
 namespace regoplan {
 namespace {
 
-using wheel_specs::kDegree;
 
 WheelModel with(WheelModelSpec spec, const std::string& id, const std::string& form = "",
                 std::map<std::string, double> parameters = {}) {

@@ -7,16 +7,14 @@
 
 #include <cmath>
 #include <map>
-#include <numbers>
 
+#include "terramech/angles.h"
 #include "terramech/wheel_model.h"
 #include "tests/measured_data.h"
 #include "tests/terramech/csv_rows.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// Pressure-sinkage numbers of the plate nearest to the wheel's width (60 mm): means of the six
 /// tests. Friction from the angle of repose, density as published; cohesion as the authors take it.

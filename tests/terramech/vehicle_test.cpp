@@ -3,15 +3,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 
 #include "gtest/gtest.h"
+#include "terramech/angles.h"
 #include "terramech/input_error.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 const WheelMount& wheel_named(const Vehicle& vehicle, const std::string& name) {
   for (const WheelMount& wheel : vehicle.wheels) {

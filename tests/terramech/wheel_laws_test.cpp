@@ -13,7 +13,6 @@
 namespace regoplan {
 namespace {
 
-using wheel_specs::kDegree;
 using wheel_specs::NamedSpec;
 
 const std::vector<double> kSlips{-1, -0.95, -0.6, -0.2, -0.01, 0, 0.01, 0.2, 0.6, 0.95, 1};

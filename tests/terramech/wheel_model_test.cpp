@@ -14,7 +14,6 @@
 namespace regoplan {
 namespace {
 
-using wheel_specs::kDegree;
 using wheel_specs::NamedSpec;
 
 WheelModelSpec spec_2007() {

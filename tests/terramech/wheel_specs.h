@@ -1,16 +1,14 @@
 #pragma once
 
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "terramech/angles.h"
 #include "terramech/wheel_model.h"
 #include "tests/terramech/named_soils.h"
 
 /// Wheels on soils over which the laws of the wheel model are tested.
 namespace regoplan::wheel_specs {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct NamedSpec {
   std::string name;
