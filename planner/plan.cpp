@@ -313,11 +313,8 @@ class Planning {
 
   /// Takes away what does not keep the chance constraint. \returns how many
   std::size_t drop_improbable() {
-    const double least = problem_.limits.probability_min;
     return std::erase_if(chosen_, [&](const VerifiedPath& path) {
-      // Not drawn: nothing is known against it, and nothing for it.
-      const auto& spread = path.candidate.spread;
-      return spread ? spread->feasible.low < least : least > 0;
+      return !probable_enough(path.candidate, problem_.limits);
     });
   }
 

@@ -75,13 +75,14 @@ RejectedState at_state(const VehicleState& state) {
           .curvature_1pm = state.curvature_1pm};
 }
 
-/// The first margin, in the order of `Rejection`, that is missing or too small.
+}  // namespace
+
 std::optional<RejectedState> rejected_by(const StateMargins& margins, double margin_min,
-                                         RejectedState rejection) {
+                                         RejectedState at) {
   const auto because = [&](Rejection reason, std::optional<double> margin) {
-    rejection.reason = reason;
-    if (margin) rejection.exceeded = {.found = *margin, .limit = margin_min};
-    return rejection;
+    at.reason = reason;
+    if (margin) at.exceeded = {.found = *margin, .limit = margin_min};
+    return at;
   };
   if (!margins.supply) {
     return because(
@@ -97,8 +98,6 @@ std::optional<RejectedState> rejected_by(const StateMargins& margins, double mar
   if (!margins.traction) return because(Rejection::kTraction, std::nullopt);
   return std::nullopt;
 }
-
-}  // namespace
 
 World::World(const PlanningProblem& problem, WorldUse use, int threads)
     : problem_(problem),

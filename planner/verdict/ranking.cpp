@@ -76,4 +76,9 @@ void rank(std::vector<VerifiedPath>& paths) {
   paths = std::move(ranked);
 }
 
+bool probable_enough(const Candidate& candidate, const Limits& limits) {
+  const double shown = candidate.spread ? candidate.spread->feasible.low : 0;
+  return shown >= limits.probability_min;
+}
+
 }  // namespace regoplan

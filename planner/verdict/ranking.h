@@ -15,4 +15,8 @@ std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int m
 /// the mean soils. Numbers the ranks from 1.
 void rank(std::vector<VerifiedPath>& paths);
 
+/// Whether a candidate keeps the chance constraint: the lower end of its probability's interval
+/// counts. What was not drawn keeps none but that of 0.
+bool probable_enough(const Candidate& candidate, const Limits& limits);
+
 }  // namespace regoplan

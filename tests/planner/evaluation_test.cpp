@@ -161,6 +161,30 @@ TEST(Evaluation, SlopesThatASideForceCannotHoldAreRefused) {
   EXPECT_LT(evaluated(traverse).margin_min, gentle.margin_min);
 }
 
+TEST(Evaluation, APathWhoseDriveWasRefusedIsNotFeasible) {
+  const PlanningProblem problem = flat_problem();
+  const World world(problem, WorldUse::kVerdict, 1);
+  DrivenCourse course{.name = "made up", .length_m = 10, .duration_s = 10, .speed_max_mps = 1};
+  for (const double s_m : {0.0, 5.0, 10.0}) {
+    course.stations.push_back(
+        {.s_m = s_m, .time_s = s_m, .state = world.dynamics().rolling_state(20 + s_m, 25, 0, 1)});
+  }
+  course.deviation_allowed_m = 1;
+  course.run.last = {.time_s = 6, .s_m = 6, .offset_m = -1.4};
+  course.run.end = TrackingEnd::kArrived;
+  EXPECT_TRUE(judged(world, course, kSettings).feasible);
+  for (const auto& [end, reason] : {std::pair{TrackingEnd::kStrayed, Rejection::kDeviation},
+                                    std::pair{TrackingEnd::kStalled, Rejection::kStalled},
+                                    std::pair{TrackingEnd::kDynamics, Rejection::kDynamics}}) {
+    course.run.end = end;
+    const PathEvaluation evaluation = judged(world, course, kSettings);
+    EXPECT_FALSE(evaluation.feasible) << name(reason);
+    ASSERT_TRUE(evaluation.refusal) << name(reason);
+    EXPECT_EQ(evaluation.refusal->reason, reason);
+    EXPECT_TRUE(evaluation.refusal->while_tracking);
+  }
+}
+
 TEST(Evaluation, EveryKindOfManoeuvreEndsInAVerdict) {
   Manoeuvre m = turn(1.5);
   m.length_m = 12;

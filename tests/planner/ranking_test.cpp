@@ -92,5 +92,20 @@ TEST(DifferentPaths, KeepTheWidestThenTheFastestAndNoneTwice) {
   EXPECT_EQ(names, "widest fast slow ");
 }
 
+TEST(ChanceConstraint, IsHeldAgainstTheLowerEndOfTheInterval) {
+  const Limits limits{.probability_min = 0.9};
+  const auto with = [](const Probability& feasible) {
+    return drawn(path("a", 0.2, 50), 0.1, 0.11, feasible).candidate;
+  };
+  EXPECT_FALSE(probable_enough(with({.share = 0.96, .low = 0.89, .high = 0.99}), limits));
+  EXPECT_TRUE(probable_enough(with({.share = 0.96, .low = 0.91, .high = 0.99}), limits));
+}
+
+TEST(ChanceConstraint, WhatWasNotDrawnKeepsNone) {
+  const Candidate undrawn = path("a", 0.2, 50).candidate;
+  EXPECT_FALSE(probable_enough(undrawn, {.probability_min = 0.01}));
+  EXPECT_TRUE(probable_enough(undrawn, {.probability_min = 0}));
+}
+
 }  // namespace
 }  // namespace regoplan

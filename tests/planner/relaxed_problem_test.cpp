@@ -105,4 +105,46 @@ TEST(ClosedBoxes, NoPoseOfAClosedBoxIsOneThatTheVerdictAllows) {
   EXPECT_GT(closed, 300);
 }
 
+TEST(ClosedBoxes, RoughGroundThatLetsSomePoseLeanLessIsNotTooSteep) {
+  PlanningProblem problem = lrv_problem(one_soil_map(30, firm_regolith(), flat));
+  problem.limits.slope_max_rad = 20 * kTestDegree;
+  // A slope as steep as half a degree above the limit: on bumps the vehicle may lean less, on what
+  // is all but even it may not.
+  const auto closed_on = [&](double bumps_m) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    const PlanningProblem on = [&] {
+      PlanningProblem made = problem;
+      made.map = one_soil_map(30, firm_regolith(), [&](double x_m, double) {
+        return std::tan(20.5 * kTestDegree) * x_m + bumps_m * unit(random);
+      });
+      return made;
+    }();
+    const ClosedBoxes boxes(on);
+    const World verdict(on, WorldUse::kVerdict, 1);
+    int closed = 0, allowed = 0;
+    for (int i = 0; i < 300; ++i) {
+      const PoseBox box{.x_m = 15 + 8 * unit(random),
+                        .y_m = 15 + 8 * unit(random),
+                        .heading_rad = std::numbers::pi * unit(random),
+                        .half_m = 0.05,
+                        .half_rad = 0.05};
+      const VehicleState middle =
+          verdict.dynamics().rolling_state(box.x_m, box.y_m, box.heading_rad, 0);
+      const bool free = !verdict.rejected(middle, {}, std::nullopt);
+      allowed += free;
+      if (!boxes.too_steep(box)) continue;
+      ++closed;
+      EXPECT_FALSE(free);
+    }
+    return std::pair{closed, allowed};
+  };
+  const auto [closed_rough, allowed_rough] = closed_on(0.1);
+  EXPECT_EQ(closed_rough, 0);
+  EXPECT_GT(allowed_rough, 50);
+  const auto [closed_even, allowed_even] = closed_on(1e-4);
+  EXPECT_GT(closed_even, 250);
+  EXPECT_EQ(allowed_even, 0);
+}
+
 }  // namespace regoplan

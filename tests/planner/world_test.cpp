@@ -56,6 +56,36 @@ TEST(World, EachLimitIsTheReasonWhenItAloneIsBroken) {
   EXPECT_EQ(reason(world.rejected(at_the_edge, {})), Rejection::kUnknownTerrain);
 }
 
+TEST(RejectedBy, EachMarginIsHeldAgainstTheLeastThatIsAllowed) {
+  constexpr double kLeast = 0.05, kEnough = 0.06, kShort = 0.04;
+  const auto margins = [](double traction, double tip_over, double cornering) {
+    return StateMargins{.supply = SupplyInterval{.right_n = -100, .left_n = 100},
+                        .tip_over = tip_over,
+                        .cornering = cornering,
+                        .traction = traction};
+  };
+  const auto why = [&](const StateMargins& found) {
+    return reason(rejected_by(found, kLeast, {}));
+  };
+  EXPECT_EQ(why(margins(kEnough, kEnough, kEnough)), std::nullopt);
+  EXPECT_EQ(why(margins(kShort, kEnough, kEnough)), Rejection::kTraction);
+  EXPECT_EQ(why(margins(kEnough, kShort, kEnough)), Rejection::kTipOver);
+  EXPECT_EQ(why(margins(kEnough, kEnough, kShort)), Rejection::kCornering);
+  EXPECT_EQ(why(margins(kShort, kShort, kShort)), Rejection::kTraction);
+  const auto tipping = rejected_by(margins(kEnough, kShort, kEnough), kLeast, {.x_m = 3});
+  EXPECT_EQ(tipping->exceeded->found, kShort);
+  EXPECT_EQ(tipping->exceeded->limit, kLeast);
+  EXPECT_EQ(tipping->x_m, 3);
+}
+
+TEST(RejectedBy, WithoutASteadyTrimThereIsNoNumber) {
+  const auto none = rejected_by({.no_supply = NoSupply::kYaw, .tip_over = 1}, 0, {});
+  EXPECT_EQ(reason(none), Rejection::kCornering);
+  EXPECT_FALSE(none->exceeded);
+  EXPECT_EQ(reason(rejected_by({.no_supply = NoSupply::kTraction, .tip_over = 1}, 0, {})),
+            Rejection::kTraction);
+}
+
 TEST(World, ASearchMayStartAtTopSpeedThoughItKeepsAReserveBelowIt) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   problem.start.speed_mps = problem.speed_max_mps;
