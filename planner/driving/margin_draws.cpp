@@ -1,6 +1,9 @@
 #include "planner/driving/margin_draws.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 
 #include "planner/soils/soil_uncertainty.h"
 #include "terramech/parallel_for.h"
@@ -8,8 +11,20 @@
 namespace regoplan {
 namespace {
 
+/// Where the drive at the mean soils came nearest to each limit of its wheels' strain.
+void add_most_strained(const std::vector<TrajectoryPoint>& points,
+                       const std::vector<std::size_t>& of, std::set<std::size_t>& places) {
+  for (const double TrajectoryPoint::*strain :
+       {&TrajectoryPoint::slip_max, &TrajectoryPoint::slip_angle_max_rad,
+        &TrajectoryPoint::sinkage_max_m}) {
+    places.insert(*std::ranges::max_element(
+        of, {}, [&](std::size_t i) { return std::abs(points[i].*strain); }));
+  }
+}
+
 /// The judged states that stand for the whole path: on each soil those where margins are smallest
-/// at the mean soils, as a soil that is weaker than its mean may bind where no other does.
+/// and wheels are strained most at the mean soils, as a soil that is weaker than its mean may bind
+/// where no other does.
 std::vector<VehicleState> decisive_states(const Replay& verified) {
   std::map<int, std::vector<std::size_t>> by_soil;
   for (std::size_t i = 0; i < verified.points.size(); ++i) {
@@ -23,9 +38,10 @@ std::vector<VehicleState> decisive_states(const Replay& verified) {
       states.push_back(verified.judged[i].state);
       at_mean.push_back(margins_at(verified.points[i]));
     }
-    for (const std::size_t place : decisive_places(states, at_mean)) {
-      decisive.push_back(states[place]);
-    }
+    std::set<std::size_t> places;
+    for (const std::size_t k : decisive_places(states, at_mean)) places.insert(indices[k]);
+    add_most_strained(verified.points, indices, places);
+    for (const std::size_t i : places) decisive.push_back(verified.judged[i].state);
   }
   return decisive;
 }

@@ -15,10 +15,12 @@ struct DrawRange {
 
 /// The smallest margin in each draw of the soils of the map, one draw for each soil and path, the
 /// numbers independent and truncated to their valid ranges; the same draws for every candidate of a
-/// seed. Speed, commanded curvature and acceleration are held; the margins are judged at the places
-/// where each is smallest at the mean soils (`decisive_places`), on every soil that the path
-/// crosses. No steady trim at
-/// all counts as `MarginSpread::kBroken`.
+/// seed. Speed, commanded curvature and acceleration are held. Judged are, on every soil that the
+/// path crosses, the places where each margin is smallest at the mean soils (`decisive_places`) and
+/// those where the drive slipped, drifted and sank most. A margin counts trims only that keep slip,
+/// slip angle, sinkage, torque and steering within their limits: where it is kept in a draw, the
+/// steady manoeuvre of that place keeps them all. Slope does not depend on the soil. No steady trim
+/// at all counts as `MarginSpread::kBroken`.
 std::vector<double> smallest_margins(const PlanningProblem& problem, const Replay& verified,
                                      const DrawRange& draws, std::uint64_t seed, int threads);
 

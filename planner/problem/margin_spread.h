@@ -14,7 +14,9 @@ struct MarginSpread {
   int draws = 0;
   double p05 = 0;                    ///< 5 % quantile of the smallest margin
   double p05_low = 0, p05_high = 0;  ///< its 95 % interval, of sampling alone
-  Probability feasible;              ///< that the smallest margin is allowed
+  /// The share of the draws in which every judged place has a steady manoeuvre within all limits,
+  /// with the least margin (`smallest_margins`): what starting and ending it takes is not in it.
+  Probability feasible;
 };
 
 /// \param smallest margin of each draw, at least one \param margin_min the least that is allowed

@@ -50,6 +50,28 @@ TEST(SoilUncertainty, DrawsDependOnSoilsSeedAndNumberAlone) {
   EXPECT_NE(soil_draw(soils, 7, 3)[0].cohesion_pa, soil_draw(soils, 8, 3)[0].cohesion_pa);
 }
 
+TEST(SoilUncertainty, AMarginIsKeptOnlyWithinTheLimitsOfSlipSlipAngleAndSinkage) {
+  Judged j = judged(uncertain_regolith());
+  const Limits generous = j.problem.limits;
+  for (double Limits::*limit :
+       {&Limits::slip_max, &Limits::slip_angle_max_rad, &Limits::sinkage_max_m}) {
+    // From what the vehicle may to nothing at all: every draw, some, none, and never one more.
+    std::vector<int> kept;
+    for (double share = 1; share > 1e-3; share *= 0.7) {
+      j.problem.limits = generous;
+      j.problem.limits.*limit *= share;
+      kept.push_back(0);
+      for (int draw = 0; draw < 10; ++draw) {
+        const SoilDraw soils = soil_draw(j.problem.map.soils(), 3, draw);
+        kept.back() += smallest_of(margins_on(j.problem, j.states, soils)).smallest() >= 0;
+      }
+    }
+    EXPECT_EQ(kept.front(), 10);
+    EXPECT_EQ(kept.back(), 0);
+    EXPECT_TRUE(std::ranges::is_sorted(kept, std::ranges::greater()));
+  }
+}
+
 TEST(SoilUncertainty, WilsonsIntervalHoldsTheShareAndStaysWithinItsRange) {
   // Newcombe (1998), table I: 81 of 263 gives .2553 to .3662.
   const Probability p = probability_of(81, 263);
