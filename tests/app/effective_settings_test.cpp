@@ -131,10 +131,10 @@ TEST_F(EffectiveSettings, WhatIsFoundIsImprovedUnlessSomebodySaysNo) {
   EXPECT_TRUE(improved("--no-improve").is_null());
 }
 
-/// What the README's table gives as the default of a key.
-std::string readme_default(const std::string& key) {
-  std::ifstream readme("README.md");
-  for (std::string line; std::getline(readme, line);) {
+/// What docs/scenario.md gives as the default of a key.
+std::string documented_default(const std::string& key) {
+  std::ifstream page("docs/scenario.md");
+  for (std::string line; std::getline(page, line);) {
     if (!line.starts_with("| `" + key + "`")) continue;
     const std::size_t end = line.rfind(" |");
     const std::size_t begin = line.rfind("| ", end - 1) + 2;
@@ -143,27 +143,28 @@ std::string readme_default(const std::string& key) {
   return "not in the table";
 }
 
-TEST_F(EffectiveSettings, AreWhatTheReadmeGivesAsDefaults) {
+TEST_F(EffectiveSettings, AreWhatTheDocumentsGiveAsDefaults) {
   const Json settings = settings_of_a_run("", "");
   const Json& planner = settings.at("planner");
-  EXPECT_EQ(readme_default("planner: name"), planner.at("name").get<std::string>());
-  EXPECT_EQ(readme_default("planner: improve"), planner.at("improve").dump());
-  EXPECT_EQ(readme_default("planner: time_s"),
+  EXPECT_EQ(documented_default("planner: name"), planner.at("name").get<std::string>());
+  EXPECT_EQ(documented_default("planner: improve"), planner.at("improve").dump());
+  EXPECT_EQ(documented_default("planner: time_s"),
             fmt::format("`time_s: {}`", planner.at("time_s").get<double>()));
-  EXPECT_EQ(readme_default("planner: seed"),
+  EXPECT_EQ(documented_default("planner: seed"),
             fmt::format("{}; {}; {}", planner.at("seed").dump(), planner.at("candidates").dump(),
                         planner.at("soil_draws").dump()));
-  EXPECT_EQ(readme_default("planner: objective: {per_s, per_m, per_j, per_exposed_s, "
-                           "exposed_below}"),
+  EXPECT_EQ(documented_default("planner: objective: {per_s, per_m, per_j, per_exposed_s, "
+                               "exposed_below}"),
             "time");
   EXPECT_EQ(planner.at("objective"), Json::parse(R"({"per_s": 1.0, "per_m": 0.0, "per_j": 0.0,
                                         "per_exposed_s": 0.0, "exposed_below": 0.2})"));
-  EXPECT_EQ(readme_default("limits: margin_min"), settings.at("limits").at("margin_min").dump());
-  EXPECT_EQ(readme_default("limits: probability_min"), "none");
+  EXPECT_EQ(documented_default("limits: margin_min"),
+            settings.at("limits").at("margin_min").dump());
+  EXPECT_EQ(documented_default("limits: probability_min"), "none");
   EXPECT_EQ(settings.at("limits").at("probability_min"), 0);
-  EXPECT_EQ(readme_default("goal: {speed_mps: {max}}"), "0: comes to rest there");
+  EXPECT_EQ(documented_default("goal: {speed_mps: {max}}"), "0: comes to rest there");
   EXPECT_EQ(settings.at("goal").at("speed_mps").at("max"), 0);
-  EXPECT_EQ(readme_default("speed_mps: {max}"), "the vehicle's");
+  EXPECT_EQ(documented_default("speed_mps: {max}"), "the vehicle's");
   EXPECT_EQ(settings.at("speed_mps").at("max"), settings.at("vehicle").at("speed_max_mps"));
   const std::vector<std::pair<std::string, std::string>> of_the_vehicle{
       {"limits: slip_max", "slip_max"},
@@ -171,7 +172,7 @@ TEST_F(EffectiveSettings, AreWhatTheReadmeGivesAsDefaults) {
       {"limits: slip_angle_max_deg", "slope_max_deg"},
       {"limits: sinkage_max_m", "sinkage_max_m"}};
   for (const auto& [row, key] : of_the_vehicle) {
-    EXPECT_EQ(readme_default(row), "the vehicle's");
+    EXPECT_EQ(documented_default(row), "the vehicle's");
     EXPECT_EQ(settings.at("limits").at(key), settings.at("vehicle").at(key)) << key;
   }
 }
