@@ -240,6 +240,20 @@ bool drives_in_reverse(const PathTable& table) {
   return false;
 }
 
+/// The end of a path may stand, and so may its start, but nobody gets from one to the other so.
+void refuse_rest_between(const PathTable& table, const std::vector<SpeedProfile::Node>& nodes) {
+  // So slow nothing passes the bound of the drive's time; speeds between would round to 0.
+  constexpr double kRest_mps = 1e-12;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    if (nodes[i - 1].speed_mps + nodes[i].speed_mps > kRest_mps) continue;
+    throw table.error(table.line(table.rows() - 1),
+                      fmt::format("speed_mps: at rest both {:.4g} m and {:.4g} m along the path, "
+                                  "so it never ends (allowed: 0 only at the ends, with a speed "
+                                  "on the way between them)",
+                                  nodes[i - 1].s_m, nodes[i].s_m));
+  }
+}
+
 /// Speeds that stand in the table, without their sign, as far as the vehicle's acceleration follows
 /// them.
 SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const Vehicle& vehicle,
@@ -262,6 +276,7 @@ SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const V
       nodes.push_back({s, speed});
     }
   }
+  refuse_rest_between(table, nodes);
   SpeedProfile profile = limited_by_acceleration(
       nodes, nodes.front().speed_mps, nodes.back().speed_mps, vehicle.acceleration_max_mps2);
   constexpr double kNoticed_mps = 1e-3;

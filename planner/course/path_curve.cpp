@@ -67,10 +67,18 @@ PathCurve::PathCurve(const std::vector<PathPoint>& points) {
     }
     knot_of.push_back(kept.size() - 1);
   }
+  // The path ends at its last point; what was kept too near before it goes.
+  if (kept.size() >= 2) {
+    kept.back() = points.back();
+    while (kept.size() >= 2 && apart_m(kept[kept.size() - 2], kept.back()) < kSpacingMin_m) {
+      kept.erase(kept.end() - 2);
+      ++thinned_;
+    }
+  }
   if (kept.size() < 2) {
     throw InputError("the path has no length: all its points lie within 0.1 m");
   }
-  kept.back() = points.back();
+  for (std::size_t& knot : knot_of) knot = std::min(knot, kept.size() - 1);
 
   std::vector<double> chord{0};
   for (std::size_t i = 1; i < kept.size(); ++i) {

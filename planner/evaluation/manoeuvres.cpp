@@ -122,6 +122,20 @@ SpeedProfile speed_of(const Manoeuvre& m, const PathCurve& curve) {
     return SpeedProfile({{0, m.speed_mps}, {length, m.speed_mps}});
   }
   const double braking_m = m.speed_mps * m.speed_mps / (2 * m.braking_mps2);
+  // Through points on much tighter a circle the curve cuts short.
+  if (!(braking_m < length)) {
+    throw InputError(fmt::format(
+        "radius_m: {} is too tight for {:.4g} m of braking: points {} m apart make only {:.4g} m "
+        "of it (a larger radius_m or braking_mps2)",
+        m.radius_m, braking_m, kPointsApart_m, length));
+  }
+  constexpr double kResolved = 1e-15;  // nearer to the end there is no place before it
+  if (!(braking_m > kResolved * length)) {
+    throw ValueError(
+        "braking_mps2", m.braking_mps2,
+        fmt::format("below {:.3g} at {} m/s, a stop within nothing",
+                    m.speed_mps * m.speed_mps / (2 * kResolved * length), m.speed_mps));
+  }
   return SpeedProfile({{0, m.speed_mps}, {length - braking_m, m.speed_mps}, {length, 0}});
 }
 

@@ -158,6 +158,17 @@ TEST_F(Evaluate, BadPathsAreRefusedWithFileAndLine) {
   expect_refused("", {"nothing to evaluate"});
 }
 
+TEST_F(Evaluate, APathThatNeverMovesIsRefused) {
+  const char* never = "p.csv:3: speed_mps: at rest both 0 m and 20 m along the path";
+  expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,0\n30,20,0\n"), {never});
+  expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,-0\n30,20,0\n"), {never});
+  expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,0\n30,20,4e-324\n"), {never});
+  // The last speed counts of points that lie together.
+  expect_refused(file("p.csv", "x_m,y_m,speed_mps\n10,20,0\n30,20,1\n30.01,20,0\n"),
+                 {"p.csv:4: speed_mps: at rest both 0 m and 20.01 m along the path"});
+  EXPECT_EQ(evaluate(file("p.csv", "x_m,y_m,speed_mps\n10,20,0\n20,20,1\n30,20,0\n")).status, 0);
+}
+
 TEST_F(Evaluate, BadManoeuvresAreRefusedWithFileAndLine) {
   const auto manoeuvres = [this](const std::string& text) {
     return "--manoeuvres " + file("m.yaml", text);
@@ -168,6 +179,13 @@ TEST_F(Evaluate, BadManoeuvresAreRefusedWithFileAndLine) {
   expect_refused(manoeuvres("- {kind: steady_turn}\n"), {"m.yaml:1: ", "radius_m is missing"});
   expect_refused(manoeuvres("- {kind: steady_turn, radius_m: 9, speed_mps: 70}\n"),
                  {"m.yaml:1: ", "speed_mps: 70"});
+  const auto braking = [&](const std::string& values) {
+    return manoeuvres("- {kind: braking_in_a_turn, " + values + "}\n");
+  };
+  expect_refused(braking("radius_m: 9, speed_mps: 1, braking_mps2: 1e20"),
+                 {"m.yaml:1: ", "braking_mps2: 1e+20 is not valid (allowed: below "});
+  expect_refused(braking("radius_m: 0.001, speed_mps: 1, braking_mps2: 0.001"),
+                 {"m.yaml:1: ", "radius_m: 0.001 is too tight for 500 m of braking"});
   expect_refused(manoeuvres("- {kind: loop}\n"), {"m.yaml:1: ", "steady_turn"});
   expect_refused(manoeuvres("- {kind: steady_turn, radius_m: 9, soil: ice}\n"), {"ice", "mare"});
 }

@@ -94,5 +94,14 @@ TEST(PathCurve, WhatIsNoPathIsRefused) {
   EXPECT_THROW(PathCurve({{1, 1}, {std::numeric_limits<double>::infinity(), 1}}), InputError);
 }
 
+TEST(PathCurve, ItsPointsAreApartEvenWhereItEndsBesideThem) {
+  // The last but one is left out for the last one, which lies between the two before it.
+  const PathCurve back_again({{0, 0}, {5, 0}, {5.15, 0}, {5.06, 0}});
+  EXPECT_NEAR(back_again.length_m(), 5.06, 1e-9);
+  ASSERT_EQ(back_again.point_arc_m().size(), 4);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_NEAR(back_again.point_arc_m()[i], 5.06, 1e-9);
+  EXPECT_THROW(PathCurve({{0, 0}, {0.15, 0}, {0.06, 0}}), InputError);
+}
+
 }  // namespace
 }  // namespace regoplan
