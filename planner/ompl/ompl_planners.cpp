@@ -23,6 +23,31 @@ namespace oc = ompl::control;
 
 namespace {
 
+/// OMPL 1.5.2's SST deletes its witnesses, but neither their states nor their controls.
+class Sst : public oc::SST {
+ public:
+  using oc::SST::SST;
+  ~Sst() override { free_witnesses(); }
+
+  void clear() override {
+    free_witnesses();
+    oc::SST::clear();
+  }
+
+ private:
+  void free_witnesses() {
+    if (!witnesses_) return;
+    std::vector<Motion*> witnesses;
+    witnesses_->list(witnesses);
+    for (Motion* witness : witnesses) {
+      si_->freeState(witness->state_);
+      siC_->freeControl(witness->control_);
+      witness->state_ = nullptr;
+      witness->control_ = nullptr;
+    }
+  }
+};
+
 /// How far the longest motion gets from standstill.
 double longest_first_motion_m(const OmplProblem& problem) {
   const PlanningProblem& asked = problem.world().problem();
@@ -43,7 +68,7 @@ ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
   if (name == "SyclopRRT") return make_syclop_rrt(problem);
   if (name == "SyclopEST") return make_syclop_est(problem);
   if (name == "SST") {
-    auto sst = std::make_shared<oc::SST>(si);
+    auto sst = std::make_shared<Sst>(si);
     // Where a whole motion ends within the pruning radius of its start, the tree never leaves it.
     const double pruning_m = 0.3 * longest_first_motion_m(problem);
     sst->setSelectionRadius(5 * pruning_m);

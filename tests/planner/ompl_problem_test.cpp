@@ -4,9 +4,6 @@
 #include <gtest/gtest.h>
 #include <ompl/base/OptimizationObjective.h>
 #include <ompl/base/goals/GoalSampleableRegion.h>
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/lsan_interface.h>
-#endif
 
 #include "planner/ompl/map_decomposition.h"
 #include "planner/ompl/vehicle_space.h"
@@ -83,9 +80,6 @@ TEST(OmplProblem, SstStopsAtItsFirstPathUnlessItIsToImprove) {
 TEST(OmplProblem, SstLeavesItsStartHoweverLargeTheMap) {
   PlanningProblem problem = lrv_problem(one_soil_map(300, firm_regolith(), flat));
   const World world(problem, WorldUse::kSearch, 2);
-#ifdef __SANITIZE_ADDRESS__
-  const __lsan::ScopedDisabler witnesses;  // OMPL's SST never frees them
-#endif
   PlannerRun run(world, "SST");
   EXPECT_EQ(run.solve(20000), ob::PlannerStatus::EXACT_SOLUTION);
 }
