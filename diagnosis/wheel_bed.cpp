@@ -11,7 +11,7 @@ std::optional<std::array<double, kChannelCount>> channels_at(const WheelModel& m
                                                              double slip_angle_rad,
                                                              const WheelConditions& conditions) {
   const WheelMotion motion = motion_at(slip_ratio, slip_angle_rad);
-  if (model.spec().mechanisms.empty()) {
+  if (model.spec().mechanisms.empty() && conditions.sinkage_offset_m == 0) {
     const WheelForces f = model.forces(load_n, motion);
     if (!has_forces(f.status)) return std::nullopt;
     return std::array{f.fx_n, f.fy_n, f.torque_nm, f.sinkage_m, f.sinkage_m, f.sinkage_m};

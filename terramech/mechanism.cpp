@@ -18,7 +18,8 @@ const std::vector<Definition>& all_definitions() {
   static const std::vector<Definition> all = [] {
     std::vector<Definition> sum;
     for (const auto& of : {mechanism_catalogue::of_sinkage(), mechanism_catalogue::of_shear(),
-                           mechanism_catalogue::of_soil(), mechanism_catalogue::of_wheel()}) {
+                           mechanism_catalogue::of_soil(), mechanism_catalogue::of_wheel(),
+                           mechanism_catalogue::of_flanks_and_rim()}) {
       sum.insert(sum.end(), of.begin(), of.end());
     }
     return sum;

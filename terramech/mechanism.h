@@ -23,6 +23,7 @@ struct WheelConditions {
   double time_s = 0;
   double heading_rad = 0;  ///< of the wheel, from the direction in which the bed was levelled
   double wheel_angle_rad = 0;
+  double sinkage_offset_m = 0;  ///< measured sinkage without mechanisms over the model's, imposed
 };
 
 struct MechanismParameter {

@@ -64,12 +64,19 @@ struct Effects {
   double surcharge_pa = 0;      ///< on the soil beside the wheel
   double front_bulldozing = 0;  ///< eta
   Layering layering;
-  double inertia = 0;       ///< factor on rho v^2 b h
-  double flank_shear = 0;   ///< share of mobilised shear on both flanks
-  double lug_height_m = 0;  ///< passive pressure on a lug
-  double lug_share = 0;     ///< of the lugs' pressure that is mobilised
-  double lug_ripple = 0;    ///< of their thrust over a lug's passage
-  double lugs = 0;          ///< around the wheel
+  double inertia = 0;             ///< factor on rho v^2 b h
+  double flank_shear = 0;         ///< share of mobilised shear on both flanks
+  double flank_friction = 0;      ///< Fx lost a newton of |Fy|
+  double flank_bulldozing = 0;    ///< Fx lost a newton of the bulldozing part of |Fy|
+  double flank_pressure_pa = 0;   ///< on the buried segment of the flank that pushes the soil
+  double rim_friction_ratio = 1;  ///< friction angle at the rim over the soil's, at most 1
+  double rim_adhesion_share = 1;  ///< adhesion at the rim over the soil's cohesion, at most 1
+  bool side_undisturbed = false;  ///< |Fy| as without digging and at the slip that was told
+  double lug_height_m = 0;        ///< passive pressure on a lug
+  double lug_share = 0;           ///< of the lugs' pressure that is mobilised
+  double lug_pressed = 0;         ///< share of the ground pressure that the soil between lugs bears
+  double lug_ripple = 0;          ///< of their thrust over a lug's passage
+  double lugs = 0;                ///< around the wheel
   double lug_phase_rad = 0;
   double tilt_x = 0, tilt_y = 0;  ///< share of the load along x and y
   double drag_torque_nm = 0;

@@ -30,6 +30,9 @@ Ground ground_of(const Effects& effects, double gravity_mps2) {
   const double height = effects.bulldoze_height;
   ground.bulldoze_cohesion_pa = height * (ground.bulldoze_cohesion_pa + d1 * effects.surcharge_pa);
   ground.bulldoze_weight *= height * height;
+  // shear at the rim is the smaller of what rim and soil bear; the soil beside keeps its own
+  ground.tan_phi = std::tan(std::min(effects.rim_friction_ratio, 1.0) * soil.friction_angle_rad);
+  ground.soil.cohesion_pa *= std::min(effects.rim_adhesion_share, 1.0);
   return ground;
 }
 
@@ -62,6 +65,12 @@ double compaction_n(const Ground& ground, double from_m, double to_m) {
          (std::pow(to_m / r, n + 1) - std::pow(from_m / r, n + 1));
 }
 
+/// Area of a flank below the ground.
+double segment_m2(double sinkage_m, double radius_m) {
+  const double theta = theta_of(sinkage_m, radius_m);
+  return radius_m * radius_m * (theta - std::sin(theta) * std::cos(theta));
+}
+
 /// What acts on the wheel beside the stress under it.
 struct Additions {
   double fx_n = 0, torque_nm = 0;
@@ -69,7 +78,9 @@ struct Additions {
 
 Additions additions(const Effects& effects, const Ground& ground, const WheelState& state,
                     const Contact& contact, double sinkage_m, double gravity_mps2) {
-  const Soil& soil = ground.soil;
+  Soil soil = effects.soil;  // not the rim's: these forces arise within the soil
+  soil.cohesion_pa *= effects.limit;
+  soil.friction_angle_rad = ground.soil.friction_angle_rad;
   const double r = ground.wheel.radius_m, b = ground.wheel.width_m, h = sinkage_m;
   const double gamma = soil.density_kgpm3 * gravity_mps2;
   const double root_kp = std::tan(std::numbers::pi / 4 + soil.friction_angle_rad / 2);  // sqrt(Kp)
@@ -82,16 +93,18 @@ Additions additions(const Effects& effects, const Ground& ground, const WheelSta
   sum.fx_n -= effects.inertia * soil.density_kgpm3 * state.speed_mps * state.speed_mps * b * h;
   const double lugs_in_soil = std::max(
       1.0, effects.lugs * (contact.theta_f_rad - contact.theta_r_rad) / (2 * std::numbers::pi));
-  const double lugs_n = lugs_in_soil * effects.lug_share * passive_n(effects.lug_height_m) *
+  const double arc_m = r * (contact.theta_f_rad - contact.theta_r_rad);
+  const double pressed_n = effects.lug_pressed * effects.lug_height_m * root_kp * root_kp *
+                           effects.load_n / std::max(arc_m, effects.lug_height_m);
+  const double lugs_n = lugs_in_soil * effects.lug_share *
+                        (passive_n(effects.lug_height_m) + pressed_n) *
                         (1 + effects.lug_ripple * std::cos(effects.lug_phase_rad));
   sum.fx_n += lugs_n;
   sum.torque_nm += lugs_n * r;
   if (effects.flank_shear > 0) {
-    const double theta = theta_of(h, r);
-    const double segment_m2 = r * r * (theta - std::sin(theta) * std::cos(theta));
-    const double limit_pa = soil.cohesion_pa + gamma * h / 2 * ground.tan_phi;
+    const double limit_pa = soil.cohesion_pa + gamma * h / 2 * std::tan(soil.friction_angle_rad);
     const double turning = state.slip > -1 ? 1 : 0;
-    sum.torque_nm += turning * effects.flank_shear * 2 * segment_m2 * limit_pa * r;
+    sum.torque_nm += turning * effects.flank_shear * 2 * segment_m2(h, r) * limit_pa * r;
   }
   sum.torque_nm += effects.drag_torque_nm;
   return sum;
@@ -154,11 +167,11 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
                                             model.accuracy_, theta_f.value_or(kSomewhere_rad));
   }
   if (!theta_f) return {.forces = {.status = sunk}};
-  const double undug =
-      sinkage_of(*theta_f, r) + (at_rest ? spec.soil.c0_m * std::max(ratios.slip, 0.0) : 0.0);
+  const double carried = sinkage_of(*theta_f, r) + conditions.sinkage_offset_m;
+  const double undug = carried + (at_rest ? spec.soil.c0_m * std::max(ratios.slip, 0.0) : 0.0);
   const double h = undug * effects.sinkage_factor + effects.sinkage_added_m;
   if (!(h < r && h > 0)) return {.forces = {.status = sunk}};
-  const bool imposed = at_rest || h != undug;
+  const bool imposed = at_rest || h != undug || conditions.sinkage_offset_m != 0;
   if (imposed) theta_f = theta_of(h, r);
 
   const Contact contact = wheel_contact::contact_at(ground, *theta_f, ratios.slip);
@@ -172,7 +185,14 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   if (!(q >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
   const Resultant resultant = plane.at(q);
   double side_n = 0, roll_nm = 0;
-  if (!law.own && effects.rut_tilt_rad == 0) {
+  if (effects.side_undisturbed) {
+    const Ratios& as_told = told.ratios;
+    const Contact before = wheel_contact::contact_at(ground, theta_of(undug, r), as_told.slip);
+    const Integrals under = wheel_contact::integrate(ground, before, as_told, model.accuracy_);
+    const double carrying = (effects.load_n - under.cohesion.fz_n) / under.stress.fz_n;
+    if (!(carrying >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
+    side_n = wheel_contact::side_force_n(ground, before, as_told, carrying, model.accuracy_);
+  } else if (!law.own && effects.rut_tilt_rad == 0) {
     side_n = wheel_contact::side_force_n(ground, contact, ratios, q, model.accuracy_);
   } else {
     const RutStrips::Sideways sideways = strips.sideways(h, q, effects.load_n);
@@ -181,9 +201,12 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
     roll_nm = -forward.y_sign * sideways.roll_nm;
   }
 
+  const double bulldozed_n = wheel_contact::bulldozing_force_n(ground, contact, ratios);
+  side_n += effects.flank_pressure_pa * segment_m2(h, r);
   if (effects.wall_share != 0) side_n += wall_n(effects, ground, ratios, contact, h);
 
   Additions added = additions(effects, ground, state, contact, h, spec.gravity_mps2);
+  added.fx_n -= effects.flank_friction * side_n + effects.flank_bulldozing * bulldozed_n;
   added.fx_n -= effects.dug_resistance * compaction_n(ground, undug, h);
   const double rut_m =
       ground.wheel.width_m / 2 * std::tan(effects.rut_tilt_rad) + h * effects.wall_share;

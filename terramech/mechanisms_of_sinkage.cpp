@@ -72,6 +72,25 @@ std::vector<Definition> of_sinkage() {
          e.dug_resistance += p[1];
          return e;
        }},
+      {{"sliding_sinkage",
+        "power",
+        "h = h0 (1 + a v^p), v = |slip velocity|/max(r w, V)",
+        "proxy; slip sinkage (Lyasko 2010; Ding et al. 2014) carried over to skid and lateral "
+        "motion",
+        {{"a", .5, 4, 1.8}, {"p", 1, 2.2, 1.7}}},
+       [](E e, P p, S at) {
+         e.sinkage_factor *= 1 + p[0] * std::pow(slip_velocity(at), p[1]);
+         return e;
+       }},
+      {{"sliding_sinkage",
+        "added",
+        "h = h0 + d v^p, v = |slip velocity|/max(r w, V)",
+        "proxy; as power, for digging that does not grow with the static sinkage",
+        {{"d_m", .003, .04, .012}, {"p", 1, 2.2, 1.7}}},
+       [](E e, P p, S at) {
+         e.sinkage_added_m += p[0] * std::pow(slip_velocity(at), p[1]);
+         return e;
+       }},
       {{"lateral_digging",
         "sine",
         "h = h0 (1 + kappa sin|beta|)",

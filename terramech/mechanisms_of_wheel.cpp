@@ -40,6 +40,32 @@ std::vector<Definition> of_wheel() {
          e.sinkage_added_m += p[0] * driving(at) / 2;
          return e;
        }},
+      {{"grousers",
+        "carried_soil",
+        "thrust m b hg (gamma hg Kp/2 + q Kp + 2 c sqrt(Kp)) a lug in the soil, q the ground "
+        "pressure, rim radius r + hg/2, digging a hg s/(1 - s/2); Fy stays, the trench's sides "
+        "having given way; carried soil behind the wheel: lambda += hg/r s",
+        "Lyasko 2010, J. Terramechanics 47; Ding et al. 2011, J. Terramechanics 48, 27-45",
+        {{"lug_height_m", .004, .02, .01},
+         {"mobilised", .05, .8, .2},
+         {"carried", .4, 3, 1.2},
+         {"lugs", 12, 32, 24}}},
+       [](E e, P p, S at) {
+         const double s = driving(at);
+         const double share = p[0] / e.wheel.radius_m;
+         e.rim_factor *= 1 + share / 2;
+         e.lug_height_m = p[0];
+         // the tips slip more than the rim that slip is told of; in skid the soil holds them back
+         const double tips =
+             at.slip < 0 ? at.slip + share / 2 : 1 - (1 - at.slip) / (1 + share / 2);
+         e.lug_share = p[1] * std::copysign(1 - std::exp(-5 * std::abs(tips)), tips);
+         e.lug_pressed = 1;
+         e.lugs = p[3];
+         e.sinkage_added_m += p[2] * p[0] * s / (1 - s / 2);
+         e.side_undisturbed = true;
+         e.soil.lambda = std::clamp(e.soil.lambda + share * s, 0.0, 1.5);
+         return e;
+       }},
       {{"flexible_wheel",
         "substitute_circle",
         "r = r0 (1 + k W)",

@@ -105,6 +105,25 @@ const std::vector<Case> kBundles{
     {"grousers", "passive_pressure", -0.3, 0, 60, "0", "0", "0", "0"},
     {"grousers", "effective_radius", 0.4, 0, 60, "+", "0", "+", "+"},
     {"grousers", "effective_radius", -0.3, 0, 60, "0", "0", "0", "0"},
+    {"grousers", "carried_soil", 0.4, 0, 60, "+", "0", "+", "+"},
+    {"sliding_sinkage", "power", 0.5, 0, 60, "-", "0", "?", "+"},
+    {"sliding_sinkage", "power", -0.4, 0, 60, "?", "0", "?", "+"},
+    {"sliding_sinkage", "power", 0, 30, 60, "?", "+", "?", "+"},
+    {"sliding_sinkage", "power", 0, 0, 60, "0", "0", "0", "0"},
+    {"sliding_sinkage", "added", 0.5, 0, 60, "-", "0", "?", "+"},
+    {"sliding_sinkage", "added", 0, 0, 60, "0", "0", "0", "0"},
+    {"flank_friction", "side_force", 0.2, 20, 60, "-", "0", "0", "0"},
+    {"flank_friction", "side_force", 0.2, 0, 60, "0", "0", "0", "0"},
+    {"flank_friction", "bulldozing", 0.2, 20, 60, "-", "0", "0", "0"},
+    {"flank_friction", "bulldozing", 0.2, 0, 60, "0", "0", "0", "0"},
+    {"side_surcharge", "heap", 0.2, 20, 60, "0", "+", "0", "0"},
+    {"side_surcharge", "heap", 0.2, 0, 60, "0", "0", "0", "0"},
+    {"side_surcharge", "flank", 0.2, 20, 60, "0", "+", "0", "0"},
+    {"side_surcharge", "flank", 0.2, 0, 60, "0", "0", "0", "0"},
+    {"rim_friction", "ratio", 0.5, 0, 60, "-", "0", "-", "?"},
+    {"rim_friction", "no_adhesion", 0.5, 20, 60, "-", "?", "-", "?"},
+    {"soil_change", "strength", 0.3, 0, 60, "0", "0", "0", "0"},
+    {"soil_change", "state", 0.3, 0, 60, "0", "0", "0", "0"},
     {"side_pileup", "raised", 0.2, 20, 120, "0", "+", "0", "0"},
     {"side_pileup", "raised", 0.2, 0, 120, "0", "0", "0", "0"},
     {"side_pileup", "surcharge", 0.2, 20, 120, "0", "+", "0", "0"},
@@ -307,6 +326,39 @@ TEST(Mechanism, TheInnerSideOfTheRutIsDeeper) {
   const WheelChannels right = model.channels(60, motion_at(0.2, -20 * kDegree));
   EXPECT_EQ(right.rut_left_m, left.rut_right_m);
   EXPECT_EQ(right.roll_moment_nm, -left.roll_moment_nm);
+}
+
+TEST(Mechanism, FlanksRubAlikeOnBothSides) {
+  const WheelModelSpec spec = wheel_specs::ishigami2007();
+  for (const double slip : {-0.3, 0.0, 0.4}) {
+    const WheelMotion motion = motion_at(slip, 25 * kDegree);
+    const WheelForces base = WheelModel(spec).forces(60, motion);
+    const WheelForces rubbed =
+        with(spec, "flank_friction", "side_force", {{"mu", 0.3}}).forces(60, motion);
+    EXPECT_NEAR(rubbed.fx_n, base.fx_n - 0.3 * std::abs(base.fy_n), 1e-9) << slip;
+    EXPECT_EQ(rubbed.torque_nm, base.torque_nm);
+  }
+}
+
+TEST(Mechanism, ARimAsRoughAsTheSoilIsTheBaseModel) {
+  const WheelModelSpec spec = wheel_specs::ishigami2007();
+  const WheelMotion motion = motion_at(0.4, 10 * kDegree);
+  const WheelForces base = WheelModel(spec).forces(60, motion);
+  const WheelForces rough = with(spec, "rim_friction", "ratio", {{"ratio", 1}}).forces(60, motion);
+  EXPECT_NEAR(rough.fx_n, base.fx_n, 1e-9);
+  EXPECT_NEAR(rough.fy_n, base.fy_n, 1e-9);
+  const WheelForces smooth =
+      with(spec, "rim_friction", "ratio", {{"ratio", 0.6}}).forces(60, motion);
+  EXPECT_LT(smooth.fx_n, base.fx_n);
+}
+
+TEST(Mechanism, AnImposedSinkageIsTheModelsAndTheOffset) {
+  const WheelModel model(wheel_specs::ishigami2007());
+  const WheelMotion motion = motion_at(0.3, 5 * kDegree);
+  const WheelChannels base = model.channels(60, motion, {});
+  const WheelChannels deeper = model.channels(60, motion, {.sinkage_offset_m = 0.004});
+  EXPECT_NEAR(deeper.forces.sinkage_m, base.forces.sinkage_m + 0.004, 1e-12);
+  EXPECT_GT(deeper.forces.fy_n, base.forces.fy_n);
 }
 
 TEST(Mechanism, LugsRippleWithTheWheelAngle) {
