@@ -28,6 +28,7 @@ Command add_evaluate_command(CLI::App& program);
 Command add_benchmark_command(CLI::App& program);
 Command add_diagnose_command(CLI::App& program);
 Command add_wheel_command(CLI::App& program);
+Command add_mechanisms_command(CLI::App& program);
 Command add_map_make_command(CLI::App& map);
 Command add_map_info_command(CLI::App& map);
 Command add_map_import_command(CLI::App& map);

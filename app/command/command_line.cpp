@@ -83,9 +83,10 @@ int run_command_line(int argc, const char* const* argv) {
     program.footer(
         "Exit status: 0 yes, 2 no (the result says why), 1 bad input, 130 or 143 interrupted.");
 
-    std::vector<Command> commands{add_demo_command(program),     add_plan_command(program),
-                                  add_evaluate_command(program), add_benchmark_command(program),
-                                  add_diagnose_command(program), add_wheel_command(program)};
+    std::vector<Command> commands{add_demo_command(program),      add_plan_command(program),
+                                  add_evaluate_command(program),  add_benchmark_command(program),
+                                  add_diagnose_command(program),  add_wheel_command(program),
+                                  add_mechanisms_command(program)};
     CLI::App* map = program.add_subcommand("map", "Make, check and describe maps");
     map->require_subcommand(1);
     commands.push_back(add_map_make_command(*map));
