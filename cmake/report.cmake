@@ -20,7 +20,7 @@ report_files(map_scripts map terrain.js model.js candidate_table.js map_frame.js
              map_view.js charts.js layers.js readout.js playback.js rejections.js)
 report_files(benchmark_scripts benchmark planners.js tables.js profiles.js spread.js progress.js paths.js
              main.js)
-report_files(diagnosis_scripts diagnosis model.js residual_maps.js curves.js tables.js main.js)
+report_files(diagnosis_scripts diagnosis model.js residual_maps.js curves.js tables.js shares.js main.js)
 
 regoplan_embed(
   regoplan_app app/page/report_assets.h

@@ -1,6 +1,7 @@
 #include "diagnosis/calibrated_recording.h"
 
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/calibration.h"
 #include "diagnosis/stray_runs.h"
@@ -18,9 +19,12 @@ CondensedRecording prepared(const Recording& recording, const DiagnosisSetup& se
 }  // namespace
 
 CalibratedRecording::CalibratedRecording(const Recording& recording, const DiagnosisSetup& setup)
-    : recording_(prepared(recording, setup)),
-      soil_(soil_coordinates(setup.soil)),
-      wide_soil_(soil_coordinates(setup.soil, kWideSoil)),
+    : CalibratedRecording(prepared(recording, setup)) {}
+
+CalibratedRecording::CalibratedRecording(CondensedRecording condensed)
+    : recording_(std::move(condensed)),
+      soil_(soil_coordinates(bed().setup.soil)),
+      wide_soil_(soil_coordinates(bed().setup.soil, kWideSoil)),
       discrepancy_(bed()) {
   const Calibration calibration = calibrate(bed(), soil_);
   base_.x = calibration.x;

@@ -15,6 +15,8 @@ class CalibratedRecording {
  public:
   /// \throws InputError as condense() and calibrate()
   CalibratedRecording(const Recording& recording, const DiagnosisSetup& setup);
+  /// Of runs condensed already; soil numbers without prior deviation stay as they are.
+  explicit CalibratedRecording(CondensedRecording condensed);
   CalibratedRecording(const CalibratedRecording&) = delete;
   CalibratedRecording& operator=(const CalibratedRecording&) = delete;
 

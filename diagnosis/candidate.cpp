@@ -41,7 +41,7 @@ Coordinate coordinate_of(const MechanismParameter& parameter) {
 
 struct Columns {
   bool pass = false, speed = false, position = false, time = false, skid = false, driving = false,
-       angle = false;
+       angle = false, lugs = true, part = false, difference = false;
 };
 
 bool can_bear(std::string_view id, const Columns& columns) {
@@ -51,9 +51,14 @@ bool can_bear(std::string_view id, const Columns& columns) {
   if (id == "cohesion_drift") return columns.time;
   if (id == "skid_branch") return columns.skid;
   if (id == "slip_sinkage") return columns.driving;
+  if (id == "soil_change") return columns.difference;
+  const std::set<std::string_view> kLater{"sliding_sinkage", "flank_friction", "side_surcharge",
+                                          "rim_friction"};
+  if (kLater.contains(id) && !columns.part) return false;
+  if (id == "grousers") return columns.lugs;
   const std::set<std::string_view> kSideways{
-      "lateral_digging", "rut_asymmetry", "shear_modulus_slip_angle",
-      "coupled_shear",   "side_pileup",   "max_stress_angle"};
+      "lateral_digging", "rut_asymmetry",    "shear_modulus_slip_angle", "coupled_shear",
+      "side_pileup",     "max_stress_angle", "flank_friction",           "side_surcharge"};
   return columns.angle || !kSideways.contains(id);
 }
 
@@ -86,8 +91,11 @@ class EffectList {
                   form.id == "layered_soil" || form.id == "rut_asymmetry";
     for (const MechanismParameter& parameter : form.parameters) {
       const std::string name(parameter.name);
-      if (name == "lugs" || name == "v0_mps" || name == "ripple" || name == "from_m" ||
-          name == "to_m" || name == "direction_rad" || (name == "t2_nms" && !columns_.speed)) {
+      if (const auto told = told_by_setup(name)) {
+        effect.fixed[name] = *told;
+      } else if (name == "lugs" || name == "v0_mps" || name == "ripple" || name == "from_m" ||
+                 name == "to_m" || name == "direction_rad" ||
+                 (name == "t2_nms" && !columns_.speed)) {
         effect.fixed[name] = name == "ripple" || name == "t2_nms" ? 0 : parameter.typical;
       } else {
         effect.coordinates.push_back(coordinate_of(parameter));
@@ -171,6 +179,13 @@ class EffectList {
     return channel == Channel::kFx || channel == Channel::kFy || channel == Channel::kTorque;
   }
 
+  std::optional<double> told_by_setup(const std::string& parameter) const {
+    const DiagnosisSetup& setup = bed_.setup;
+    if (parameter == "lug_height_m") return setup.lug_height_m;
+    if (parameter == "lugs" && setup.lug_count) return *setup.lug_count;
+    return std::nullopt;
+  }
+
   double signal(std::size_t c) const {
     const Eigen::VectorXd& y = bed_.channels[c].mean;
     return std::sqrt(y.squaredNorm() / static_cast<double>(y.size())) + bed_.channels[c].scale;
@@ -236,7 +251,7 @@ bool has_one_form(const std::string& id) {
   return id.starts_with("sensor_") || id == "slip_scale" || id == "slope_tilt";
 }
 
-std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording) {
+std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, EffectsOf of) {
   const auto varied = [&](const auto& column) { return span_of(bed, column).width() > 0; };
   const Span slip = span_of(bed, [](const Condition& at) { return at.slip_ratio; });
   const Span angle = span_of(bed, [](const Condition& at) { return std::abs(at.slip_angle_rad); });
@@ -248,9 +263,13 @@ std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording) 
                   varied([](const auto& at) { return at.conditions.position_m; }),
       .time = varied([](const auto& at) { return at.conditions.time_s; }),
       .skid = slip.low<-0.03, .driving = slip.high> 0.03,
-      .angle = angle.high > 0.03};
+      .angle = angle.high > 0.03,
+      .lugs = bed.setup.lug_height_m.value_or(1) > 0,
+      .part = of != EffectsOf::kRecording,
+      .difference = of == EffectsOf::kDifference};
   EffectList list(bed, columns);
   for (const MechanismForm& form : mechanism_forms()) {
+    if (form.form == "carried_soil" && !columns.part) continue;
     if (can_bear(form.id, columns)) list.add_mechanism(form);
   }
   list.add_instruments();

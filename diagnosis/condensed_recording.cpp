@@ -12,7 +12,6 @@
 namespace regoplan {
 namespace {
 
-constexpr std::size_t kFewestConditions = 8;
 constexpr double kDay_s = 86400;
 
 using ChannelValues = std::array<double, kChannelCount>;
@@ -131,6 +130,109 @@ std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
   return text;
 }
 
+/// Runs in groups, each channel moved to its group's means.
+struct Grouped {
+  std::vector<Condition> conditions;
+  std::vector<std::size_t> condition;  // per run
+  std::vector<ChannelRuns> channels;
+};
+
+Grouped group(const Recording& recording, const Usable& usable, const WheelModel& model,
+              const std::vector<int>& block) {
+  Grouped result{.conditions = group_conditions(recording, usable.runs, block)};
+  result.condition.assign(recording.runs.size(), result.conditions.size());
+  std::vector<std::optional<ChannelValues>> at_means;
+  for (std::size_t k = 0; k < result.conditions.size(); ++k) {
+    const Condition& at = result.conditions[k];
+    for (const std::size_t run : at.runs) result.condition[run] = k;
+    at_means.push_back(
+        channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions));
+  }
+  for (const Channel channel : recording.channels) {
+    const auto c = static_cast<std::size_t>(channel);
+    std::vector<double> adjusted(recording.runs.size(), WheelRun::kNotMeasured);
+    std::vector<double> modelled = adjusted;
+    bool measured = false;
+    for (const std::size_t run : usable.runs) {
+      const auto& mean = at_means[result.condition[run]];
+      const double moved = mean ? (*mean)[c] - usable.model[run][c] : 0;
+      adjusted[run] = recording.runs[run].value(channel) + moved;
+      modelled[run] = usable.model[run][c];
+      measured = measured || std::isfinite(adjusted[run]);
+    }
+    if (measured) result.channels.push_back({channel, std::move(adjusted), std::move(modelled)});
+  }
+  return result;
+}
+
+/// What may change in the course of a recording: every channel by as much, by a share of itself, or
+/// as other soil numbers would have it.
+std::vector<CourseKind> course_kinds(const Recording& recording, const Usable& usable,
+                                     const Grouped& grouped, const DiagnosisSetup& setup) {
+  CourseKind offset{.name = "offset"}, gain{.name = "gain"};
+  for (const ChannelRuns& channel : grouped.channels) {
+    offset.of_channel.emplace_back(recording.runs.size(), 1.0);
+    gain.of_channel.push_back(channel.modelled);
+  }
+  std::vector<CourseKind> kinds{std::move(offset), std::move(gain)};
+  const auto add = [&](std::string kind, double cohesion, double limit, double stiffness) {
+    Soil soil = setup.soil.mean;
+    soil.cohesion_pa *= cohesion * limit;
+    soil.friction_angle_rad = std::atan(limit * std::tan(soil.friction_angle_rad));
+    soil.kc *= stiffness;
+    soil.kphi *= stiffness;
+    const WheelModel changed({.variant = setup.variant,
+                              .wheel = setup.wheel,
+                              .soil = soil,
+                              .gravity_mps2 = setup.gravity_mps2});
+    CourseKind by_soil{.name = std::move(kind)};
+    for (const ChannelRuns& channel : grouped.channels) {
+      std::vector<double> change(recording.runs.size(), 0.0);
+      for (const std::size_t run : usable.runs) {
+        const WheelRun& at = recording.runs[run];
+        const auto value =
+            channels_at(changed, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions);
+        const auto c = static_cast<std::size_t>(channel.channel);
+        if (value) change[run] = (*value)[c] - usable.model[run][c];
+      }
+      by_soil.of_channel.push_back(std::move(change));
+    }
+    kinds.push_back(std::move(by_soil));
+  };
+  if (setup.soil.mean.cohesion_pa > 0) add("cohesion", 1.3, 1, 1);
+  add("strength", 1, 1.1, 1);
+  add("stiffness", 1, 1, 1.3);
+  return kinds;
+}
+
+std::string course_note(const Course& course, const std::vector<ChannelNoise>& noise) {
+  std::string text = fmt::format(
+      "replicates do not scatter only: they follow {} ({}; {:.0f} nats over days and scatter "
+      "alone)",
+      course.column, course.kind, course.gain_nats);
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    double low = INFINITY, high = -INFINITY;
+    for (const double t : course.trend[c]) {
+      low = std::min(low, noise[c].trend * t);
+      high = std::max(high, noise[c].trend * t);
+    }
+    text += fmt::format("{} {} by {:.3g}", c == 0 ? ":" : ",", name(noise[c].channel), high - low);
+  }
+  return text;
+}
+
+/// Moves every run to the mean of what it follows.
+void take_off(const Course& course, const std::vector<ChannelNoise>& noise,
+              std::vector<ChannelRuns>& channels) {
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    double mean = 0;
+    for (const double t : course.trend[c]) mean += t / static_cast<double>(course.trend[c].size());
+    for (std::size_t run = 0; run < course.trend[c].size(); ++run) {
+      channels[c].adjusted[run] -= noise[c].trend * (course.trend[c][run] - mean);
+    }
+  }
+}
+
 }  // namespace
 
 ChannelData means_of(const Recording& recording, const std::vector<Condition>& conditions,
@@ -182,7 +284,7 @@ ChannelData means_of(const Recording& recording, const std::vector<Condition>& c
   return data;
 }
 
-CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup) {
+CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, std::size_t fewest) {
   CondensedRecording result;
   Recording recording = with_times(raw);
   const WheelModel model({.variant = setup.variant,
@@ -212,38 +314,35 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup) {
   }
   TestBed& bed = result.bed;
   bed.setup = setup;
-  bed.conditions = group_conditions(recording, usable.runs);
-  if (bed.conditions.size() < kFewestConditions) {
+  Grouped grouped = group(recording, usable, model, {});
+  if (grouped.conditions.size() < fewest) {
     throw InputError(
         fmt::format("recording: {} different conditions that the model can judge; a "
                     "diagnosis needs {} and more",
-                    bed.conditions.size(), kFewestConditions));
+                    grouped.conditions.size(), fewest));
   }
-  result.condition.assign(recording.runs.size(), bed.conditions.size());
-  std::vector<std::optional<ChannelValues>> at_means;
-  for (std::size_t k = 0; k < bed.conditions.size(); ++k) {
-    const Condition& at = bed.conditions[k];
-    for (const std::size_t run : at.runs) result.condition[run] = k;
-    at_means.push_back(
-        channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions));
-  }
-  for (const Channel channel : recording.channels) {
-    const auto c = static_cast<std::size_t>(channel);
-    std::vector<double> adjusted(recording.runs.size(), WheelRun::kNotMeasured);
-    std::vector<double> modelled = adjusted;
-    std::size_t measured = 0;
-    for (const std::size_t run : usable.runs) {
-      const auto& mean = at_means[result.condition[run]];
-      const double moved = mean ? (*mean)[c] - usable.model[run][c] : 0;
-      adjusted[run] = recording.runs[run].value(channel) + moved;
-      modelled[run] = usable.model[run][c];
-      if (std::isfinite(adjusted[run])) ++measured;
-    }
-    if (measured == 0) continue;
+  result.course = course_of(recording, grouped.conditions, grouped.channels,
+                            course_kinds(recording, usable, grouped, setup), setup);
+  for (std::size_t c = 0; c < grouped.channels.size(); ++c) {
+    const ChannelRuns& runs = grouped.channels[c];
     result.noise.push_back(
-        estimate_noise(recording, bed.conditions, channel, adjusted, modelled, setup));
-    result.adjusted.push_back(std::move(adjusted));
+        estimate_noise(recording, grouped.conditions, runs.channel, runs.adjusted, runs.modelled,
+                       setup, result.course ? result.course->trend[c] : std::vector<double>{}));
   }
+  if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
+  if (result.course && result.course->in_time()) {
+    grouped = group(recording, usable, model, blocks_of(*result.course));
+    for (Condition& at : grouped.conditions) {
+      for (const std::size_t run : at.runs) {
+        at.when += result.course->value[run] / static_cast<double>(at.runs.size());
+      }
+    }
+  } else if (result.course) {
+    take_off(*result.course, result.noise, grouped.channels);
+  }
+  bed.conditions = std::move(grouped.conditions);
+  result.condition = std::move(grouped.condition);
+  for (ChannelRuns& runs : grouped.channels) result.adjusted.push_back(std::move(runs.adjusted));
   if (result.noise.empty()) throw InputError("recording: no channel is measured");
   share_day_offsets(result.noise, days_of(recording));
   for (std::size_t c = 0; c < result.noise.size(); ++c) {

@@ -37,7 +37,8 @@ std::vector<std::size_t> levels(const std::vector<double>& values, double gap) {
 }
 
 std::vector<Condition> group_conditions(const Recording& recording,
-                                        const std::vector<std::size_t>& used) {
+                                        const std::vector<std::size_t>& used,
+                                        const std::vector<int>& block) {
   std::vector<double> log_loads;
   for (const std::size_t run : used) log_loads.push_back(std::log(recording.runs[run].load_n));
   const std::vector<std::size_t> load_level = levels(log_loads, std::log1p(kLoadGap));
@@ -48,7 +49,8 @@ std::vector<Condition> group_conditions(const Recording& recording,
     std::size_t g = 0;
     const auto fits = [&](std::size_t k) {
       return group_level[k] == load_level[i] && std::ranges::all_of(groups[k].runs, [&](auto r) {
-               return agree(recording.runs[r], run);
+               return agree(recording.runs[r], run) &&
+                      (block.empty() || block[r] == block[used[i]]);
              });
     };
     while (g < groups.size() && !fits(g)) ++g;

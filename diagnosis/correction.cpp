@@ -1,5 +1,7 @@
 #include "diagnosis/correction.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -103,10 +105,81 @@ Correction handed_out(const CalibratedRecording& calibrated, const CandidateFit&
   return correction;
 }
 
+/// The recording with the soil known at its prior means.
+CondensedRecording with_known_soil(CondensedRecording recording) {
+  recording.bed.setup.soil = {.mean = recording.bed.setup.soil.mean};
+  return recording;
+}
+
+double misfit(const TestBed& bed, const Eigen::VectorXd& prediction) {
+  double sum = 0;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const ChannelData& data = bed.channels[c];
+    const Eigen::VectorXd off = data.mean - prediction.segment(bed.offset(c), data.mean.size());
+    sum += (off.array().square() / data.noise.diagonal().array()).sum();
+  }
+  return sum;
+}
+
+/// Model at the prior means, and a surface over it where that proves itself. Figures of the
+/// calibrated model stay those of the calibrated model.
+Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surface,
+                          const HeldOut& of_calibrated, int threads) {
+  const CalibratedRecording known(with_known_soil(calibrated.recording()));
+  std::vector<std::size_t> settings;
+  if (with_surface) settings = remainder_settings(known.problem(), known.base());
+  HeldOut proof = known.held_out({.remainder = settings}, of_calibrated.families, threads);
+  const double plain = misfit(known.bed(), known.held_out({}, proof.families, threads).corrected);
+  if (with_surface && misfit(known.bed(), proof.corrected) >= plain) {
+    settings.clear();
+    proof = known.held_out({}, proof.families, threads);
+  }
+  for (std::size_t c = 0; c < proof.fit.size(); ++c) {
+    proof.fit[c].calibrated_rmse = of_calibrated.fit[c].calibrated_rmse;
+  }
+  const auto rows = static_cast<double>(known.bed().size());
+  proof.share_explained =
+      of_calibrated.excess > 0
+          ? 1 - (misfit(known.bed(), proof.corrected) - rows) / of_calibrated.excess
+          : 0;
+  proof.excess = of_calibrated.excess;
+  Correction correction = handed_out(known, known.base(), settings, proof);
+  correction.soil = calibrated.bed().setup.soil;
+  correction.soil_pulls = calibrated.soil_pulls();
+  for (SoilPull& pull : correction.soil_pulls) {
+    pull.corrected = pull.prior;
+    pull.corrected_pull = 0;
+  }
+  return correction;
+}
+
+/// Why a calibrated model is not handed on; empty where it is: soil numbers that fit some channels
+/// at the cost of another tell nothing of the soil.
+std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof) {
+  constexpr double kClear = 2;
+  const TestBed& bed = calibrated.bed();
+  const Eigen::VectorXd means = calibrated.prediction_at_prior_means();
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const double loss = gain_in_errors(bed, c, means, proof.calibrated);
+    if (loss > kClear) {
+      return fmt::format(
+          "held out by {}, calibrated soil numbers predict {} worse than the prior means by {:.1f} "
+          "standard errors",
+          proof.families.by, name(bed.channels[c].channel), loss);
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 Correction calibrated_alone(const CalibratedRecording& calibrated, int threads) {
-  return handed_out(calibrated, calibrated.base(), {}, calibrated.held_out({}, threads));
+  const HeldOut proof = calibrated.held_out({}, threads);
+  std::string worse = worse_than_prior_means(calibrated, proof);
+  if (worse.empty()) return handed_out(calibrated, calibrated.base(), {}, proof);
+  Correction correction = at_prior_means(calibrated, false, proof, threads);
+  correction.refused = "the soil stays at its prior means: " + worse;
+  return correction;
 }
 
 Correction correction_by(const CalibratedRecording& calibrated, const CandidateFit& fit,
@@ -114,9 +187,11 @@ Correction correction_by(const CalibratedRecording& calibrated, const CandidateF
                          int threads) {
   std::string reason = no_better_than_calibrated(calibrated.bed(), proof);
   if (reason.empty()) return handed_out(calibrated, fit, remainder, proof);
-  Correction correction = handed_out(calibrated, calibrated.base(), {},
-                                     calibrated.held_out({}, proof.families, threads));
-  correction.refused = std::move(reason);
+  const HeldOut plain = calibrated.held_out({}, proof.families, threads);
+  std::string worse = worse_than_prior_means(calibrated, plain);
+  Correction correction = worse.empty() ? handed_out(calibrated, calibrated.base(), {}, plain)
+                                        : at_prior_means(calibrated, false, plain, threads);
+  correction.refused = worse.empty() ? std::move(reason) : reason + "; " + worse;
   return correction;
 }
 
@@ -139,6 +214,11 @@ Correction correction_without_name(const CalibratedRecording& calibrated,
   if (unexplained != scored.end()) {
     Proven over_fit = prove(&unexplained->fit);
     if (over_fit.proof.share_explained > best.proof.share_explained) best = std::move(over_fit);
+  }
+  Correction at_means = at_prior_means(calibrated, true, best.proof, threads);
+  if (misfit(calibrated.bed(), at_means.proof.corrected) <
+      misfit(calibrated.bed(), best.proof.corrected)) {
+    return at_means;
   }
   return correction_by(calibrated, best.fit == nullptr ? calibrated.base() : *best.fit,
                        best.remainder, best.proof, threads);

@@ -11,8 +11,10 @@
 #include "diagnosis/location.h"
 #include "diagnosis/name_contest.h"
 #include "diagnosis/next_experiment.h"
+#include "diagnosis/partial_claim.h"
 #include "diagnosis/sentence.h"
 #include "diagnosis/smallest_detectable.h"
+#include "diagnosis/unnamed_correction.h"
 
 namespace regoplan {
 namespace {
@@ -28,7 +30,8 @@ class Diagnosing {
              const DiagnosisOptions& options)
       : options_(options),
         calibrated_(recording, setup),
-        effects_(effects_for(calibrated_.bed(), recording)) {
+        effects_(effects_for(calibrated_.bed(), recording)),
+        effects_in_part_(effects_for(calibrated_.bed(), recording, EffectsOf::kPart)) {
     found_.soil = calibrated_.soil_pulls();
     found_.notes = recording.warnings;
     add_notes(calibrated_.recording().notes);
@@ -42,6 +45,7 @@ class Diagnosing {
     if (rejected_ && !stopped()) {
       found_.where = locate(calibrated_.recording(), calibrated_.remainder_of(calibrated_.base()),
                             options_.seed + 1);
+      tell_when();
     }
     tell("scoring what may be wrong", 0.15);
     score();
@@ -89,6 +93,12 @@ class Diagnosing {
       unfit_ = near.f > near.critical;
       beyond_doubt_ = unfit_;
     }
+    // replicates that follow a course differ by more than noise, whatever their means do
+    const auto& course = recording.course;
+    if (course && course->in_time()) {
+      unfit_ = true;
+      beyond_doubt_ = true;
+    }
     stands_out_ = p_value_along(recording, remainder, directions(), options_.seed) < 0.005;
     rejected_ = unfit_ || stands_out_;
     const FitRemainder fixed{
@@ -97,6 +107,13 @@ class Diagnosing {
         .jacobian = Eigen::MatrixXd(calibrated_.bed().size(), 0)};
     const LackOfFit at_means = lack_of_fit(recording, fixed, options_.seed, 0.05);
     consistent_ = at_means.f <= at_means.critical;
+  }
+
+  /// Where replicates follow a course, the part of it in which a channel is off comes first.
+  void tell_when() {
+    const CondensedRecording& recording = calibrated_.recording();
+    if (!recording.course) return;
+    if (auto when = last_part_of(recording)) found_.where.insert(found_.where.begin(), *when);
   }
 
   /// What each effect at a usual size would add to the calibrated model.
@@ -158,12 +175,14 @@ class Diagnosing {
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
       return;
     }
+    if (unfit_ && named_in_part()) return;
     if (unfit_) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);
       const bool proven =
           correction.refused.empty() && correction.proof.share_explained > kWorthCorrecting;
       if (proven || beyond_doubt_) {
         found_.verdict = Verdict::kUnexplained;
+        found_.remainder_share = 1;
         take(std::move(correction));
         return;
       }
@@ -177,7 +196,60 @@ class Diagnosing {
     weigh(scored_, PlainModel::kHolds);
   }
 
+  /// Names that stand beside an unnamed remainder.
+  bool named_in_part() {
+    tell("scoring names beside a remainder", 0.88);
+    PartialDecision part = decide_partly(calibrated_, effects_in_part_, options_.seed + 2,
+                                         options_.threads, options_.stop);
+    found_.chance_nats = part.chance_nats;
+    if (!part.claim) {
+      if (!part.refused.empty()) found_.notes.push_back("no name in part: " + part.refused);
+      return false;
+    }
+    found_.verdict = Verdict::kPartly;
+    found_.names_added = steps_of(calibrated_, *part.claim, options_.threads);
+    found_.claims = std::move(part.claim->claims);
+    partial_ranking_ = std::move(part.ranking);
+    double explained = 0;
+    for (const Claim& claim : found_.claims) explained += claim.share.explained;
+    found_.remainder_share = std::clamp(1 - explained, 0.0, 1.0);
+    const CandidateFit& fit = part.claim->fit;
+    const std::vector<std::size_t> left = remainder_settings(calibrated_.problem(), fit);
+    take(correction_by(calibrated_, fit, left,
+                       calibrated_.held_out({.fit = &fit, .remainder = left}, options_.threads),
+                       options_.threads));
+    return true;
+  }
+
+  /// Names without which a soil number would have to lie far from its tests, and that do as well
+  /// with that number near to them.
+  void list_suspects() {
+    constexpr double kFar = 3, kNear = 2, kAsGood_nats = 3;
+    constexpr std::size_t kMost = 3;
+    std::vector<Eigen::Index> far;
+    for (Eigen::Index i = 0; i < calibrated_.base().x.size(); ++i) {
+      if (std::abs(calibrated_.base().x[i]) > kFar) far.push_back(i);
+    }
+    if (far.empty()) return;
+    double parameters = -INFINITY;
+    for (const ScoredId& s : scored_) {
+      if (s.id == "parameters") parameters = s.score;
+    }
+    std::vector<const ScoredId*> singles;
+    for (const ScoredId& s : scored_) {
+      if (s.fit.candidate.effects.size() != 1 || is_instrument(s.id)) continue;
+      const bool near =
+          std::ranges::all_of(far, [&](Eigen::Index i) { return std::abs(s.fit.x[i]) < kNear; });
+      if (near && s.score > parameters - kAsGood_nats) singles.push_back(&s);
+    }
+    std::ranges::stable_sort(singles, std::greater{}, &ScoredId::score);
+    for (std::size_t i = 0; i < std::min(kMost, singles.size()); ++i) {
+      found_.suspects.push_back(singles[i]->id);
+    }
+  }
+
   void nothing_is_missing() {
+    if (!consistent_) list_suspects();
     found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
     take(calibrated_alone(calibrated_, options_.threads));
   }
@@ -185,7 +257,7 @@ class Diagnosing {
   void take(Correction correction) {
     if (!correction.refused.empty()) {
       found_.notes.push_back(
-          fmt::format("the corrected model is the calibrated one: {}", correction.refused));
+          fmt::format("the model is handed on without a correction: {}", correction.refused));
     }
     found_.fit = correction.proof.fit;
     found_.held_out_by = correction.proof.families.by;
@@ -200,6 +272,10 @@ class Diagnosing {
   }
 
   void list_ranking() {
+    if (found_.verdict == Verdict::kPartly) {
+      found_.ranking = partial_ranking_;
+      return;
+    }
     const auto parameters =
         std::ranges::find_if(scored_, [](const ScoredId& s) { return s.id == "parameters"; });
     for (const ScoredId& s : scored_) {
@@ -221,8 +297,9 @@ class Diagnosing {
 
   const DiagnosisOptions& options_;
   const CalibratedRecording calibrated_;
-  std::vector<Effect> effects_;
+  std::vector<Effect> effects_, effects_in_part_;
   std::vector<ScoredId> scored_;
+  std::vector<ScoredCandidate> partial_ranking_;
   bool stands_out_ = false;    // the residual lies along some effect farther than noise goes
   bool unfit_ = false;         // lack of fit, or soil numbers that calibration pulled too far
   bool beyond_doubt_ = false;  // unfit, even where no correction proves itself

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -18,9 +19,18 @@ namespace regoplan {
 struct DiagnosisSetup {
   WheelVariant variant = WheelVariant::kIshigami2007;
   Wheel wheel;
+  std::optional<double> lug_height_m;  ///< 0: the wheel is smooth; nothing: not told
+  std::optional<int> lug_count;
   double gravity_mps2 = 9.80665;
   UncertainSoil soil;                                  ///< what independent soil tests say
   std::map<Channel, double> noise_standard_deviation;  ///< where there are no replicates
+};
+
+/// A recording of the same rig and soil without the effect that is looked for.
+struct Reference {
+  std::string name;  ///< of its file
+  Recording recording;
+  DiagnosisSetup setup;  ///< its wheel may be another
 };
 
 enum class Verdict {
@@ -29,14 +39,21 @@ enum class Verdict {
   kNamed,        ///< by one name for each effect
   kClass,        ///< by names that these data cannot tell apart
   kUnexplained,  ///< a real mismatch that no name fits
+  kPartly,       ///< by names, or a class, that stand beside an unnamed remainder
 };
 
-/// `consistent`, `parameters`, `named`, `class`, `unexplained`.
+/// `consistent`, `parameters`, `named`, `class`, `unexplained`, `partly`.
 std::string_view name(Verdict verdict);
 
 struct Estimate {
   double value = 0;
   double standard_deviation = 0;
+};
+
+/// Part of the excess misfit on held-out conditions, and its range over ways to hold out.
+struct Share {
+  double explained = 0;
+  double low = 0, high = 0;
 };
 
 /// One effect that the diagnosis claims.
@@ -45,9 +62,11 @@ struct Claim {
   std::string form;        ///< the one that fits best; empty for instruments
   double probability = 0;  ///< of the class
   std::map<std::string, Estimate> parameters;
-  std::vector<std::string> equivalent;  ///< further ids that these data cannot tell apart
-  std::vector<Channel> channels;        ///< in which it shows
-  double evidence_nats = 0;             ///< over the best score without it
+  std::vector<std::string> equivalent;         ///< further ids that these data cannot tell apart
+  std::vector<Channel> channels;               ///< in which it shows
+  double evidence_nats = 0;                    ///< over the best score without it
+  Share share;                                 ///< that it adds to those before it
+  std::map<std::string, Share> member_shares;  ///< of a class: what each id explains in its place
 };
 
 struct ScoredCandidate {
@@ -72,6 +91,13 @@ struct ChannelFit {
   double baseline_rmse = 0;    ///< model at the prior means
   double calibrated_rmse = 0;  ///< soil numbers fitted
   double corrected_rmse = 0;   ///< and the claim's mechanisms, or the generic correction
+};
+
+/// Names added one by one, no remainder: what each further one makes of held-out conditions.
+struct NameStep {
+  std::string id;  ///< of the name that this step adds
+  std::vector<ChannelFit> fit;
+  double share_explained = 0;  ///< by the names so far
 };
 
 struct LackOfFit {
@@ -136,6 +162,11 @@ struct Diagnosis {
   std::vector<RunResidual> residuals;
   WheelModelSpec corrected_model;  ///< calibrated soil, the claim's mechanisms, or `generic`
   UncertainSoil corrected_soil;
+  std::vector<NameStep> names_added;    ///< of the claims, first to last
+  std::vector<std::string> suspects;    ///< physics that would do instead of a soil number
+  double remainder_share = 0;           ///< of the excess misfit, which the claims leave
+  double chance_nats = 0;               ///< gain that one nameless world in forty reaches; 0: none
+  std::vector<std::string> references;  ///< what the recording was compared with
   bool interrupted = false;
 };
 

@@ -55,6 +55,8 @@ double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, cons
   const WheelConditions& q = b.conditions;
   d += squared(std::log(static_cast<double>(p.pass) / q.pass));
   if (p.speed_mps > 0 && q.speed_mps > 0) d += squared(std::log(p.speed_mps / q.speed_mps) / 1.5);
+  constexpr double kWhen = 0.5;  // share of the recording's course, where time is a place
+  d += squared((a.when - b.when) / kWhen);
   return angle * std::exp(-d / 2);
 }
 

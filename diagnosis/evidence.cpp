@@ -105,7 +105,20 @@ SettingWeights SettingWeights::of_unexplained() {
   return weights_of({.1, .1, .13, .13, .13, .13, .13, .13});
 }
 
+SettingWeights SettingWeights::up_to(std::vector<double> most_amplitude) {
+  SettingWeights weights = weights_of({1, 1, 1, 1, 1, 1, 1, 1});
+  weights.most_amplitude = std::move(most_amplitude);
+  return weights;
+}
+
+bool SettingWeights::excludes(std::size_t channel, std::size_t setting) const {
+  if (log_weight[setting] < -1e200) return true;
+  return !most_amplitude.empty() &&
+         discrepancy_settings()[setting].amplitude > most_amplitude[channel];
+}
+
 Eigen::MatrixXd soil_directions(const TestBed& bed, const Eigen::MatrixXd& soil_jacobian) {
+  if (soil_jacobian.cols() == 0) return Eigen::MatrixXd(bed.size(), 0);
   const NoiseFactors factor(bed);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(whitened(bed, factor, soil_jacobian),
                                               Eigen::ComputeThinU);
@@ -162,7 +175,7 @@ Evidence evidence_of(const TestBed& bed, const Discrepancy& discrepancy, const L
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
     for (std::size_t k = 0; k < settings; ++k) {
-      if (weights.log_weight[k] < -1e200) {
+      if (weights.excludes(c, k)) {
         parts[c].emplace_back();
         continue;
       }
@@ -190,7 +203,7 @@ Evidence evidence_of(const TestBed& bed, const Discrepancy& discrepancy, const L
       const double others = prior - weights.log_weight[held];
       add(sum, parts[c][held], -1);
       for (std::size_t k = 0; k < settings; ++k) {
-        if (weights.log_weight[k] < -1e200) continue;
+        if (weights.excludes(c, k)) continue;
         Products trial = sum;
         add(trial, parts[c][k], 1);
         const double score = value_of(trial, p, n).log_marginal + others + weights.log_weight[k];

@@ -169,4 +169,33 @@ std::vector<MismatchRegion> locate(const CondensedRecording& recording, const Fi
   return found;
 }
 
+std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording) {
+  if (!recording.course) return std::nullopt;
+  const Course& course = *recording.course;
+  const auto runs = static_cast<double>(course.value.size());
+  std::optional<MismatchRegion> clearest;
+  double most = 0;
+  for (std::size_t c = 0; c < recording.noise.size(); ++c) {
+    double early = 0, late = 0, earlies = 0, lates = 0;
+    for (std::size_t run = 0; run < course.value.size(); ++run) {
+      const double part = recording.noise[c].trend * course.trend[c][run];
+      if (course.value[run] < 1.0 / 3) early += part, ++earlies;
+      if (course.value[run] > 2.0 / 3) late += part, ++lates;
+    }
+    if (earlies == 0 || lates == 0) continue;
+    const double effect = late / lates - early / earlies;
+    const double deviation = recording.noise[c].constant * std::sqrt(4 / std::max(runs, 1.0));
+    if (std::abs(effect) / deviation <= most) continue;
+    most = std::abs(effect) / deviation;
+    clearest = MismatchRegion{
+        .channel = recording.bed.channels[c].channel,
+        .region = {{course.column,
+                    {course.low + 2.0 / 3 * (course.high - course.low), course.high}}},
+        .effect = effect,
+        .ci95 = {effect - 1.96 * deviation, effect + 1.96 * deviation},
+        .p_value = std::exp(-course.gain_nats)};
+  }
+  return clearest;
+}
+
 }  // namespace regoplan

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "diagnosis/detection.h"
 
@@ -13,5 +14,10 @@ namespace regoplan {
 /// regions that share most of their conditions only the strongest stays.
 std::vector<MismatchRegion> locate(const CondensedRecording& recording, const FitRemainder& fit,
                                    std::uint64_t seed);
+
+/// The last third of a course that replicates follow, in its own column: by how much the channel in
+/// which it is clearest lies there off the first third, its noise at hand. Nothing without a
+/// course.
+std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording);
 
 }  // namespace regoplan

@@ -118,16 +118,18 @@ struct Shares {
 
 /// Restricted maximum likelihood of the constant part, and of the others over it on a grid.
 void fit_variances(const Recording& recording, const Replicates& replicates,
-                   const std::vector<double>& value, bool days, ChannelNoise& noise) {
+                   const std::vector<double>& value, bool days, const std::vector<double>& trend,
+                   ChannelNoise& noise) {
   const Contrasts contrasts = contrasts_of(replicates);
   const auto n = static_cast<Eigen::Index>(contrasts.runs.size());
-  Eigen::VectorXd y(n), signal(n), inverse_weight(n);
+  Eigen::VectorXd y(n), signal(n), inverse_weight(n), along = Eigen::VectorXd::Zero(n);
   Eigen::MatrixXd same_day(n, n);
   Eigen::Index i = 0;
   for (const auto& group : replicates.groups) {
     for (const std::size_t run : group) {
       y[i] = value[run];
       signal[i] = centre(group, value);
+      if (!trend.empty()) along[i] = trend[run];
       inverse_weight[i++] = 1 / noise.weight[run];
     }
   }
@@ -140,6 +142,7 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
     }
   }
   const Eigen::VectorXd e = contrasts.matrix * y;
+  const Eigen::VectorXd column = contrasts.matrix * along;
   const Eigen::MatrixXd offset_part = contrasts.matrix * same_day * contrasts.matrix.transpose();
   const Eigen::MatrixXd gain_part = contrasts.matrix *
                                     (signal.asDiagonal() * same_day * signal.asDiagonal()) *
@@ -155,12 +158,17 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
     for (const double d : day_grid) {
       for (const double g : day_grid) {
         const Eigen::LLT<Eigen::MatrixXd> factor(own + d * d * offset_part + g * g * gain_part);
-        const double s2 = e.dot(factor.solve(e)) / static_cast<double>(e.size());
+        const Eigen::VectorXd solved = factor.solve(column);
+        const double weight = column.dot(solved);
+        const double factor_of_trend = weight > 0 ? e.dot(solved) / weight : 0;
+        const double s2 = (e.dot(factor.solve(e)) - factor_of_trend * e.dot(solved)) /
+                          static_cast<double>(e.size());
         const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
         const double cost = 0.5 * ((p > 0) + (d > 0) + (g > 0));
         const double score = -0.5 * (static_cast<double>(e.size()) * std::log(s2) + log_det) - cost;
         if (!(score > best)) continue;
         best = score;
+        noise.trend = factor_of_trend;
         noise.constant = std::sqrt(s2);
         noise.proportional = p * noise.constant / rms;
         noise.day_offset = d * noise.constant;
@@ -227,7 +235,8 @@ double run_deviation(const ChannelNoise& noise, double y) {
 
 ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
                             Channel channel, const std::vector<double>& adjusted,
-                            const std::vector<double>& model, const DiagnosisSetup& setup) {
+                            const std::vector<double>& model, const DiagnosisSetup& setup,
+                            const std::vector<double>& trend) {
   ChannelNoise noise{.channel = channel, .weight = std::vector<double>(adjusted.size(), 1.0)};
   const Replicates replicates = replicates_of(conditions, adjusted);
   noise.degrees_of_freedom = replicates.contrasts;
@@ -264,17 +273,83 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   const double rough = rough_deviation(replicates, adjusted);
   weigh_outliers(
       replicates, adjusted, [&](double) { return 1.3 * rough; }, noise.weight);
-  fit_variances(recording, replicates, adjusted, days && days_seen, noise);
+  fit_variances(recording, replicates, adjusted, days && days_seen, trend, noise);
   const auto whole_deviation = [&](double y) {
     return std::hypot(run_deviation(noise, y), noise.day_offset, noise.day_gain * y);
   };
   weigh_outliers(replicates, adjusted, whole_deviation, noise.weight);
-  fit_variances(recording, replicates, adjusted, days && days_seen, noise);
+  fit_variances(recording, replicates, adjusted, days && days_seen, trend, noise);
   if (!days_seen) assume_a_day(noise);
   for (std::size_t run = 0; run < noise.weight.size(); ++run) {
     if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
   }
   return noise;
+}
+
+ReplicateContrasts::ReplicateContrasts(const Recording& recording,
+                                       const std::vector<Condition>& conditions,
+                                       const std::vector<double>& adjusted,
+                                       const ChannelNoise& plain) {
+  const Replicates replicates = replicates_of(conditions, adjusted);
+  Contrasts contrasts = contrasts_of(replicates);
+  runs_ = std::move(contrasts.runs);
+  contrasts_ = std::move(contrasts.matrix);
+  const auto n = static_cast<Eigen::Index>(runs_.size());
+  Eigen::VectorXd y(n), own(n), signal(n);
+  Eigen::MatrixXd same_day(n, n);
+  Eigen::Index i = 0;
+  for (const auto& group : replicates.groups) {
+    for (const std::size_t run : group) {
+      y[i] = adjusted[run];
+      signal[i] = centre(group, adjusted);
+      own[i] = std::pow(run_deviation(plain, signal[i]), 2) / plain.weight[run];
+      ++i;
+    }
+  }
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const bool same = recording.runs[runs_[static_cast<std::size_t>(a)]].day ==
+                        recording.runs[runs_[static_cast<std::size_t>(b)]].day;
+      same_day(a, b) =
+          same ? std::pow(plain.day_offset, 2) + std::pow(plain.day_gain, 2) * signal[a] * signal[b]
+               : 0;
+    }
+  }
+  e_ = contrasts_ * y;
+  const Eigen::MatrixXd within = contrasts_ * own.asDiagonal() * contrasts_.transpose();
+  const Eigen::MatrixXd days = contrasts_ * same_day * contrasts_.transpose();
+  const bool has_days = !plain.day_assumed && plain.day_offset + plain.day_gain > 0;
+  for (const bool with_days : {true, false}) {
+    if (with_days && !has_days) continue;
+    Covariance& at = covariances_.emplace_back();
+    at.factor.compute(with_days ? Eigen::MatrixXd(within + days) : within);
+    at.score = score(at, e_.dot(at.factor.solve(e_)));
+  }
+}
+
+double ReplicateContrasts::score(const Covariance& covariance, double misfit) const {
+  const auto m = static_cast<double>(e_.size());
+  const double log_det = 2 * covariance.factor.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (m * std::log(misfit / m) + log_det);
+}
+
+double ReplicateContrasts::gain(const std::vector<double>& trend) const {
+  Eigen::VectorXd along(static_cast<Eigen::Index>(runs_.size()));
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    along[static_cast<Eigen::Index>(i)] = trend[runs_[i]];
+  }
+  const Eigen::VectorXd column = contrasts_ * along;
+  double before = -INFINITY, after = -INFINITY;
+  for (const Covariance& covariance : covariances_) {
+    const Eigen::VectorXd solved = covariance.factor.solve(column);
+    const double weight = column.dot(solved);
+    if (!(weight > 0)) continue;
+    const double misfit =
+        e_.dot(covariance.factor.solve(e_)) - std::pow(e_.dot(solved), 2) / weight;
+    before = std::max(before, covariance.score);
+    after = std::max(after, score(covariance, misfit));
+  }
+  return std::isfinite(after) ? after - before : 0;
 }
 
 void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days) {

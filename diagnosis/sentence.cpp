@@ -52,7 +52,9 @@ Quantity quantity_of(const std::string& column) {
       {"load_n", {"load", "N"}},
       {"speed_mps", {"speed", "m/s"}},
       {"position_m", {"position", "m"}},
-      {"time_s", {"time", "s"}}};
+      {"time_s", {"time", "s"}},
+      {"day", {"time since the first day", "s"}},
+      {"run_order", {"run", ""}}};
   const auto known = kWords.find(column);
   return known == kWords.end() ? Quantity{column, ""} : known->second;
 }
@@ -103,6 +105,32 @@ std::string percent(double probability) {
   return probability > 0.99 ? "over 99 %" : fmt::format("{:.0f} %", 100 * probability);
 }
 
+std::string share_words(const Share& share) {
+  std::string text = fmt::format("{:.0f} %", 100 * share.explained);
+  if (share.high - share.low > 0.02) {
+    text += fmt::format(" ({:.0f} to {:.0f} % over ways to hold out)", 100 * share.low,
+                        100 * share.high);
+  }
+  return text;
+}
+
+/// "slip_sinkage explains 45 %; max_stress_angle or rear_contact explains 30 %".
+std::string partial_words(const Diagnosis& diagnosis) {
+  std::string what;
+  for (const Claim& claim : diagnosis.claims) {
+    std::vector<std::string> names{claim.id};
+    names.insert(names.end(), claim.equivalent.begin(), claim.equivalent.end());
+    what += fmt::format("{}{} explains {} of it", what.empty() ? "" : "; ", list_of(names),
+                        share_words(claim.share));
+  }
+  return what + fmt::format("; {:.0f} % has no name.", 100 * diagnosis.remainder_share);
+}
+
+/// What the mismatch is to the measured: one of the model, or one between two recordings.
+std::string against(const Diagnosis& diagnosis) {
+  return diagnosis.references.empty() ? "mismatch" : "difference from the reference";
+}
+
 }  // namespace
 
 std::string sentence_of(const Diagnosis& diagnosis) {
@@ -110,6 +138,9 @@ std::string sentence_of(const Diagnosis& diagnosis) {
   if (!diagnosis.where.empty()) where = mismatch_words(diagnosis.where.front()) + "; ";
   switch (diagnosis.verdict) {
     case Verdict::kConsistent:
+      if (!diagnosis.references.empty()) {
+        return "The recording and its reference do not differ beyond their noise.";
+      }
       return "The recording agrees with the model at the prior soil numbers: nothing beyond noise.";
     case Verdict::kParameters: {
       const auto worst = std::ranges::max_element(diagnosis.soil, [](const auto& a, const auto& b) {
@@ -120,6 +151,11 @@ std::string sentence_of(const Diagnosis& diagnosis) {
         most =
             fmt::format(" (most: {} {:.4g} instead of {:.4g}, {:+.1f} prior standard deviations)",
                         worst->parameter, worst->calibrated.value, worst->prior.value, worst->pull);
+      }
+      if (!diagnosis.suspects.empty()) {
+        return "Other soil numbers explain the recording to within its noise" + most +
+               "; a number that far from its tests is no clean bill: " +
+               list_of(diagnosis.suspects) + " would do instead.";
       }
       return "Other soil numbers explain the recording to within its noise" + most +
              "; no physics is missing that these data could show.";
@@ -144,9 +180,17 @@ std::string sentence_of(const Diagnosis& diagnosis) {
       }
       return text;
     }
+    case Verdict::kPartly: {
+      const bool apart = std::ranges::all_of(
+          diagnosis.claims, [](const Claim& claim) { return claim.equivalent.empty(); });
+      return where + "part of the " + against(diagnosis) +
+             " has a name: " + partial_words(diagnosis) +
+             (apart ? ""
+                    : " These data cannot tell the names apart." + experiment_words(diagnosis));
+    }
     case Verdict::kUnexplained:
-      return where +
-             "the mismatch is real and no known name explains it; it is modelled without a "
+      return where + "the " + against(diagnosis) +
+             " is real and no known name explains it; it is modelled without a "
              "name, within the conditions measured only." +
              experiment_words(diagnosis);
   }

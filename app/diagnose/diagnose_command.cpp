@@ -15,6 +15,7 @@
 #include "app/io/interrupt.h"
 #include "app/io/staged_files.h"
 #include "app/settings/scenario_settings.h"
+#include "diagnosis/difference.h"
 
 namespace regoplan {
 namespace {
@@ -22,6 +23,7 @@ namespace {
 struct Options {
   std::string recording;
   std::string setup;
+  std::vector<std::string> references;
   ResultFolder folder;
   std::uint64_t seed = 1;
   std::optional<int> threads;
@@ -44,7 +46,13 @@ void notify_of_left_out(const std::vector<LeftOutRow>& rows, bool quiet) {
 /// `diagnose` knows runs, not files: its errors get the file in front.
 Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options) {
   try {
-    return diagnose(run.recording.recording, run.setup.setup, options);
+    const DiagnosisSetup setup = setup_with(run.setup.setup, run.recording.wheel);
+    if (run.references.empty()) return diagnose(run.recording.recording, setup, options);
+    std::vector<Reference> references;
+    for (const RecordingFile& file : run.references) {
+      references.push_back({file.file, file.recording, setup_with(run.setup.setup, file.wheel)});
+    }
+    return diagnose_difference(run.recording.recording, setup, references, options);
   } catch (const InputError& bad) {
     throw InputError(fmt::format("{}: {}", run.recording.file, bad.what()));
   }
@@ -56,6 +64,13 @@ ExitStatus run_diagnosis(const Options& options) {
   run.setup = read_setup_file(options.setup);
   run.recording = read_recording(options.recording);
   Recording& recording = run.recording.recording;
+  for (const std::string& reference : options.references) {
+    run.references.push_back(read_recording(reference));
+    for (std::string& warning : doubtful_values(run.references.back(), run.setup.setup)) {
+      recording.warnings.push_back(reference + ": " + warning);
+    }
+    notify_of_left_out(run.references.back().left_out, options.quiet);
+  }
   for (std::string& warning : doubtful_values(run.recording, run.setup.setup)) {
     recording.warnings.push_back(std::move(warning));
   }
@@ -110,6 +125,12 @@ Command add_diagnose_command(CLI::App& program) {
                    "model, wheel, gravity_mps2, soil with priors {mean, std}, optional noise")
       ->type_name("SETUP.yaml")
       ->required();
+  parser
+      ->add_option("--reference", options->references,
+                   "recordings of the same rig and soil without the effect: only the difference "
+                   "is diagnosed")
+      ->type_name("REFERENCE.csv")
+      ->expected(1, -1);
   parser->add_option("--out", options->folder.path, "folder for the results")
       ->type_name("DIR")
       ->required();

@@ -37,7 +37,13 @@ Json channels_json(const std::vector<Channel>& channels) {
   return list_json(channels, [](Channel channel) { return name(channel); });
 }
 
+Json share_json(const Share& share) {
+  return {{"explained", share.explained}, {"low", share.low}, {"high", share.high}};
+}
+
 Json claim_json(const Claim& claim) {
+  Json members = Json::object();
+  for (const auto& [id, share] : claim.member_shares) members[id] = share_json(share);
   Json parameters = Json::object();
   for (const auto& [key, estimate] : claim.parameters) parameters[key] = estimate_json(estimate);
   return {{"id", claim.id},
@@ -46,7 +52,9 @@ Json claim_json(const Claim& claim) {
           {"parameters", parameters},
           {"equivalent", claim.equivalent},
           {"channels", channels_json(claim.channels)},
-          {"evidence_nats", claim.evidence_nats}};
+          {"evidence_nats", claim.evidence_nats},
+          {"share", share_json(claim.share)},
+          {"member_shares", members}};
 }
 
 Json region_json(const MismatchRegion& mismatch) {
@@ -69,6 +77,12 @@ Json fit_json(const Diagnosis& diagnosis) {
                                             {"held_out_by", diagnosis.held_out_by}};
   }
   return fits;
+}
+
+Json step_json(const NameStep& step) {
+  Json rmse = Json::object();
+  for (const ChannelFit& fit : step.fit) rmse[std::string(name(fit.channel))] = fit.corrected_rmse;
+  return {{"id", step.id}, {"rmse", rmse}, {"share_explained", step.share_explained}};
 }
 
 Json lack_of_fit_json(const LackOfFit& lack) {
@@ -154,6 +168,10 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
           {"fit", fit_json(diagnosis)},
           {"held_out_by", diagnosis.held_out_by},
           {"share_explained", diagnosis.share_explained},
+          {"names_added", list_json(diagnosis.names_added, step_json)},
+          {"remainder", {{"share", diagnosis.remainder_share}}},
+          {"suspects", diagnosis.suspects},
+          {"chance_nats", diagnosis.chance_nats},
           {"lack_of_fit",
            {{"before", lack_of_fit_json(diagnosis.before)},
             {"after", lack_of_fit_json(diagnosis.after)}}},
@@ -161,6 +179,8 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
           {"next_experiment", list_json(diagnosis.next_experiments, experiment_json)},
           {"smallest_detectable", detectable_json(diagnosis.smallest_detectable)},
           {"recording", run.recording.file},
+          {"references", list_json(run.references,
+                                   [](const RecordingFile& reference) { return reference.file; })},
           {"setup", run.setup_file},
           {"runs", recording.runs.size()},
           {"channels", channels_json(recording.channels)},

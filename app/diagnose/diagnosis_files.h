@@ -18,6 +18,7 @@ struct DiagnosisRun {
   SetupSettings setup;
   std::uint64_t seed = 1;
   Diagnosis diagnosis;
+  std::vector<RecordingFile> references = {};  ///< what the recording is compared with
 };
 
 /// What diagnosis.json holds; numbers that are not finite become null. Same input, same text.

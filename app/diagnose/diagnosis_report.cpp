@@ -111,6 +111,9 @@ std::string verdict_sentence(Verdict verdict) {
     case Verdict::kUnexplained:
       return "Unexplained: the mismatch is real and no known mechanism fits it; it is modelled "
              "without a name where it was seen, and nowhere else.";
+    case Verdict::kPartly:
+      return "Partly: names, or a class of them, explain part of what was found; the rest has no "
+             "name.";
   }
   return "";
 }

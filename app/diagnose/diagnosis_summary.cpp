@@ -47,6 +47,12 @@ std::string diagnosis_summary(const DiagnosisRun& run) {
     text += fmt::format("{:>8} {:>5.1f} % {}\n", i == 0 ? "what:" : "", 100 * candidate.probability,
                         candidate.id);
   }
+  for (const Claim& claim : diagnosis.claims) {
+    text +=
+        fmt::format("{:>8} {:>5.1f} % ({:.1f} to {:.1f}) {}\n",
+                    &claim == diagnosis.claims.data() ? "share:" : "", 100 * claim.share.explained,
+                    100 * claim.share.low, 100 * claim.share.high, claim.id);
+  }
   if (!diagnosis.fit.empty()) {
     text +=
         fmt::format("{:>8} {:>11} {:>9} {:>9} {:>10} {:>9}   on runs held out by {}\n", "rmse:", "",

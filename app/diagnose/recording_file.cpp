@@ -139,11 +139,50 @@ WheelRun read_run(const CsvTable& table, const Cells& cells) {
   return run;
 }
 
+/// Setup columns: what the wheel of all runs was.
+constexpr std::array<std::string_view, 4> kWheelColumns{"wheel_radius_m", "wheel_width_m",
+                                                        "lug_height_m", "lug_count"};
+
+/// One number that holds for all runs; nothing where the column is not given.
+std::optional<double> one_for_all(const RecordingFile& read, std::string_view column,
+                                  const ValueRange& allowed) {
+  const auto found = std::ranges::find(read.columns, column);
+  if (found == read.columns.end()) return std::nullopt;
+  const auto index = static_cast<std::size_t>(found - read.columns.begin());
+  const auto refuse = [&](std::size_t row, std::string_view what) {
+    const std::string& cell = read.cells[row][index];
+    return InputError(fmt::format("{}:{}: {}: {} is not valid (allowed: {})", read.file,
+                                  read.lines[row], column, cell.empty() ? "an empty cell" : cell,
+                                  what));
+  };
+  for (std::size_t row = 0; row < read.cells.size(); ++row) {
+    if (read.cells[row][index] != read.cells[0][index]) throw refuse(row, "one value in all rows");
+  }
+  if (read.cells.empty() || read.cells[0][index].empty()) return std::nullopt;
+  const std::optional<double> value = parse_number(read.cells[0][index]);
+  if (!value || !allowed.contains(*value)) throw refuse(0, allowed.text());
+  return value;
+}
+
+RecordedWheel recorded_wheel(const RecordingFile& read) {
+  RecordedWheel wheel{.radius_m = one_for_all(read, "wheel_radius_m", kAbove0),
+                      .width_m = one_for_all(read, "wheel_width_m", kAbove0),
+                      .lug_height_m = one_for_all(read, "lug_height_m", kAtLeast0)};
+  if (const auto count = one_for_all(read, "lug_count", {.min = 0, .max = 1000})) {
+    if (*count != std::floor(*count)) {
+      throw InputError(fmt::format("{}: lug_count: {} is not valid (allowed: an integer from 0)",
+                                   read.file, *count));
+    }
+    wheel.lug_count = static_cast<int>(*count);
+  }
+  return wheel;
+}
+
 bool is_known(std::string_view column) {
   const auto among = [column](const auto& names) {
     return std::ranges::find(names, column) != names.end();
   };
-  return among(kRequired) || among(kOtherCircumstances) ||
+  return among(kRequired) || among(kOtherCircumstances) || among(kWheelColumns) ||
          std::ranges::any_of(kCircumstances, [&](const auto& c) { return c.column == column; }) ||
          std::ranges::any_of(kChannels, [&](Channel c) { return name(c) == column; });
 }
@@ -200,6 +239,7 @@ RecordingFile read_recording(std::istream& stream, const std::string& file) {
   refuse_where_too_many_are_left_out(read);
   if (recording.runs.empty()) throw InputError(file + ": no runs below the header");
 
+  read.wheel = recorded_wheel(read);
   for (const Circumstance& at : kCircumstances) {
     recording.columns.*at.recorded = is_recorded(read, at.column);
   }
@@ -224,6 +264,14 @@ RecordingFile read_recording(const std::string& file) {
   std::ifstream stream(file);
   if (!stream || std::filesystem::is_directory(file)) throw InputError(file + ": cannot be read");
   return read_recording(stream, file);
+}
+
+DiagnosisSetup setup_with(DiagnosisSetup setup, const RecordedWheel& wheel) {
+  setup.wheel.radius_m = wheel.radius_m.value_or(setup.wheel.radius_m);
+  setup.wheel.width_m = wheel.width_m.value_or(setup.wheel.width_m);
+  if (wheel.lug_height_m) setup.lug_height_m = wheel.lug_height_m;
+  if (wheel.lug_count) setup.lug_count = wheel.lug_count;
+  return setup;
 }
 
 }  // namespace regoplan

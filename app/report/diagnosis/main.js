@@ -12,6 +12,7 @@ byId('notes-section').hidden = !byId('notes').children.length;
 whereTable(byId('where'));
 residualMaps(byId('maps'));
 curves(byId('curves'));
+shareBar(byId('shares'));
 claimList(byId('claims'));
 candidateTable(byId('candidates'));
 soilTable(byId('soil'));

@@ -3,9 +3,9 @@ const scrolled = (label, node) =>
     element('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': label}, node);
 
 const probability = p => !isKnown(p) ? UNKNOWN :
-    p > 0 && p < 0.001               ? '< 0.1\u00a0%' :
-    p < 1 && p > 0.999               ? '> 99.9\u00a0%' :
-                                       percent(p, 1);
+    p > 0 && p < 0.01 ? 'under 1\u00a0%' :
+    p > 0.99          ? 'over 99\u00a0%' :
+                        percent(p, 0);
 const pValue = p => (isKnown(p) && p < 0.001 ? '< 0.001' : fixed(p, 3));
 
 /// A number with its spread as a mark on a common axis; what it says stands in the table as text.

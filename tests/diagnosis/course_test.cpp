@@ -1,0 +1,48 @@
+// Time is a place: what replicates follow is no scatter.
+#include "diagnosis/course.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "diagnosis/condensed_recording.h"
+#include "synthetic_bed.h"
+
+namespace regoplan {
+namespace {
+
+Recording recorded(std::uint64_t seed, double drift_n) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, {.conditions = 30, .day = 0}, seed);
+  const auto n = static_cast<double>(recording.runs.size());
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    recording.runs[i].day = 0;
+    recording.runs[i].measured[0] += drift_n * static_cast<double>(i) / n;
+  }
+  return recording;
+}
+
+TEST(Course, OfReplicatesThatOnlyScatterIsNone) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    EXPECT_FALSE(condense(recorded(seed, 0), simulant_setup()).course.has_value()) << seed;
+  }
+}
+
+TEST(Course, IsFoundAndDoesNotWidenTheNoise) {
+  Recording shuffled = recorded(7, 0);
+  // replicates far apart in the order, as on a bed that is tested round by round
+  std::mt19937_64 random(1);
+  std::shuffle(shuffled.runs.begin(), shuffled.runs.end(), random);
+  const double still = condense(shuffled, simulant_setup()).noise[0].constant;
+  const auto n = static_cast<double>(shuffled.runs.size());
+  for (std::size_t i = 0; i < shuffled.runs.size(); ++i) {
+    shuffled.runs[i].measured[0] += 6 * static_cast<double>(i) / n;
+  }
+  const CondensedRecording found = condense(shuffled, simulant_setup());
+  ASSERT_TRUE(found.course.has_value());
+  EXPECT_TRUE(found.course->in_time());
+  EXPECT_LT(found.noise[0].constant, 1.25 * still);
+}
+
+}  // namespace
+}  // namespace regoplan

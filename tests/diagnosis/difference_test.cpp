@@ -1,0 +1,76 @@
+// Two recordings of one rig: what only the test has is named, what both share is not.
+#include "diagnosis/difference.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "synthetic_bed.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+/// What the model lacks on test and reference alike, in no listed form.
+TrueWheel shared_shortcoming() {
+  TrueWheel wheel;
+  wheel.fx_n = [](const WheelRun& run, double) { return -4 * std::sin(3 * run.slip_ratio); };
+  wheel.sinkage = [](const WheelRun& run, double h) {
+    return h * (1 + 0.3 * std::sin(2 * std::abs(run.slip_angle_rad) + run.slip_ratio));
+  };
+  return wheel;
+}
+
+Diagnosis compared(const TrueWheel& test, const TrueWheel& reference, std::uint64_t seed) {
+  const DiagnosisSetup setup = simulant_setup();
+  std::mt19937_64 random(seed);
+  const Soil soil = draw(setup.soil, random);
+  const BedPlan plan{.slips = {-0.3, 0, 0.2, 0.4, 0.7},
+                     .angles_deg = {0, 8, 16},
+                     .loads_n = {45, 64.7},
+                     .conditions = 26,
+                     .replicates = 2};
+  return diagnose_difference(
+      record(test, setup, soil, plan, seed), setup,
+      {{"reference", record(reference, setup, soil, plan, seed + 100), setup}});
+}
+
+TEST(Difference, OfTwoSeriesWithTheSameShortcomingsIsNone) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Diagnosis found = compared(shared_shortcoming(), shared_shortcoming(), seed);
+    EXPECT_EQ(found.verdict, Verdict::kConsistent) << found.sentence;
+    EXPECT_TRUE(found.claims.empty());
+  }
+}
+
+TEST(Difference, ThatOneEffectMakesHasItsNameAndItsShare) {
+  TrueWheel digging = shared_shortcoming();
+  const auto shared = digging.sinkage;
+  digging.sinkage = [shared](const WheelRun& run, double h) {
+    return shared(run, h) * (1 + 1.2 * (1 - std::exp(-2 * std::max(run.slip_ratio, 0.0))));
+  };
+  const Diagnosis found = compared(digging, shared_shortcoming(), 4);
+  ASSERT_FALSE(found.claims.empty()) << found.sentence;
+  const Claim& claim = found.claims.front();
+  EXPECT_TRUE(claim.id == "slip_sinkage" ||
+              std::ranges::count(claim.equivalent, "slip_sinkage") > 0)
+      << found.sentence;
+  EXPECT_GT(claim.share.explained, 0.5);
+  EXPECT_LE(claim.share.low, claim.share.explained);
+  EXPECT_GE(claim.share.high, claim.share.explained);
+}
+
+TEST(Difference, NeedsAChannelThatBothMeasured) {
+  const DiagnosisSetup setup = simulant_setup();
+  std::mt19937_64 random(1);
+  const Soil soil = draw(setup.soil, random);
+  Recording test = record({}, setup, soil, {.conditions = 12}, 1);
+  Recording reference = test;
+  test.channels = {Channel::kTorque};
+  reference.channels = {Channel::kSinkage};
+  EXPECT_THROW(diagnose_difference(test, setup, {{"reference", reference, setup}}), InputError);
+}
+
+}  // namespace
+}  // namespace regoplan
