@@ -23,7 +23,8 @@ namespace {
 
 constexpr std::size_t kFewestConditions = 3;
 constexpr std::size_t kLargestClass = 4;
-constexpr int kWorlds = 79;  // nameless differences
+constexpr double kSignificance = 1e-3;  // of a difference, under every setting of the base
+constexpr int kWorlds = 79;             // nameless differences
 
 /// The test and what it is compared with, under one setting of the base model.
 struct Treatment {
@@ -74,6 +75,31 @@ void lend_noise(const CondensedRecording& from, DiagnosisSetup& to) {
   }
 }
 
+/// The scatter of both together, where one of them by chance shows less.
+void pool_noise(std::vector<CondensedRecording*> recordings) {
+  for (std::size_t c = 0; c < recordings.front()->noise.size(); ++c) {
+    double sum = 0, degrees = 0;
+    for (const CondensedRecording* one : recordings) {
+      const ChannelNoise& noise = one->noise[c];
+      sum += noise.degrees_of_freedom * noise.constant * noise.constant;
+      degrees += noise.degrees_of_freedom;
+    }
+    if (degrees == 0) continue;
+    const double pooled = std::sqrt(sum / degrees);
+    for (CondensedRecording* one : recordings) {
+      ChannelNoise& noise = one->noise[c];
+      if (noise.constant >= pooled) continue;
+      const double factor = pooled / noise.constant;
+      noise.constant *= factor;
+      noise.proportional *= factor;
+      noise.day_offset *= factor;
+      noise.day_gain *= factor;
+      one->bed.channels[c].noise *= factor * factor;
+      one->bed.channels[c].scale *= factor;
+    }
+  }
+}
+
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,
@@ -88,6 +114,9 @@ class Differing {
       lend_noise(references_.back(), test_setup);
     }
     test_ = condense(test_recording_, test_setup, kFewestConditions);
+    std::vector<CondensedRecording*> all{&test_};
+    for (CondensedRecording& reference : references_) all.push_back(&reference);
+    pool_noise(all);
     found_.notes = test.warnings;
     found_.notes.insert(found_.notes.end(), test_.notes.begin(), test_.notes.end());
     if (test.channels.size() > channels.size()) {
@@ -167,7 +196,7 @@ class Differing {
     treatment.calibrated = std::make_unique<CalibratedRecording>(std::move(bed.test));
     const CalibratedRecording& calibrated = *treatment.calibrated;
     treatment.lack = lack_of_fit(calibrated.recording(), calibrated.remainder_of(calibrated.base()),
-                                 options_.seed);
+                                 options_.seed, kSignificance);
     return treatment;
   }
 

@@ -335,8 +335,8 @@ TEST(Mechanism, FlanksRubAlikeOnBothSides) {
     const WheelForces base = WheelModel(spec).forces(60, motion);
     const WheelForces rubbed =
         with(spec, "flank_friction", "side_force", {{"mu", 0.3}}).forces(60, motion);
-    EXPECT_NEAR(rubbed.fx_n, base.fx_n - 0.3 * std::abs(base.fy_n), 1e-9) << slip;
-    EXPECT_EQ(rubbed.torque_nm, base.torque_nm);
+    EXPECT_NEAR(rubbed.fx_n, base.fx_n - 0.3 * std::abs(base.fy_n), 1e-5) << slip;
+    EXPECT_NEAR(rubbed.torque_nm, base.torque_nm, 1e-5);
   }
 }
 
@@ -345,8 +345,8 @@ TEST(Mechanism, ARimAsRoughAsTheSoilIsTheBaseModel) {
   const WheelMotion motion = motion_at(0.4, 10 * kDegree);
   const WheelForces base = WheelModel(spec).forces(60, motion);
   const WheelForces rough = with(spec, "rim_friction", "ratio", {{"ratio", 1}}).forces(60, motion);
-  EXPECT_NEAR(rough.fx_n, base.fx_n, 1e-9);
-  EXPECT_NEAR(rough.fy_n, base.fy_n, 1e-9);
+  EXPECT_NEAR(rough.fx_n, base.fx_n, 1e-5);
+  EXPECT_NEAR(rough.fy_n, base.fy_n, 1e-5);
   const WheelForces smooth =
       with(spec, "rim_friction", "ratio", {{"ratio", 0.6}}).forces(60, motion);
   EXPECT_LT(smooth.fx_n, base.fx_n);
