@@ -29,15 +29,19 @@ room(planner/benchmark terramech maps planner/runtime planner/problem planner/dr
      planner/verdict)
 room(planner terramech maps planner)
 room(diagnosis terramech)
+room(drive_diagnosis terramech maps)
 room(benchmarking terramech maps planner)
 room(app/io terramech)
 room(app/settings terramech maps planner diagnosis benchmarking app/io)
 room(app/command terramech maps planner diagnosis benchmarking app/io app/settings)
 room(app/page terramech maps planner diagnosis benchmarking app/io app/settings)
+room(app/diagnose_drive terramech maps planner drive_diagnosis app/io app/settings app/command
+     app/page)
 foreach(command plan evaluate benchmark diagnose wheel map)
   room(app/${command} terramech maps planner diagnosis benchmarking app/io app/settings app/command
        app/page)
 endforeach()
+list(APPEND app/diagnose_may app/diagnose_drive)
 room(app app/command)
 
 # Where a library may be included: the header's pattern, then the rooms.
@@ -76,7 +80,7 @@ endfunction()
 
 get_filename_component(ROOT ${ROOT} ABSOLUTE)
 set(wrong "")
-foreach(house terramech maps planner diagnosis benchmarking app)
+foreach(house terramech maps planner diagnosis drive_diagnosis benchmarking app)
   file(GLOB_RECURSE sources RELATIVE ${ROOT} ${ROOT}/${house}/*.h ${ROOT}/${house}/*.cpp)
   foreach(source ${sources})
     get_filename_component(folder ${source} DIRECTORY)

@@ -35,5 +35,7 @@ regoplan_embed(
   kEvaluationScript ${map_scripts} app/report/evaluation/main.js
   kDiagnosisHtml app/report/diagnosis/diagnosis.html
   kDiagnosisScript ${diagnosis_scripts}
+  kDrivesHtml app/report/drives/drives.html
+  kDrivesScript app/report/drives/main.js
   kBenchmarkHtml app/report/benchmark/benchmark.html
   kBenchmarkScript app/report/map/terrain.js ${benchmark_scripts})

@@ -12,6 +12,7 @@
 #include "app/diagnose/diagnosis_report.h"
 #include "app/diagnose/diagnosis_summary.h"
 #include "app/diagnose/recording_checks.h"
+#include "app/diagnose_drive/drive_diagnosis_command.h"
 #include "app/io/interrupt.h"
 #include "app/io/staged_files.h"
 #include "app/settings/scenario_settings.h"
@@ -22,6 +23,9 @@ namespace {
 
 struct Options {
   std::string recording;
+  std::vector<std::string> further_drives;
+  std::string scenario;
+  std::optional<std::string> columns;
   std::string setup;
   std::vector<std::string> references;
   ResultFolder folder;
@@ -58,7 +62,30 @@ Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options
   }
 }
 
+/// Whole drives on a map, in place of the runs of a single wheel.
+ExitStatus run_drives(const Options& options) {
+  DriveDiagnosisCommand command{.drives = {options.recording},
+                                .scenario = options.scenario,
+                                .setup = {},
+                                .columns = options.columns,
+                                .folder = options.folder,
+                                .seed = options.seed,
+                                .json = options.json,
+                                .quiet = options.quiet};
+  if (!options.setup.empty()) command.setup = options.setup;
+  command.drives.insert(command.drives.end(), options.further_drives.begin(),
+                        options.further_drives.end());
+  return run_drive_diagnosis(command);
+}
+
 ExitStatus run_diagnosis(const Options& options) {
+  if (!options.scenario.empty()) return run_drives(options);
+  if (options.setup.empty()) throw InputError("--setup is required for a single wheel's recording");
+  if (options.columns) throw InputError("--columns is for drives: --scenario is missing");
+  if (!options.further_drives.empty()) {
+    throw InputError(
+        "one recording of a single wheel at a time (several drives: --scenario is missing)");
+  }
   require_writable_folder(options.folder.path);
   DiagnosisRun run{.setup_file = options.setup, .seed = options.seed};
   run.setup = read_setup_file(options.setup);
@@ -118,13 +145,22 @@ Command add_diagnose_command(CLI::App& program) {
   parser
       ->add_option("RECORDING.csv", options->recording,
                    "run_id, load_n, slip_ratio, slip_angle_deg and at least one of fx_n, fy_n, "
-                   "torque_nm, sinkage_m; optional day, replicate, pass, ...")
+                   "torque_nm, sinkage_m; optional day, replicate, pass, ...; with --scenario: a "
+                   "drive")
       ->required();
+  parser->add_option("MORE.csv", options->further_drives, "further drives of the same vehicle");
+  parser
+      ->add_option("--scenario", options->scenario,
+                   "the recordings are whole drives on the map of this scenario")
+      ->type_name("SCENARIO.yaml");
+  parser
+      ->add_option("--columns", options->columns,
+                   "how the columns of the drives' logs are to be read")
+      ->type_name("MAP.yaml");
   parser
       ->add_option("--setup", options->setup,
                    "model, wheel, gravity_mps2, soil with priors {mean, std}, optional noise")
-      ->type_name("SETUP.yaml")
-      ->required();
+      ->type_name("SETUP.yaml");
   parser
       ->add_option("--reference", options->references,
                    "recordings of the same rig and soil without the effect: only the difference "

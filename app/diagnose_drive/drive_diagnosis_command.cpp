@@ -1,0 +1,79 @@
+#include "app/diagnose_drive/drive_diagnosis_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "app/command/progress_line.h"
+#include "app/diagnose_drive/drive_diagnosis_files.h"
+#include "app/diagnose_drive/drive_file.h"
+#include "app/io/interrupt.h"
+
+namespace regoplan {
+namespace {
+
+/// Drives that share an id get the place in the order given behind it.
+void make_ids_distinct(std::vector<DriveRecording>& drives) {
+  for (std::size_t i = 1; i < drives.size(); ++i) {
+    const auto same = [&](const DriveRecording& other) {
+      return other.drive_id == drives[i].drive_id;
+    };
+    if (std::any_of(drives.begin(), drives.begin() + static_cast<std::ptrdiff_t>(i), same)) {
+      drives[i].drive_id += fmt::format(" ({})", i + 1);
+    }
+  }
+}
+
+}  // namespace
+
+ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
+  require_writable_folder(command.folder.path);
+  DriveDiagnosisRun run{.scenario_file = command.scenario,
+                        .setup = read_drive_setup(command.scenario, command.setup),
+                        .seed = command.seed};
+  const DriveColumnMap columns =
+      command.columns ? read_drive_columns_file(*command.columns) : DriveColumnMap{};
+  for (const std::string& notice : run.setup.notices) notify(notice, command.quiet);
+  require_results_fit(command.folder, drive_diagnosis_file_names());
+  const std::stop_token stop = stop_on_interrupt();
+  ProgressLine line(command.quiet);
+  std::vector<DriveRecording> drives;
+  for (const std::string& file : command.drives) {
+    line.show("reading drives",
+              static_cast<double>(drives.size()) / static_cast<double>(command.drives.size()));
+    if (stop.stop_requested()) return kInterrupted;
+    drives.push_back(read_drive(file, columns));
+  }
+  make_ids_distinct(drives);
+  for (const DriveRecording& drive : drives) {
+    run.drive_ids.push_back(drive.drive_id);
+    run.drive_files.push_back(drive.file);
+    run.drive_rows.push_back(drive.rows_read);
+  }
+  if (!drives.front().ignored.empty()) {
+    notify(fmt::format("{}: {} not used", drives.front().file,
+                       fmt::join(drives.front().ignored, ", ")),
+           command.quiet);
+  }
+  run.diagnosis = diagnose_drives(
+      std::move(drives), run.setup.setup,
+      {.seed = command.seed,
+       .stop = stop,
+       .progress = [&line](std::string_view stage, double share) { line.show(stage, share); }});
+  line.show("writing", 1);
+  for (const DriveFinding& finding : run.diagnosis.findings) {
+    notify(finding.drive.empty() ? finding.text : finding.drive + ": " + finding.text,
+           command.quiet);
+  }
+  write_drive_diagnosis_files(run, command.folder);
+  if (command.json) {
+    fmt::print("{}", drive_diagnosis_json(run));
+  } else if (!command.quiet) {
+    fmt::print("{}report: {}\n", drive_diagnosis_summary(run),
+               (command.folder.path / "report.html").string());
+  }
+  return run.diagnosis.interrupted ? kInterrupted : kYes;
+}
+
+}  // namespace regoplan

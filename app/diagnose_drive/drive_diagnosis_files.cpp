@@ -1,0 +1,194 @@
+#include "app/diagnose_drive/drive_diagnosis_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/diagnose_drive/drive_diagnosis_report.h"
+#include "app/io/csv_cells.h"
+
+namespace regoplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr double kDegree = std::numbers::pi / 180;
+
+Json estimate_json(const DriveEstimate& estimate) {
+  return {{"value", estimate.value}, {"std", estimate.std}};
+}
+
+Json degrees_json(const std::optional<DriveEstimate>& estimate) {
+  if (!estimate) return nullptr;
+  return {{"value", estimate->value / kDegree}, {"std", estimate->std / kDegree}};
+}
+
+Json claim_json(const DriveClaim& claim) {
+  Json parameters = Json::object();
+  for (const auto& [key, estimate] : claim.parameters) parameters[key] = estimate_json(estimate);
+  return {{"id", claim.id},
+          {"parameters", parameters},
+          {"equivalent", claim.equivalent},
+          {"channels", claim.channels},
+          {"sigmas", claim.sigmas},
+          {"text", claim.text}};
+}
+
+Json where_json(const DriveMismatch& at) {
+  Json region = Json::object();
+  for (const auto& [column, ends] : at.region) region[column] = ends;
+  return {{"channel", at.channel}, {"where", at.where}, {"region", region},
+          {"effect", at.effect},   {"ci95", at.ci95},   {"p_value", at.p_value}};
+}
+
+Json finding_json(const DriveFinding& finding) {
+  Json json = {{"id", finding.id}, {"drive", finding.drive}, {"text", finding.text}};
+  if (finding.value) json["value"] = *finding.value;
+  if (!finding.unit.empty()) json["unit"] = finding.unit;
+  json["mended"] = finding.mended;
+  return json;
+}
+
+Json currents_json(const DriveDiagnosisRun& run, const CurrentDiagnosis& currents) {
+  const HeldOutCurrents& held_out = currents.held_out;
+  Json charges = Json::array();
+  for (const HeldOutCurrents::Charge& charge : held_out.charges) {
+    charges.push_back({{"drive", run.drive_ids[charge.drive]},
+                       {"measured_ah", charge.measured_ah},
+                       {"predicted_ah", charge.predicted_ah},
+                       {"constant_ah", charge.constant_ah}});
+  }
+  const auto side_json = [&](int side) {
+    const CurrentModel::Terms& c = currents.model.sides.at(static_cast<std::size_t>(side));
+    return Json{{"constant_a", c[0]},      {"direction_a", c[1]},
+                {"per_sin_pitch_a", c[2]}, {"braking_per_sin_pitch_a", c[3]},
+                {"turn_a", c[4]},          {"either_turn_a", c[5]}};
+  };
+  Json json = {{"windows", currents.windows},
+               {"model", {{"left", side_json(0)}, {"right", side_json(1)}}},
+               {"held_out", held_out.held_out},
+               {"rms_a", held_out.both_rms_a},
+               {"constant_rms_a", held_out.both_constant_rms_a},
+               {"charge_error_median", held_out.median_charge_error},
+               {"constant_charge_error_median", held_out.median_constant_error},
+               {"charges", charges},
+               {"left_excess_a", estimate_json(currents.left_excess_a)},
+               {"left_excess_ci95_a", currents.left_excess_ci95_a},
+               {"gravity_ratio_left_right", estimate_json(currents.gravity_ratio)}};
+  json["standing_excess_a"] =
+      currents.standing_excess_a ? estimate_json(*currents.standing_excess_a) : Json(nullptr);
+  return json;
+}
+
+Json fit_json(const DriveDiagnosis& diagnosis) {
+  Json fit = Json::object();
+  if (diagnosis.currents) {
+    const HeldOutCurrents& held_out = diagnosis.currents->held_out;
+    for (std::size_t side = 0; side < 2; ++side) {
+      fit[side == 0 ? "current_left_a" : "current_right_a"] = {
+          {"noise_floor", nullptr},
+          {"baseline_rmse", held_out.constant_rms_a.at(side)},
+          {"corrected_rmse", held_out.rms_a.at(side)},
+          {"held_out", held_out.held_out}};
+    }
+  }
+  return fit;
+}
+
+template <class Items, class ToJson>
+Json list_json(const Items& items, ToJson to_json) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(to_json(item));
+  return list;
+}
+
+}  // namespace
+
+Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
+  const DriveDiagnosis& diagnosis = run.diagnosis;
+  Json json = {{"kind", "drives"}, {"verdict", diagnosis.verdict}};
+  if (diagnosis.interrupted) json["interrupted"] = true;
+  json["scenario"] = run.scenario_file;
+  json["drives"] = Json::array();
+  for (std::size_t i = 0; i < run.drive_ids.size(); ++i) {
+    json["drives"].push_back({{"drive_id", run.drive_ids[i]},
+                              {"file", run.drive_files[i]},
+                              {"rows", run.drive_rows[i]}});
+  }
+  json["mechanisms"] = list_json(diagnosis.claims, claim_json);
+  json["where"] = list_json(diagnosis.where, where_json);
+  json["findings"] = list_json(diagnosis.findings, finding_json);
+  json["fit"] = fit_json(diagnosis);
+  if (diagnosis.currents) json["currents"] = currents_json(run, *diagnosis.currents);
+  json["mounting"] = list_json(diagnosis.mountings, [](const Mounting& day) {
+    return Json{{"day", day.day},
+                {"pitch_deg", degrees_json(day.pitch_rad)},
+                {"roll_deg", degrees_json(day.roll_rad)},
+                {"windows", day.windows}};
+  });
+  json["not_shown"] = list_json(diagnosis.silent, [](const SilentEffect& silent) {
+    return Json{{"ids", silent.ids}, {"why", silent.why}, {"next_drive", silent.drive}};
+  });
+  json["windows"] = diagnosis.windows.size();
+  json["share_on_map"] = diagnosis.share_on_map;
+  json["seed"] = run.seed;
+  return json;
+}
+
+std::string drive_diagnosis_json(const DriveDiagnosisRun& run) {
+  return drive_diagnosis_content(run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+std::string windows_csv(const DriveDiagnosisRun& run) {
+  std::string text =
+      "drive_id,start_s,end_s,x_m,y_m,yaw_deg,speed_mps,acceleration_mps2,yaw_rate_rad_s,"
+      "pitch_deg,roll_deg\n";
+  for (const DriveWindow& window : run.diagnosis.windows) {
+    text += text_cell(run.drive_ids[window.drive]);
+    for (const double value :
+         {window.start_s, window.end_s, window.x_m, window.y_m, window.yaw_rad / kDegree,
+          window.speed_mps, window.acceleration_mps2, window.yaw_rate_rad_s,
+          window.pitch_rad / kDegree, window.roll_rad / kDegree}) {
+      text += "," + number_cell(value);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string drive_diagnosis_summary(const DriveDiagnosisRun& run) {
+  const DriveDiagnosis& diagnosis = run.diagnosis;
+  std::string text = drive_diagnosis_headline(run) + "\n";
+  for (const DriveClaim& claim : diagnosis.claims) {
+    text += fmt::format("  {}: {}\n", fmt::join(claim.equivalent, " | "), claim.text);
+  }
+  if (diagnosis.currents) {
+    const HeldOutCurrents& held_out = diagnosis.currents->held_out;
+    text += fmt::format(
+        "currents, each {} held out: {:.2f} A RMS (a constant: {:.2f}), charge of a drive within "
+        "{:.1f} % in the median (a constant: {:.1f} %)\n",
+        held_out.held_out, held_out.both_rms_a, held_out.both_constant_rms_a,
+        100 * held_out.median_charge_error, 100 * held_out.median_constant_error);
+  }
+  return text;
+}
+
+std::vector<std::string> drive_diagnosis_file_names() {
+  return {"diagnosis.json", "windows.csv", "report.html"};
+}
+
+void write_drive_diagnosis_files(const DriveDiagnosisRun& run, const ResultFolder& folder) {
+  StagedFiles files(folder);
+  files.write({"diagnosis.json", drive_diagnosis_json(run)});
+  files.write({"windows.csv", windows_csv(run)});
+  files.write({"report.html", drive_diagnosis_report(run)});
+  files.commit();
+}
+
+}  // namespace regoplan

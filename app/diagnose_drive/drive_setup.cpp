@@ -1,0 +1,71 @@
+#include "app/diagnose_drive/drive_setup.h"
+
+#include <filesystem>
+#include <numbers>
+
+#include "app/settings/scenario_settings.h"
+#include "app/settings/settings_mapping.h"
+#include "app/settings/vehicle_settings.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+DriveEstimate read_angle(const SettingsNode& node) {
+  constexpr ValueRange kAngle{.min = -180, .max = 180};
+  if (node.kind() != SettingsNode::Kind::kMapping) {
+    throw node.error("{mean, std} in degrees is expected");
+  }
+  return read_mapping(node, [&](SettingsMapping& mapping) {
+    return DriveEstimate{mapping.number("mean", kAngle) * kDegree,
+                         mapping.number("std", kAbove0) * kDegree};
+  });
+}
+
+void read_setup_keys(const std::string& file, DriveSetup& setup) {
+  read_mapping(read_settings(file), [&](SettingsMapping& mapping) {
+    if (const SettingsNode* mounting = mapping.optional("mounting")) {
+      read_mapping(*mounting, [&](SettingsMapping& keys) {
+        if (const auto* pitch = keys.optional("pitch_deg")) {
+          setup.mounting_pitch_rad = read_angle(*pitch);
+        }
+        if (const auto* roll = keys.optional("roll_deg"))
+          setup.mounting_roll_rad = read_angle(*roll);
+        return true;
+      });
+    }
+    setup.window_s = mapping.number_or("window_s", {.min = 1, .max = 20}, setup.window_s);
+    return true;
+  });
+}
+
+}  // namespace
+
+DriveSetupFile read_drive_setup(const std::string& scenario_file,
+                                const std::optional<std::string>& setup_file) {
+  const SettingsNode root = read_settings(scenario_file);
+  const SettingsNode* map_node = root.find("map");
+  if (!map_node) throw root.error("map is missing");
+  const std::filesystem::path folder = std::filesystem::path(scenario_file).parent_path();
+  ScenarioMap map = read_map(*map_node, folder, WheelVariant::kIshigami2007);
+  DriveSetupFile read{.setup = {.map = std::move(map.map), .vehicle = {}},
+                      .notices = std::move(map.notices)};
+  for (const SettingsEntry& entry : root.mapping()) {
+    if (entry.key == "gravity_mps2") read.setup.gravity_mps2 = entry.value.number(kAbove0);
+    if (entry.key == "vehicle") {
+      read.setup.vehicle = placed(entry.value, [&] {
+        return entry.value.kind() == SettingsNode::Kind::kMapping
+                   ? read_vehicle(entry.value)
+                   : named_vehicle(entry.value, folder);
+      });
+    }
+  }
+  if (read.setup.vehicle && read.setup.gravity_mps2 == 0) {
+    throw root.error("gravity_mps2 is missing: a vehicle needs it");
+  }
+  if (setup_file) read_setup_keys(*setup_file, read.setup);
+  return read;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,309 @@
+#include "drive_diagnosis/current_model.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "drive_diagnosis/robust_statistics.h"
+#include "drive_diagnosis/sensor_checks.h"
+
+namespace regoplan {
+namespace {
+
+constexpr int kTerms = CurrentModel::kTerms;
+constexpr double kMoving_mps = 0.1;
+
+using Windows = std::vector<CurrentWindow>;
+/// Which windows go together: of one drive, one day, one stretch of a drive.
+using Groups = std::vector<int>;
+
+/// Least squares with a prior of 100 A about 0 on every term: nothing to windows that say something
+/// of it, and 0 for what they do not show at all.
+CurrentModel fit(const Windows& windows, const std::vector<double>& weights) {
+  constexpr double kPrior = 1e-4;
+  Eigen::Matrix<double, kTerms, kTerms> normal =
+      kPrior * Eigen::Matrix<double, kTerms, kTerms>::Identity();
+  Eigen::Matrix<double, kTerms, 2> right = Eigen::Matrix<double, kTerms, 2>::Zero();
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    if (weights[i] == 0) continue;
+    const CurrentModel::Terms terms = CurrentModel::terms(windows[i]);
+    const Eigen::Map<const Eigen::Matrix<double, kTerms, 1>> t(terms.data());
+    normal += weights[i] * t * t.transpose();
+    for (int side = 0; side < 2; ++side) {
+      right.col(side) += weights[i] * t * windows[i].current_a.at(static_cast<std::size_t>(side));
+    }
+  }
+  const Eigen::Matrix<double, kTerms, 2> c = normal.ldlt().solve(right);
+  CurrentModel model;
+  for (int side = 0; side < 2; ++side) {
+    for (int k = 0; k < kTerms; ++k) {
+      model.sides.at(static_cast<std::size_t>(side)).at(static_cast<std::size_t>(k)) = c(k, side);
+    }
+  }
+  return model;
+}
+
+std::array<double, 2> mean_currents(const Windows& windows, const std::vector<double>& weights) {
+  std::array<double, 2> sum{};
+  double total = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      sum.at(side) += weights[i] * windows[i].current_a.at(side);
+    }
+    total += weights[i];
+  }
+  for (double& value : sum) value /= std::max(total, 1.0);
+  return sum;
+}
+
+/// What is held out at a time: days where there are three, else drives, else stretches of a minute.
+Groups groups_of(const Windows& windows, const std::vector<DriveRecording>& drives,
+                 const std::vector<DriveWindow>& of, std::string& kind) {
+  std::map<std::string, int> days;
+  std::set<std::size_t> seen;
+  for (const CurrentWindow& window : windows) {
+    days.emplace(drives[window.drive].day, static_cast<int>(days.size()));
+    seen.insert(window.drive);
+  }
+  Groups groups;
+  kind = days.size() >= 3 ? "day" : seen.size() >= 3 ? "drive" : "stretch";
+  for (const CurrentWindow& window : windows) {
+    constexpr double kStretch_s = 60;
+    const auto stretch = static_cast<int>(
+        (of[window.window].start_s - drives[window.drive].time_s.front()) / kStretch_s);
+    groups.push_back(kind == "day"     ? days.at(drives[window.drive].day)
+                     : kind == "drive" ? static_cast<int>(window.drive)
+                                       : static_cast<int>(window.drive) * 10000 + stretch);
+  }
+  return groups;
+}
+
+struct Predictions {
+  std::vector<std::array<double, 2>> model_a, constant_a;
+};
+
+Predictions held_out_predictions(const Windows& windows, const Groups& groups) {
+  Predictions result{std::vector<std::array<double, 2>>(windows.size()),
+                     std::vector<std::array<double, 2>>(windows.size())};
+  for (const int group : std::set<int>(groups.begin(), groups.end())) {
+    std::vector<double> weights(windows.size());
+    for (std::size_t i = 0; i < windows.size(); ++i) weights[i] = groups[i] == group ? 0 : 1;
+    const CurrentModel model = fit(windows, weights);
+    const std::array<double, 2> constant = mean_currents(windows, weights);
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      if (groups[i] != group) continue;
+      for (int side = 0; side < 2; ++side) {
+        result.model_a[i].at(static_cast<std::size_t>(side)) = model.current_a(side, windows[i]);
+      }
+      result.constant_a[i] = constant;
+    }
+  }
+  return result;
+}
+
+HeldOutCurrents judge(const Windows& windows, const Predictions& predicted) {
+  HeldOutCurrents result;
+  std::map<std::size_t, HeldOutCurrents::Charge> charges;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    HeldOutCurrents::Charge& charge = charges[windows[i].drive];
+    charge.drive = windows[i].drive;
+    ++charge.windows;
+    const double hours = windows[i].duration_s / 3600;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double measured = windows[i].current_a.at(side);
+      const double off = predicted.model_a[i].at(side) - measured;
+      const double constant_off = predicted.constant_a[i].at(side) - measured;
+      result.rms_a.at(side) += off * off;
+      result.constant_rms_a.at(side) += constant_off * constant_off;
+      charge.measured_ah += measured * hours;
+      charge.predicted_ah += predicted.model_a[i].at(side) * hours;
+      charge.constant_ah += predicted.constant_a[i].at(side) * hours;
+    }
+  }
+  const auto n = static_cast<double>(windows.size());
+  result.both_rms_a = std::sqrt((result.rms_a[0] + result.rms_a[1]) / (2 * n));
+  result.both_constant_rms_a =
+      std::sqrt((result.constant_rms_a[0] + result.constant_rms_a[1]) / (2 * n));
+  for (std::size_t side = 0; side < 2; ++side) {
+    result.rms_a.at(side) = std::sqrt(result.rms_a.at(side) / n);
+    result.constant_rms_a.at(side) = std::sqrt(result.constant_rms_a.at(side) / n);
+  }
+  std::vector<double> errors, constant_errors;
+  for (const auto& [drive, charge] : charges) {
+    constexpr int kLeast = 6;
+    if (charge.windows < kLeast || charge.measured_ah == 0) continue;
+    result.charges.push_back(charge);
+    errors.push_back(std::abs(charge.predicted_ah / charge.measured_ah - 1));
+    constant_errors.push_back(std::abs(charge.constant_ah / charge.measured_ah - 1));
+  }
+  if (!errors.empty()) {
+    result.median_charge_error = median_value(errors);
+    result.median_constant_error = median_value(constant_errors);
+  }
+  return result;
+}
+
+double pitch_offset_rad(const std::vector<Mounting>& mountings, const std::string& day) {
+  std::vector<double> known;
+  for (const Mounting& mounting : mountings) {
+    if (!mounting.pitch_rad) continue;
+    if (mounting.day == day) return mounting.pitch_rad->value;
+    known.push_back(mounting.pitch_rad->value);
+  }
+  return known.empty() ? 0 : median_value(std::move(known));
+}
+
+/// Windows at rest show what the instruments read of nothing.
+std::optional<DriveEstimate> standing_excess(const std::vector<DriveRecording>& drives,
+                                             const std::vector<DriveWindow>& windows,
+                                             bool swapped) {
+  std::map<std::size_t, std::pair<double, int>> by_drive;
+  for (const DriveWindow& window : windows) {
+    const DriveRecording& drive = drives[window.drive];
+    const double command = channel_mean(drive, window, "command_speed");
+    const double turn = channel_mean(drive, window, "command_turn");
+    constexpr double kStands_mps = 0.03;
+    if (!(command == 0) || !(turn == 0) || !window.steady || !(window.speed_mps < kStands_mps)) {
+      continue;
+    }
+    const double off = side_mean(drive, window, "current", "a", {}, "left") -
+                       side_mean(drive, window, "current", "a", {}, "right");
+    if (std::isnan(off)) continue;
+    by_drive[window.drive].first += swapped ? -off : off;
+    ++by_drive[window.drive].second;
+  }
+  if (by_drive.size() < 3) return {};
+  std::vector<double> means;
+  for (const auto& [drive, sum] : by_drive) means.push_back(sum.first / sum.second);
+  double mean = 0, square = 0;
+  for (const double value : means) mean += value / static_cast<double>(means.size());
+  for (const double value : means) square += (value - mean) * (value - mean);
+  const auto n = static_cast<double>(means.size());
+  return DriveEstimate{mean, std::sqrt(square / (n * (n - 1)))};
+}
+
+Windows steady_windows(const std::vector<DriveRecording>& drives,
+                       const std::vector<DriveWindow>& windows,
+                       const std::vector<Mounting>& mountings, double yaw_sign, bool swapped) {
+  Windows chosen;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    const DriveWindow& window = windows[i];
+    const DriveRecording& drive = drives[window.drive];
+    double speed = window.sensed_speed_mps;
+    if (std::isnan(speed)) speed = window.speed_mps;
+    if (!window.steady || !(std::abs(speed) > kMoving_mps)) continue;
+    CurrentWindow at{.window = i, .drive = window.drive, .duration_s = window.duration_s()};
+    at.current_a = {side_mean(drive, window, "current", "a", {}, swapped ? "right" : "left"),
+                    side_mean(drive, window, "current", "a", {}, swapped ? "left" : "right")};
+    const double back =
+        std::abs(std::remainder(heading_rad(drive, window) - window.course_rad, 6.283185307));
+    at.direction = back > 1 ? -1 : 1;
+    at.sin_pitch = std::sin(window.pitch_rad - pitch_offset_rad(mountings, drive.day));
+    at.yaw_rate_rad_s = yaw_sign * window.yaw_rate_rad_s;
+    const double all = at.current_a[0] + at.current_a[1] + at.sin_pitch + at.yaw_rate_rad_s;
+    if (!std::isnan(all)) chosen.push_back(at);
+  }
+  return chosen;
+}
+
+/// Draws whole clusters of windows again and again (the drives; of a few drives, their stretches).
+void draw_excess(const Windows& windows, const Groups& clusters, std::uint64_t seed,
+                 CurrentDiagnosis& result) {
+  const std::set<int> distinct(clusters.begin(), clusters.end());
+  const std::vector<int> ids(distinct.begin(), distinct.end());
+  result.clusters = static_cast<int>(ids.size());
+  std::mt19937_64 random(seed);
+  constexpr int kDraws = 400;
+  std::vector<double> excess, ratio;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::map<int, double> times;
+    for (std::size_t i = 0; i < ids.size(); ++i) times[ids[random() % ids.size()]] += 1;
+    std::vector<double> weights;
+    for (const int cluster : clusters) {
+      const auto found = times.find(cluster);
+      weights.push_back(found == times.end() ? 0 : found->second);
+    }
+    const CurrentModel drawn = fit(windows, weights);
+    excess.push_back(drawn.level_a(0) - drawn.level_a(1));
+    ratio.push_back(drawn.sides[0][2] / drawn.sides[1][2]);
+  }
+  const auto spread = [](const std::vector<double>& values) {
+    return (quantile_value(values, 0.8413) - quantile_value(values, 0.1587)) / 2;
+  };
+  result.left_excess_a = {result.model.level_a(0) - result.model.level_a(1), spread(excess)};
+  result.left_excess_ci95_a = {quantile_value(excess, 0.025), quantile_value(excess, 0.975)};
+  result.gravity_ratio = {result.model.sides[0][2] / result.model.sides[1][2], spread(ratio)};
+}
+
+/// What would do as well as a dragging side.
+void name_excess(CurrentDiagnosis& result) {
+  const double left = result.model.level_a(0), right = result.model.level_a(1);
+  result.level_mean_a = (left + right) / 2;
+  constexpr double kBuildShare = 0.1;  ///< by which the sides of a sound vehicle differ
+  constexpr double kSigmas = 4.5;
+  constexpr int kClustersLeast = 6;
+  const double std =
+      std::hypot(result.left_excess_a.std, kBuildShare * std::abs(result.level_mean_a));
+  result.side_drag =
+      result.clusters >= kClustersLeast && std::abs(result.left_excess_a.value) > kSigmas * std;
+  if (!result.side_drag) return;
+  result.equivalent = {"side_drag", "wheel_drag", "cg_offset"};
+  // A motor that takes more for the same torque takes more against gravity as well.
+  constexpr double kTold = 3;
+  if (right != 0 && std::abs(left / right - result.gravity_ratio.value) <
+                        kTold * std::max(result.gravity_ratio.std, 0.02)) {
+    result.equivalent.emplace_back("motor_constant");
+  }
+  const auto& standing = result.standing_excess_a;
+  if (!standing || std::abs(standing->value - result.left_excess_a.value) <
+                       kTold * std::hypot(standing->std, result.left_excess_a.std)) {
+    result.equivalent.emplace_back("sensor_bias");
+  }
+}
+
+}  // namespace
+
+CurrentModel::Terms CurrentModel::terms(const CurrentWindow& at) {
+  const double turn = std::tanh(at.yaw_rate_rad_s / kTurn_rad_s);
+  const double braking = std::min(0.0, at.direction * at.sin_pitch) * at.direction;
+  return {1, at.direction, at.sin_pitch, braking, turn, at.direction * std::abs(turn)};
+}
+
+double CurrentModel::current_a(int side, const CurrentWindow& window) const {
+  const Terms t = terms(window);
+  double sum = 0;
+  for (std::size_t k = 0; k < t.size(); ++k)
+    sum += sides.at(static_cast<std::size_t>(side)).at(k) * t.at(k);
+  return sum;
+}
+
+std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecording>& drives,
+                                                  const std::vector<DriveWindow>& windows,
+                                                  const std::vector<Mounting>& mountings,
+                                                  double yaw_sign, bool sides_swapped,
+                                                  std::uint64_t seed) {
+  const Windows chosen = steady_windows(drives, windows, mountings, yaw_sign, sides_swapped);
+  constexpr std::size_t kLeast = 30;
+  if (chosen.size() < kLeast) return {};
+  CurrentDiagnosis result;
+  result.windows = static_cast<int>(chosen.size());
+  result.model = fit(chosen, std::vector<double>(chosen.size(), 1.0));
+  std::string kind;
+  const Groups groups = groups_of(chosen, drives, windows, kind);
+  const Predictions predicted = held_out_predictions(chosen, groups);
+  result.held_out = judge(chosen, predicted);
+  result.held_out.held_out = kind;
+  Groups clusters = groups;
+  if (kind == "day") {
+    for (std::size_t i = 0; i < chosen.size(); ++i) clusters[i] = static_cast<int>(chosen[i].drive);
+  }
+  draw_excess(chosen, clusters, seed, result);
+  result.standing_excess_a = standing_excess(drives, windows, sides_swapped);
+  name_excess(result);
+  return result;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,221 @@
+#include "drive_diagnosis/drive_diagnosis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "drive_diagnosis/time_checks.h"
+#include "terramech/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+SideGeometry sides_of(const std::optional<Vehicle>& vehicle) {
+  SideGeometry sides;
+  if (!vehicle) return sides;
+  for (const WheelMount& mount : vehicle->wheels) {
+    if (mount.y_m > 0) sides.left_wheels.push_back(mount.name);
+    if (mount.y_m < 0) sides.right_wheels.push_back(mount.name);
+  }
+  return sides;
+}
+
+/// Whether a position looks like degrees of longitude and latitude on a map in metres.
+bool looks_geographic(const DriveWindow& window, const GridFrame& frame) {
+  const bool map_far = std::abs(frame.west_m) > 400 || std::abs(frame.north_m) > 400;
+  return map_far && std::abs(window.x_m) <= 180 && std::abs(window.y_m) <= 90;
+}
+
+void check_place(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
+                 DriveDiagnosis& result) {
+  std::vector<int> inside(drives.size()), placed(drives.size()), geographic(drives.size());
+  int all_inside = 0, all_placed = 0;
+  for (const DriveWindow& window : result.windows) {
+    if (std::isnan(window.x_m)) continue;
+    ++placed[window.drive];
+    ++all_placed;
+    if (setup.map.inside(window.x_m, window.y_m)) {
+      ++inside[window.drive];
+      ++all_inside;
+    }
+    geographic[window.drive] += looks_geographic(window, setup.map.elevation().frame);
+  }
+  result.share_on_map = all_placed > 0 ? static_cast<double>(all_inside) / all_placed : 0;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    if (placed[i] == 0 || inside[i] == placed[i]) continue;
+    const double share = static_cast<double>(inside[i]) / placed[i];
+    const std::string text =
+        geographic[i] > 0
+            ? "positions look like degrees of longitude and latitude, the map is in metres: bring "
+              "them to the map's coordinates; off the map, the measured attitude counts"
+            : fmt::format(
+                  "{:.0f} % of the way lies off the map: there the measured attitude counts",
+                  100 * (1 - share));
+    result.findings.push_back({.id = geographic[i] > 0 ? "other_coordinates" : "off_the_map",
+                               .drive = drives[i].drive_id,
+                               .text = text,
+                               .value = share});
+  }
+}
+
+/// Mountings that wander by day, or are not where the setup says.
+void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
+  struct Axis {
+    const char* name;
+    const std::optional<DriveEstimate> Mounting::*of;
+    const double Mounting::*slope;
+    const DriveEstimate& prior;
+  };
+  const std::array<Axis, 2> axes{
+      {{"pitch", &Mounting::pitch_rad, &Mounting::pitch_slope, setup.mounting_pitch_rad},
+       {"roll", &Mounting::roll_rad, &Mounting::roll_slope, setup.mounting_roll_rad}}};
+  DriveClaim claim{.id = "attitude_mounting", .equivalent = {"attitude_mounting"}};
+  for (const Axis& axis : axes) {
+    double sum = 0, weights = 0;
+    for (const Mounting& day : result.mountings) {
+      if (day.*axis.slope < -0.5) {
+        result.findings.push_back(
+            {.id = "sign",
+             .drive = "",
+             .text = fmt::format("{} falls where the ground rises (day {}): its sign is wrong, or "
+                                 "the sensor looks backward",
+                                 axis.name, day.day.empty() ? "not said" : day.day),
+             .value = day.*axis.slope});
+      }
+      const std::optional<DriveEstimate>& estimate = day.*axis.of;
+      if (!estimate) continue;
+      const double weight = 1 / std::max(estimate->std * estimate->std, 1e-8);
+      sum += weight * estimate->value;
+      weights += weight;
+    }
+    if (weights == 0) continue;
+    const DriveEstimate mean{sum / weights, 1 / std::sqrt(weights)};
+    constexpr double kSigmas = 4.5, kMapErr_rad = 0.5 * kDegree;
+    const double sigmas = std::abs(mean.value - axis.prior.value) /
+                          std::hypot(mean.std, std::hypot(axis.prior.std, kMapErr_rad));
+    if (sigmas < kSigmas) continue;
+    claim.sigmas = std::max(claim.sigmas, sigmas);
+    claim.parameters[fmt::format("{}_deg", axis.name)] = {mean.value / kDegree, mean.std / kDegree};
+    claim.channels.push_back(fmt::format("{}_deg", axis.name));
+  }
+  if (claim.parameters.empty()) return;
+  claim.text = "the attitude sensor does not sit as it is said to: its readings less the ground's";
+  result.claims.push_back(std::move(claim));
+}
+
+void claim_side_drag(DriveDiagnosis& result) {
+  const CurrentDiagnosis& currents = *result.currents;
+  if (!currents.side_drag) return;
+  const bool left = currents.left_excess_a.value > 0;
+  const double sign = left ? 1 : -1;
+  std::array<double, 2> interval{sign * currents.left_excess_ci95_a[0],
+                                 sign * currents.left_excess_ci95_a[1]};
+  std::ranges::sort(interval);
+  result.claims.push_back(
+      {.id = "side_drag",
+       .parameters = {{"excess_a",
+                       {sign * currents.left_excess_a.value, currents.left_excess_a.std}}},
+       .equivalent = currents.equivalent,
+       .channels = {"current_left_a", "current_right_a"},
+       .sigmas = std::abs(currents.left_excess_a.value) / currents.left_excess_a.std,
+       .text = fmt::format("the {} side takes {:.1f} A ({:.1f} to {:.1f}) more than the other "
+                           "straight ahead on the level",
+                           left ? "left" : "right", sign * currents.left_excess_a.value,
+                           interval[0], interval[1])});
+  result.where.push_back({.channel = left ? "current_left_a" : "current_right_a",
+                          .where = "straight ahead on the level, all days",
+                          .effect = sign * currents.left_excess_a.value,
+                          .ci95 = interval,
+                          .p_value = std::erfc(result.claims.back().sigmas / std::sqrt(2.0))});
+}
+
+bool any_has(const std::vector<DriveRecording>& drives, std::string_view prefix) {
+  return std::ranges::any_of(drives, [prefix](const DriveRecording& drive) {
+    return !channels_of(drive, prefix).empty();
+  });
+}
+
+/// What nobody should expect these drives to show.
+void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
+                        DriveDiagnosis& result) {
+  if (!setup.vehicle) {
+    result.silent.push_back(
+        {{"soil_zone", "zone_border", "map_offset", "wheel_radius", "steering_offset", "payload",
+          "tow_drag"},
+         "the scenario has no vehicle, so nothing predicts speeds and torques",
+         "the same drives with a vehicle file: mass, wheels, centre of gravity"});
+  }
+  if (!any_has(drives, "torque_")) {
+    result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},
+                             "no wheel torques are recorded",
+                             "torque or current of every wheel, 100 s on firm level ground"});
+  }
+  result.silent.push_back(
+      {{"slip_sinkage", "grousers", "lateral_digging", "rear_contact", "max_stress_angle",
+        "front_bulldozing", "side_pileup", "skid_branch", "sidewall_shear", "slip drift"},
+       "at the slips driven these change what is measured by less than 4 standard deviations",
+       "100 s with the wheels of one axle slowed to 0.9-0.35 of their speed, and a steeper climb "
+       "(up to 23 deg), with sinkage recorded"});
+}
+
+}  // namespace
+
+DriveDiagnosis diagnose_drives(std::vector<DriveRecording> drives, const DriveSetup& setup,
+                               const DriveDiagnosisOptions& options) {
+  DriveDiagnosis result;
+  const double speed_max_mps = setup.vehicle ? setup.vehicle->speed_max_mps : 10;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    if (options.progress) {
+      options.progress("reading windows",
+                       static_cast<double>(i) / static_cast<double>(drives.size()));
+    }
+    if (options.stop.stop_requested()) {
+      result.interrupted = true;
+      break;
+    }
+    mend_positions(drives[i], speed_max_mps);
+    std::vector<DriveWindow> windows = drive_windows(drives[i], i, setup.window_s);
+    if (windows.empty()) {
+      drives[i].findings.push_back(
+          {.id = "no_window",
+           .drive = drives[i].drive_id,
+           .text =
+               fmt::format("{} samples, none of them {:.0f} s without a gap: nothing to compare",
+                           drives[i].size(), setup.window_s)});
+    }
+    if (const auto lag_s = position_lag_s(drives[i])) {
+      drives[i].findings.push_back(
+          {.id = "lag",
+           .drive = drives[i].drive_id,
+           .text = fmt::format("positions come {:.1f} s after the wheel speeds", *lag_s),
+           .value = *lag_s,
+           .unit = "s"});
+    }
+    std::ranges::move(windows, std::back_inserter(result.windows));
+    std::ranges::copy(drives[i].findings, std::back_inserter(result.findings));
+  }
+  if (result.windows.empty()) {
+    throw InputError(fmt::format("{}: no {:.0f} s of driving without a gap in {} samples",
+                                 drives.front().file, setup.window_s, drives.front().size()));
+  }
+  SensorChecks checks = check_sensors(drives, result.windows, sides_of(setup.vehicle));
+  for (DriveWindow& window : result.windows) window.sensed_speed_mps /= checks.sensed_speed_per_mps;
+  std::ranges::move(checks.findings, std::back_inserter(result.findings));
+  check_place(setup, drives, result);
+  result.mountings = find_mountings(drives, result.windows, setup.map);
+  judge_mounting(setup, result);
+  result.currents = diagnose_currents(drives, result.windows, result.mountings, checks.yaw_sign,
+                                      checks.current_sides_swapped, options.seed);
+  if (result.currents) claim_side_drag(result);
+  say_what_is_silent(setup, drives, result);
+  const bool a_class = std::ranges::any_of(
+      result.claims, [](const DriveClaim& claim) { return claim.equivalent.size() > 1; });
+  result.verdict = result.claims.empty() ? "consistent" : a_class ? "class" : "named";
+  return result;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drive_diagnosis/current_model.h"
+#include "drive_diagnosis/drive_recording.h"
+#include "drive_diagnosis/mounting.h"
+#include "drive_diagnosis/sensor_checks.h"
+#include "maps/terrain_map.h"
+#include "terramech/vehicle.h"
+
+namespace regoplan {
+
+/// What is known before the drives are looked at.
+struct DriveSetup {
+  TerrainMap map;
+  std::optional<Vehicle> vehicle;  ///< without one, only what needs none is looked at
+  double gravity_mps2 = 0;
+  DriveEstimate mounting_pitch_rad{0, 0.035};  ///< how the attitude sensor is said to sit
+  DriveEstimate mounting_roll_rad{0, 0.035};
+  double window_s = 3;
+};
+
+/// A name for what is otherwise than the model has it.
+struct DriveClaim {
+  std::string id;
+  std::map<std::string, DriveEstimate> parameters;
+  std::vector<std::string>
+      equivalent;  ///< ids that these drives cannot tell apart, `id` among them
+  std::vector<std::string> channels;
+  double sigmas = 0;  ///< how far it is from nothing
+  std::string text;
+};
+
+/// Where measurement and model differ.
+struct DriveMismatch {
+  std::string channel;
+  std::string where;  ///< in words
+  std::map<std::string, std::array<double, 2>> region;
+  double effect = 0;  ///< measured - model, in the channel's unit
+  std::array<double, 2> ci95{};
+  double p_value = 1;
+};
+
+/// What these drives cannot show, and the drive that would.
+struct SilentEffect {
+  std::vector<std::string> ids;
+  std::string why;
+  std::string drive;
+};
+
+struct DriveDiagnosis {
+  std::string verdict;  ///< consistent | parameters | named | class
+  std::vector<DriveClaim> claims;
+  std::vector<DriveMismatch> where;
+  std::vector<DriveFinding> findings;
+  std::vector<Mounting> mountings;
+  std::optional<CurrentDiagnosis> currents;
+  std::vector<SilentEffect> silent;
+  std::vector<DriveWindow> windows;
+  double share_on_map = 0;  ///< of the windows with a position
+  bool interrupted = false;
+};
+
+struct DriveDiagnosisOptions {
+  std::uint64_t seed = 1;
+  std::stop_token stop = {};
+  std::function<void(std::string_view stage, double share)> progress = {};
+};
+
+/// Compares drives with what model and map say of them, window by window. Deterministic for a seed.
+/// \param drives with clocks that rise (`mend_time`); positions are mended here
+/// \throws InputError where no drive has a window
+DriveDiagnosis diagnose_drives(std::vector<DriveRecording> drives, const DriveSetup& setup,
+                               const DriveDiagnosisOptions& options);
+
+}  // namespace regoplan

@@ -1,0 +1,191 @@
+#include "drive_diagnosis/drive_windows.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "drive_diagnosis/robust_statistics.h"
+#include "drive_diagnosis/time_checks.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+struct Rows {
+  std::size_t from = 0, to = 0;  ///< to is excluded
+};
+
+/// A polynomial through samples, about the middle of the window.
+struct Smoothed {
+  double value = kNaN, slope = kNaN, bend = 0;
+  double slope_std = kNaN;
+  double scatter = kNaN;  ///< standard deviation of the samples about it
+  int count = 0;
+};
+
+Smoothed smoothed(const std::vector<double>& time_s, const std::vector<double>& values) {
+  Smoothed result{.count = static_cast<int>(values.size())};
+  if (values.empty()) return result;
+  const auto n = static_cast<Eigen::Index>(values.size());
+  const Eigen::Index degree = n >= 5 ? 2 : n >= 3 ? 1 : 0;
+  Eigen::MatrixXd design(n, degree + 1);
+  Eigen::VectorXd y(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double t = time_s[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k <= degree; ++k) design(i, k) = std::pow(t, static_cast<double>(k));
+    y[i] = values[static_cast<std::size_t>(i)];
+  }
+  const Eigen::MatrixXd normal = design.transpose() * design;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
+  const Eigen::VectorXd c = solver.solve(design.transpose() * y);
+  result.value = c[0];
+  if (degree >= 1) result.slope = c[1];
+  if (degree >= 2) result.bend = 2 * c[2];
+  if (n > degree + 1) {
+    const double variance = (y - design * c).squaredNorm() / static_cast<double>(n - degree - 1);
+    result.scatter = std::sqrt(variance);
+    if (degree >= 1) {
+      const Eigen::MatrixXd inverse =
+          solver.solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1));
+      result.slope_std = std::sqrt(variance * std::max(0.0, inverse(1, 1)));
+    }
+  }
+  return result;
+}
+
+double mean_of(const std::vector<float>& values, const Rows& rows) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = rows.from; i < rows.to; ++i) {
+    if (std::isnan(values[i])) continue;
+    sum += static_cast<double>(values[i]);
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
+}
+
+double mean_angle(const std::vector<float>& values, const Rows& rows) {
+  double c = 0, s = 0;
+  bool any = false;
+  for (std::size_t i = rows.from; i < rows.to; ++i) {
+    if (std::isnan(values[i])) continue;
+    c += std::cos(static_cast<double>(values[i]));
+    s += std::sin(static_cast<double>(values[i]));
+    any = true;
+  }
+  return any ? std::atan2(s, c) : kNaN;
+}
+
+double range_of(const std::vector<float>& values, const Rows& rows) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t i = rows.from; i < rows.to; ++i) {
+    if (std::isnan(values[i])) continue;
+    low = std::min(low, static_cast<double>(values[i]));
+    high = std::max(high, static_cast<double>(values[i]));
+  }
+  return high >= low ? high - low : 0;
+}
+
+void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s,
+                  DriveWindow& window) {
+  std::vector<double> time_s, xs, ys;
+  for (std::size_t i = rows.from; i < rows.to; ++i) {
+    if (std::isnan(drive.x_m[i])) continue;
+    time_s.push_back(drive.time_s[i] - middle_s);
+    xs.push_back(drive.x_m[i]);
+    ys.push_back(drive.y_m[i]);
+  }
+  window.fixes = static_cast<int>(xs.size());
+  const double x0 = xs.empty() ? kNaN : xs.front(), y0 = ys.empty() ? kNaN : ys.front();
+  for (double& x : xs) x -= x0;
+  for (double& y : ys) y -= y0;
+  const Smoothed x = smoothed(time_s, xs), y = smoothed(time_s, ys);
+  window.x_m = x0 + x.value;
+  window.y_m = y0 + y.value;
+  window.speed_mps = std::hypot(x.slope, y.slope);
+  window.course_rad = std::atan2(y.slope, x.slope);
+  window.speed_std_mps = std::hypot(x.slope_std, y.slope_std) / std::numbers::sqrt2;
+  window.acceleration_mps2 =
+      window.speed_mps > 0 ? (x.slope * x.bend + y.slope * y.bend) / window.speed_mps : 0;
+  const double c = std::cos(window.yaw_rad), s = std::sin(window.yaw_rad);
+  window.forward_mps = c * x.slope + s * y.slope;
+  window.left_mps = c * y.slope - s * x.slope;
+}
+
+void smooth_yaw(const DriveRecording& drive, const Rows& rows, double middle_s,
+                DriveWindow& window) {
+  const DriveChannel* yaw = drive.channel("yaw_rad");
+  window.yaw_rad = window.yaw_rate_rad_s = window.yaw_rate_std_rad_s = kNaN;
+  if (!yaw) return;
+  std::vector<double> time_s, values;
+  for (std::size_t i = rows.from; i < rows.to; ++i) {
+    if (std::isnan(yaw->values[i])) continue;
+    double value = static_cast<double>(yaw->values[i]);
+    if (!values.empty()) {
+      value = values.back() + std::remainder(value - values.back(), 2 * std::numbers::pi);
+    }
+    time_s.push_back(drive.time_s[i] - middle_s);
+    values.push_back(value);
+  }
+  const Smoothed fit = smoothed(time_s, values);
+  window.yaw_rad = fit.value;
+  window.yaw_rate_rad_s = fit.slope;
+  window.yaw_rate_std_rad_s = fit.slope_std;
+}
+
+DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows& rows) {
+  DriveWindow window{
+      .drive = index, .start_s = drive.time_s[rows.from], .end_s = drive.time_s[rows.to - 1]};
+  const double middle_s = (window.start_s + window.end_s) / 2;
+  smooth_yaw(drive, rows, middle_s, window);
+  smooth_track(drive, rows, middle_s, window);
+  window.pitch_rad = window.roll_rad = window.sensed_speed_mps = kNaN;
+  window.steady = true;
+  for (const DriveChannel& channel : drive.channels) {
+    const bool turns = channel.name == "yaw_rad" || channel.name == "course_rad";
+    const double mean = turns ? mean_angle(channel.values, rows) : mean_of(channel.values, rows);
+    window.channels.push_back(mean);
+    if (channel.name == "pitch_rad") window.pitch_rad = mean;
+    if (channel.name == "roll_rad") window.roll_rad = mean;
+    if (channel.name == "speed_mps") window.sensed_speed_mps = mean;
+    if (channel.name == "command_speed") window.steady = range_of(channel.values, rows) == 0;
+  }
+  return window;
+}
+
+}  // namespace
+
+std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t index,
+                                       double window_s) {
+  std::vector<DriveWindow> windows;
+  const double gap_s = gap_max_s(drive);
+  const std::size_t n = drive.size();
+  for (std::size_t from = 0; from < n;) {
+    std::size_t to = from + 1;
+    while (to < n && drive.time_s[to] < drive.time_s[from] + window_s &&
+           drive.time_s[to] - drive.time_s[to - 1] <= gap_s) {
+      ++to;
+    }
+    constexpr double kLeastShare = 0.8;
+    constexpr std::size_t kLeastRows = 5;
+    if (to - from >= kLeastRows &&
+        drive.time_s[to - 1] - drive.time_s[from] >= kLeastShare * window_s) {
+      windows.push_back(window_of(drive, index, {from, to}));
+    }
+    from = to;
+  }
+  return windows;
+}
+
+double channel_mean(const DriveRecording& drive, const DriveWindow& window,
+                    std::string_view channel) {
+  for (std::size_t i = 0; i < drive.channels.size(); ++i) {
+    if (drive.channels[i].name == channel) return window.channels[i];
+  }
+  return kNaN;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "drive_diagnosis/drive_recording.h"
+
+namespace regoplan {
+
+/// What a drive did over a few seconds, from its fresh samples alone. NaN where the drive does not
+/// say.
+struct DriveWindow {
+  std::size_t drive = 0;  ///< index of its drive
+  double start_s = 0, end_s = 0;
+  double x_m = 0, y_m = 0;  ///< in the middle
+  double yaw_rad = 0;
+  double pitch_rad = 0, roll_rad = 0;
+  double speed_mps = 0;         ///< horizontal, along the track; from positions
+  double sensed_speed_mps = 0;  ///< mean of the channel `speed_mps`
+  double forward_mps = 0;       ///< horizontal, along the measured yaw
+  double left_mps = 0;
+  double acceleration_mps2 = 0;  ///< along the track
+  double yaw_rate_rad_s = 0;
+  double course_rad = 0;
+  double speed_std_mps = 0;  ///< of the smoothing, from the scatter of the fixes
+  double yaw_rate_std_rad_s = 0;
+  int fixes = 0;
+  bool steady = false;           ///< no command changes within it
+  std::vector<double> channels;  ///< means, in the order of the drive's channels
+
+  double duration_s() const { return end_s - start_s; }
+};
+
+/// The windows of a drive, one behind the other; none spans a gap of the recording. Positions and
+/// yaw are smoothed by a parabola over the window; what has fewer than three fixes has no speed
+/// from positions.
+std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t index,
+                                       double window_s);
+
+/// The mean of a channel in a window; NaN where the drive has none.
+double channel_mean(const DriveRecording& drive, const DriveWindow& window,
+                    std::string_view channel);
+
+}  // namespace regoplan
