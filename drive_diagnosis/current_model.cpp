@@ -24,23 +24,24 @@ using Groups = std::vector<int>;
 /// of it, and 0 for what they do not show at all.
 CurrentModel fit(const Windows& windows, const std::vector<double>& weights) {
   constexpr double kPrior = 1e-4;
-  Eigen::Matrix<double, kTerms, kTerms> normal =
-      kPrior * Eigen::Matrix<double, kTerms, kTerms>::Identity();
+  using Normal = Eigen::Matrix<double, kTerms, kTerms>;
+  std::array<Normal, 2> normal{kPrior * Normal::Identity(), kPrior * Normal::Identity()};
   Eigen::Matrix<double, kTerms, 2> right = Eigen::Matrix<double, kTerms, 2>::Zero();
   for (std::size_t i = 0; i < windows.size(); ++i) {
     if (weights[i] == 0) continue;
-    const CurrentModel::Terms terms = CurrentModel::terms(windows[i]);
-    const Eigen::Map<const Eigen::Matrix<double, kTerms, 1>> t(terms.data());
-    normal += weights[i] * t * t.transpose();
     for (int side = 0; side < 2; ++side) {
+      const CurrentModel::Terms terms = CurrentModel::terms(side, windows[i]);
+      const Eigen::Map<const Eigen::Matrix<double, kTerms, 1>> t(terms.data());
+      normal.at(static_cast<std::size_t>(side)) += weights[i] * t * t.transpose();
       right.col(side) += weights[i] * t * windows[i].current_a.at(static_cast<std::size_t>(side));
     }
   }
-  const Eigen::Matrix<double, kTerms, 2> c = normal.ldlt().solve(right);
   CurrentModel model;
   for (int side = 0; side < 2; ++side) {
+    const Eigen::Matrix<double, kTerms, 1> c =
+        normal.at(static_cast<std::size_t>(side)).ldlt().solve(right.col(side));
     for (int k = 0; k < kTerms; ++k) {
-      model.sides.at(static_cast<std::size_t>(side)).at(static_cast<std::size_t>(k)) = c(k, side);
+      model.sides.at(static_cast<std::size_t>(side)).at(static_cast<std::size_t>(k)) = c[k];
     }
   }
   return model;
@@ -200,7 +201,15 @@ Windows steady_windows(const std::vector<DriveRecording>& drives,
                     side_mean(drive, window, "current", "a", {}, swapped ? "left" : "right")};
     const double back =
         std::abs(std::remainder(heading_rad(drive, window) - window.course_rad, 6.283185307));
-    at.direction = back > 1 ? -1 : 1;
+    const std::array<const char*, 2> names{"left", "right"};
+    for (std::size_t side = 0; side < 2; ++side) {
+      // In a tight turn the inner side runs backwards.
+      const double rim = side_mean(drive, window, "wheel_speed", "rad_s", {}, names.at(side));
+      constexpr double kTurns_rad_s = 0.1;
+      at.direction.at(side) = std::abs(rim) > kTurns_rad_s ? std::copysign(1.0, rim)
+                              : back > 1                   ? -1
+                                                           : 1;
+    }
     at.sin_pitch = std::sin(window.pitch_rad - pitch_offset_rad(mountings, drive.day));
     at.yaw_rate_rad_s = yaw_sign * window.yaw_rate_rad_s;
     const double all = at.current_a[0] + at.current_a[1] + at.sin_pitch + at.yaw_rate_rad_s;
@@ -266,14 +275,15 @@ void name_excess(CurrentDiagnosis& result) {
 
 }  // namespace
 
-CurrentModel::Terms CurrentModel::terms(const CurrentWindow& at) {
+CurrentModel::Terms CurrentModel::terms(int side, const CurrentWindow& at) {
+  const double direction = at.direction.at(static_cast<std::size_t>(side));
   const double turn = std::tanh(at.yaw_rate_rad_s / kTurn_rad_s);
-  const double braking = std::min(0.0, at.direction * at.sin_pitch) * at.direction;
-  return {1, at.direction, at.sin_pitch, braking, turn, at.direction * std::abs(turn)};
+  const double braking = std::min(0.0, direction * at.sin_pitch) * direction;
+  return {1, direction, at.sin_pitch, braking, turn, direction * std::abs(turn)};
 }
 
 double CurrentModel::current_a(int side, const CurrentWindow& window) const {
-  const Terms t = terms(window);
+  const Terms t = terms(side, window);
   double sum = 0;
   for (std::size_t k = 0; k < t.size(); ++k)
     sum += sides.at(static_cast<std::size_t>(side)).at(k) * t.at(k);

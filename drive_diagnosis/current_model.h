@@ -15,7 +15,7 @@ namespace regoplan {
 struct CurrentWindow {
   std::size_t window = 0;  ///< index of its window
   std::size_t drive = 0;
-  double direction = 1;  ///< -1 backwards
+  std::array<double, 2> direction{1, 1};  ///< of each side's wheels, left, right; -1 backwards
   double sin_pitch = 0;
   double yaw_rate_rad_s = 0;
   std::array<double, 2> current_a{};  ///< left, right
@@ -34,7 +34,7 @@ struct CurrentModel {
   using Terms = std::array<double, kTerms>;
   std::array<Terms, 2> sides{};  ///< left, right
 
-  static Terms terms(const CurrentWindow& window);
+  static Terms terms(int side, const CurrentWindow& window);
   double current_a(int side, const CurrentWindow& window) const;
   /// What a side takes straight ahead on the level.
   double level_a(int side) const {

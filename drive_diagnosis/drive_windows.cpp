@@ -136,12 +136,32 @@ void smooth_yaw(const DriveRecording& drive, const Rows& rows, double middle_s,
   window.yaw_rate_std_rad_s = fit.slope_std;
 }
 
+/// Wheel speeds come often and without the scatter of fixes: their slope is the best acceleration.
+double wheel_acceleration(const DriveRecording& drive, const Rows& rows, double middle_s) {
+  double sum = 0;
+  int count = 0;
+  for (const DriveChannel* wheel : channels_of(drive, "wheel_speed_")) {
+    std::vector<double> time_s, values;
+    for (std::size_t i = rows.from; i < rows.to; ++i) {
+      if (std::isnan(wheel->values[i])) continue;
+      time_s.push_back(drive.time_s[i] - middle_s);
+      values.push_back(static_cast<double>(wheel->values[i]));
+    }
+    constexpr std::size_t kLeast = 5;
+    if (values.size() < kLeast) continue;
+    sum += smoothed(time_s, values).slope;
+    ++count;
+  }
+  return count > 0 ? sum / count : kNaN;
+}
+
 DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows& rows) {
   DriveWindow window{
       .drive = index, .start_s = drive.time_s[rows.from], .end_s = drive.time_s[rows.to - 1]};
   const double middle_s = (window.start_s + window.end_s) / 2;
   smooth_yaw(drive, rows, middle_s, window);
   smooth_track(drive, rows, middle_s, window);
+  window.wheel_acceleration_rad_s2 = wheel_acceleration(drive, rows, middle_s);
   window.pitch_rad = window.roll_rad = window.sensed_speed_mps = kNaN;
   window.steady = true;
   for (const DriveChannel& channel : drive.channels) {

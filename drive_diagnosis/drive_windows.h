@@ -19,7 +19,8 @@ struct DriveWindow {
   double sensed_speed_mps = 0;  ///< mean of the channel `speed_mps`
   double forward_mps = 0;       ///< horizontal, along the measured yaw
   double left_mps = 0;
-  double acceleration_mps2 = 0;  ///< along the track
+  double acceleration_mps2 = 0;          ///< along the track
+  double wheel_acceleration_rad_s2 = 0;  ///< of the wheels' mean turning rate
   double yaw_rate_rad_s = 0;
   double course_rad = 0;
   double speed_std_mps = 0;  ///< of the smoothing, from the scatter of the fixes

@@ -75,8 +75,8 @@ std::vector<double> null_maxima(const Directions& directions, std::uint64_t seed
 }  // namespace
 
 std::vector<EffectFound> find_effects(const Eigen::VectorXd& data,
-                                      const std::vector<EffectColumn>& effects, double scatter,
-                                      int effects_max, std::uint64_t seed) {
+                                      const std::vector<EffectColumn>& effects, int effects_max,
+                                      std::uint64_t seed) {
   std::vector<EffectFound> found;
   std::vector<std::size_t> freed;
   while (static_cast<int>(found.size()) < effects_max) {
@@ -86,11 +86,12 @@ std::vector<EffectFound> find_effects(const Eigen::VectorXd& data,
     const Eigen::VectorXd z = directions.unit.transpose() * white;
     Eigen::Index best = 0;
     z.cwiseAbs().maxCoeff(&best);
-    const double left = (white - z[best] * directions.unit.col(best)).squaredNorm();
-    const double wide = std::max(scatter, std::sqrt(left / static_cast<double>(data.size())));
+    const Eigen::VectorXd left = white - z[best] * directions.unit.col(best);
+    const double wide =
+        std::max(1.0, std::sqrt(left.squaredNorm() / static_cast<double>(data.size())));
     const std::vector<double> maxima = null_maxima(directions, seed);
     const double sigmas = std::abs(z[best]) / wide;
-    const double threshold = quantile_value(maxima, 1 - kMissed);
+    const double threshold = kToSpare * quantile_value(maxima, 1 - kMissed);
     if (!(sigmas > threshold)) break;
     const auto above = static_cast<double>(maxima.end() - std::ranges::lower_bound(maxima, sigmas));
     EffectFound effect{

@@ -29,7 +29,8 @@ std::optional<DriveEstimate> offset_of(const AnglePairs& pairs) {
   for (double& value : off) value = std::abs(value - middle);
   const double spread = median_value(off) / 0.6745;
   const double independent = static_cast<double>(pairs.ground.size()) / 3;
-  return DriveEstimate{middle, 1.2533 * spread / std::sqrt(independent)};
+  constexpr double kLeast_rad = 1e-4;
+  return DriveEstimate{middle, std::max(kLeast_rad, 1.2533 * spread / std::sqrt(independent))};
 }
 
 /// Theil's slope: the median over pairs of windows that lie on different slopes.
@@ -44,6 +45,37 @@ double slope_of(const AnglePairs& pairs) {
     }
   }
   return slopes.size() < 20 ? 1 : median_value(std::move(slopes));
+}
+
+/// Days share one sensor: each one's estimate is drawn to the mean of all as far as its own scatter
+/// is larger than that between days (empirical Bayes; DerSimonian and Laird's variance).
+void share_between_days(std::vector<Mounting>& mountings,
+                        std::optional<DriveEstimate> Mounting::*of) {
+  double weights = 0, squares = 0, sum = 0, days = 0;
+  for (const Mounting& day : mountings) {
+    if (!(day.*of)) continue;
+    const double weight = 1 / ((day.*of)->std * (day.*of)->std);
+    weights += weight;
+    squares += weight * weight;
+    sum += weight * (day.*of)->value;
+    ++days;
+  }
+  if (days < 3) return;
+  const double mean = sum / weights;
+  double excess = -(days - 1);
+  for (const Mounting& day : mountings) {
+    if (!(day.*of)) continue;
+    excess +=
+        ((day.*of)->value - mean) * ((day.*of)->value - mean) / ((day.*of)->std * (day.*of)->std);
+  }
+  const double between = std::max(0.0, excess / (weights - squares / weights));
+  for (Mounting& day : mountings) {
+    if (!(day.*of)) continue;
+    const double own = (day.*of)->std * (day.*of)->std;
+    const double share = between / (between + own);
+    (day.*of)->value = mean + share * ((day.*of)->value - mean);
+    (day.*of)->std = std::sqrt(share * own + (1 - share) * (1 - share) / weights);
+  }
 }
 
 }  // namespace
@@ -117,6 +149,8 @@ std::vector<Mounting> find_mountings(const std::vector<DriveRecording>& drives,
     mountings[i].roll_slope = slope_of(roll[i]);
     mountings[i].windows = static_cast<int>(pitch[i].ground.size());
   }
+  share_between_days(mountings, &Mounting::pitch_rad);
+  share_between_days(mountings, &Mounting::roll_rad);
   return mountings;
 }
 

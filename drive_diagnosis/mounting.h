@@ -37,7 +37,7 @@ std::optional<GroundAttitude> ground_attitude(const TerrainMap& map, double x_m,
 double heading_rad(const DriveRecording& drive, const DriveWindow& window);
 
 /// The mounting of each day, in the order in which the days come. A day's is nothing where fewer
-/// than `kMountingWindows` windows lie on known ground.
+/// than `kMountingWindows` windows lie on known ground; three days or more tell of each other.
 inline constexpr int kMountingWindows = 15;
 std::vector<Mounting> find_mountings(const std::vector<DriveRecording>& drives,
                                      const std::vector<DriveWindow>& windows,

@@ -300,9 +300,22 @@ SensorChecks check_sensors(const std::vector<DriveRecording>& drives,
   return Checker(drives, windows, sides).check();
 }
 
+/// Whether wheel speeds are sampled often enough to place a position in time: held values do not.
+static bool wheels_are_fresh(const DriveRecording& drive) {
+  std::size_t changes = 0, steps = 0;
+  for (const DriveChannel* wheel : channels_of(drive, "wheel_speed_")) {
+    for (std::size_t i = 1; i < wheel->values.size(); ++i) {
+      if (std::isnan(wheel->values[i]) || wheel->values[i] == 0) continue;
+      ++steps;
+      changes += wheel->values[i] != wheel->values[i - 1];
+    }
+  }
+  return 2 * changes > steps;
+}
+
 std::optional<double> position_lag_s(const DriveRecording& drive) {
   constexpr double kStep_s = 0.1, kReach_s = 3;
-  if (drive.size() < 100) return {};
+  if (drive.size() < 100 || !wheels_are_fresh(drive)) return {};
   const double duration_s = drive.time_s.back() - drive.time_s.front();
   if (duration_s > 1e5) return {};
   const auto count = static_cast<std::size_t>(duration_s / kStep_s) + 1;

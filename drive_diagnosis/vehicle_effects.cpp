@@ -56,6 +56,9 @@ std::optional<WindowInput> input_of(const DriveRecording& drive, const DriveWind
                     .acceleration_mps2 = window.acceleration_mps2,
                     .speed_mps = window.forward_mps,
                     .yaw_rate_rad_s = window.yaw_rate_rad_s};
+  if (!std::isnan(window.wheel_acceleration_rad_s2)) {
+    input.acceleration_mps2 = window.wheel_acceleration_rad_s2 * vehicle.wheel.radius_m;
+  }
   double all = input.x_m + input.y_m + input.yaw_rad + input.yaw_rate_rad_s;
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
     input.rim_rad_s.at(i) = rim_rad_s(drive, window, vehicle.wheels[i]);
@@ -92,6 +95,8 @@ class Comparer {
 
  private:
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
+  Eigen::MatrixXd innovations(const Eigen::MatrixXd& by_window) const;
+  void relate_channels();
 
   const std::vector<DriveRecording>& drives_;
   const std::vector<DriveWindow>& windows_;
@@ -102,6 +107,7 @@ class Comparer {
   std::vector<Comparison> comparisons_;
   Eigen::MatrixXd predicted_, residuals_;
   std::vector<double> noise_, correlation_;
+  Eigen::LLT<Eigen::MatrixXd> related_;  ///< of the channels' innovations
 };
 
 Eigen::VectorXd Comparer::vector_of(const WindowPrediction& prediction) const {
@@ -181,21 +187,47 @@ void Comparer::estimate_noise() {
     noise_.push_back(scale);
     correlation_.push_back(rho);
   }
+  relate_channels();
 }
 
-Eigen::VectorXd Comparer::whitened(const Eigen::MatrixXd& by_window) const {
-  Eigen::VectorXd white(by_window.size());
-  Eigen::Index at = 0;
+/// Each channel's innovations, by its own scale.
+Eigen::MatrixXd Comparer::innovations(const Eigen::MatrixXd& by_window) const {
+  Eigen::MatrixXd result(by_window.rows(), by_window.cols());
   for (Eigen::Index k = 0; k < by_window.cols(); ++k) {
     const double scale = noise_[static_cast<std::size_t>(k)];
     const double rho = correlation_[static_cast<std::size_t>(k)];
     for (Eigen::Index i = 0; i < by_window.rows(); ++i) {
       const bool follows = consecutive(static_cast<std::size_t>(i));
       const double fresh = follows ? by_window(i, k) - rho * by_window(i - 1, k) : by_window(i, k);
-      white[at++] = fresh / (scale * (follows ? std::sqrt(1 - rho * rho) : 1.0));
+      result(i, k) = fresh / (scale * (follows ? std::sqrt(1 - rho * rho) : 1.0));
     }
   }
-  return white;
+  return result;
+}
+
+/// What errs in all channels at once (an acceleration, a slope) is no independent witness.
+void Comparer::relate_channels() {
+  std::vector<Eigen::VectorXd> steps;
+  const Eigen::MatrixXd fresh = innovations(residuals_);
+  for (std::size_t i = 1; i < comparisons_.size(); ++i) {
+    if (!consecutive(i)) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    constexpr double kFar = 3;  // a stray window must not make the relation
+    steps.push_back((fresh.row(at) - fresh.row(at - 1)).transpose().cwiseMax(-kFar).cwiseMin(kFar));
+  }
+  const Eigen::Index n = residuals_.cols();
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  for (const Eigen::VectorXd& step : steps) covariance += step * step.transpose();
+  const Eigen::VectorXd root = covariance.diagonal().cwiseSqrt().cwiseMax(1e-12);
+  covariance = root.cwiseInverse().asDiagonal() * covariance * root.cwiseInverse().asDiagonal();
+  const double shrink =
+      std::min(1.0, static_cast<double>(n) / static_cast<double>(steps.size() + 1));
+  related_.compute((1 - shrink) * covariance + shrink * Eigen::MatrixXd::Identity(n, n));
+}
+
+Eigen::VectorXd Comparer::whitened(const Eigen::MatrixXd& by_window) const {
+  const Eigen::MatrixXd white = related_.matrixL().solve(innovations(by_window).transpose());
+  return Eigen::Map<const Eigen::VectorXd>(white.data(), white.size());
 }
 
 Eigen::MatrixXd Comparer::change(const VehicleDeviation& deviation) const {
@@ -319,7 +351,7 @@ std::optional<VehicleEffects> find_vehicle_effects(const std::vector<DriveRecord
       add_stretches(comparer, weaker, comparer.comparisons(), windows, columns);
   const Eigen::VectorXd data = comparer.whitened(comparer.residuals());
   constexpr int kEffectsMost = 3;
-  result.found = find_effects(data, columns, 1, kEffectsMost, seed);
+  result.found = find_effects(data, columns, kEffectsMost, seed);
 
   for (const EffectFound& effect : result.found) {
     const auto chosen = std::ranges::find(stretches, effect.effect, &Stretch::column);

@@ -31,7 +31,6 @@ struct VehicleEffects {
   int windows = 0;                                  ///< that could be predicted
   std::vector<std::string> channels;
   std::vector<double> noise, rms;  ///< of each channel: from neighbours, and of the residuals
-  std::vector<double> rms_after;   ///< with what was found taken off
   bool has_torque = false;
 };
 

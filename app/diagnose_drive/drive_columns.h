@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/io/value_range.h"
 #include "app/settings/settings_node.h"
+#include "terramech/value_range.h"
 
 namespace regoplan {
 

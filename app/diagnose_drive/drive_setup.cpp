@@ -64,6 +64,8 @@ DriveSetupFile read_drive_setup(const std::string& scenario_file,
   if (read.setup.vehicle && read.setup.gravity_mps2 == 0) {
     throw root.error("gravity_mps2 is missing: a vehicle needs it");
   }
+  constexpr double kWithVehicle_s = 5;  // steering settles, and poses at 1 Hz give a speed
+  if (read.setup.vehicle) read.setup.window_s = kWithVehicle_s;
   if (setup_file) read_setup_keys(*setup_file, read.setup);
   return read;
 }

@@ -18,7 +18,7 @@ struct DriveSetupFile {
 /// part; without a vehicle only what needs none is diagnosed), and of the setup
 ///
 ///     mounting: {pitch_deg: {mean, std}, roll_deg: {mean, std}}   # of the attitude sensor
-///     window_s: 3                                                 # 1 to 20
+///     window_s: 3                                   # 1 to 20; with a vehicle else 5
 ///
 /// \throws SettingsError
 DriveSetupFile read_drive_setup(const std::string& scenario_file,
