@@ -162,7 +162,8 @@ std::string windows_csv(const DriveDiagnosisRun& run) {
          {window.start_s, window.end_s, window.x_m, window.y_m, window.yaw_rad / kDegree,
           window.speed_mps, window.acceleration_mps2, window.yaw_rate_rad_s,
           window.pitch_rad / kDegree, window.roll_rad / kDegree}) {
-      text += "," + number_cell(value);
+      text += ',';
+      text += number_cell(value);
     }
     text += "\n";
   }
