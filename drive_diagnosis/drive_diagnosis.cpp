@@ -139,68 +139,6 @@ bool any_has(const std::vector<DriveRecording>& drives, std::string_view prefix)
   });
 }
 
-/// Ids of the effects that explain as much, the claimed one first, each once.
-std::vector<std::string> ids_of(const VehicleEffects& effects, const EffectFound& found) {
-  std::vector<std::string> ids;
-  for (const std::size_t column : found.alike) {
-    const std::string& id = effects.columns[column].id;
-    if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
-  }
-  return ids;
-}
-
-DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveRecording>& drives,
-                          const SoilZoneFound& zone, const EffectFound& found) {
-  std::array<double, 2> x_m{1e18, -1e18}, y_m{1e18, -1e18};
-  for (std::size_t i = zone.first; i <= zone.last; ++i) {
-    const DriveWindow& window = result.windows[i];
-    x_m = {std::min(x_m[0], window.x_m), std::max(x_m[1], window.x_m)};
-    y_m = {std::min(y_m[0], window.y_m), std::max(y_m[1], window.y_m)};
-  }
-  return {
-      .channel = "soil",
-      .where = fmt::format("drive {}, {:.0f} s ({:.0f} to {:.0f}) to {:.0f} s ({:.0f} to {:.0f})",
-                           drives[zone.drive].drive_id, result.windows[zone.first].start_s,
-                           zone.start_s[0], zone.start_s[1], result.windows[zone.last].end_s,
-                           zone.end_s[0], zone.end_s[1]),
-      .region = {{"x_m", x_m},
-                 {"y_m", y_m},
-                 {"time_s", {result.windows[zone.first].start_s, result.windows[zone.last].end_s}},
-                 {"start_s", zone.start_s},
-                 {"end_s", zone.end_s}},
-      .effect = found.size,
-      .ci95 = {found.size - 1.96 * found.std, found.size + 1.96 * found.std},
-      .p_value = found.p_value};
-}
-
-void claim_effects(const std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
-  const VehicleEffects& effects = *result.effects;
-  for (std::size_t i = 0; i < effects.found.size(); ++i) {
-    const EffectFound& found = effects.found[i];
-    const EffectColumn& column = effects.columns[found.effect];
-    DriveClaim claim{.id = column.id,
-                     .parameters = {{column.parameter, {found.size, found.std}}},
-                     .equivalent = ids_of(effects, found),
-                     .channels = effects.channels,
-                     .sigmas = found.sigmas};
-    claim.text = fmt::format("{} = {:.3g} +- {:.2g}, {:.1f} standard deviations from nothing",
-                             column.parameter, found.size, found.std, found.sigmas);
-    if (effects.zones[i]) {
-      const SoilZoneFound& zone = *effects.zones[i];
-      if (zone.at_border &&
-          std::ranges::find(claim.equivalent, "zone_border") == claim.equivalent.end()) {
-        claim.equivalent.emplace_back("zone_border");
-      }
-      DriveMismatch where = mismatch_of(result, drives, zone, found);
-      claim.text = fmt::format("soil {} by {:.2g} +- {:.2g} of its standard deviations in {}",
-                               found.size > 0 ? "weaker" : "stronger", std::abs(found.size),
-                               found.std, where.where);
-      result.where.push_back(std::move(where));
-    }
-    result.claims.push_back(std::move(claim));
-  }
-}
-
 /// Brings yaw to the map's sense and the vehicle's nose, where the drives show how.
 void mend_yaw(const SensorChecks& checks, double window_s, std::vector<DriveRecording>& drives,
               std::vector<DriveWindow>& windows) {
@@ -217,11 +155,6 @@ void mend_yaw(const SensorChecks& checks, double window_s, std::vector<DriveReco
   }
 }
 
-bool is_found(const DriveDiagnosis& result, std::string_view id) {
-  return std::ranges::any_of(result.findings,
-                             [id](const DriveFinding& finding) { return finding.id == id; });
-}
-
 /// What nobody should expect these drives to show.
 void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                         DriveDiagnosis& result) {
@@ -232,12 +165,12 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
          "the scenario has no vehicle, so nothing predicts speeds and torques",
          "the same drives with a vehicle file: mass, wheels, centre of gravity"});
   }
-  if (setup.vehicle && !result.effects) {
+  if (setup.vehicle) {
     result.silent.push_back(
         {{"soil_zone", "zone_border", "map_offset", "wheel_radius", "steering_offset", "payload",
           "tow_drag"},
-         "fewer than 12 windows have rim speeds, steering, heading and known ground",
-         "a minute on the map with rim speed and steering of every wheel and the pose at 1 Hz"});
+         "speeds and torques of the wheels are not compared with the vehicle's model yet",
+         "none for now"});
   }
   if (!any_has(drives, "torque_")) {
     result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},
@@ -302,11 +235,6 @@ DriveDiagnosis diagnose_drives(std::vector<DriveRecording> drives, const DriveSe
   result.currents = diagnose_currents(drives, result.windows, result.mountings, 1,
                                       checks.current_sides_swapped, options.seed);
   if (result.currents) claim_side_drag(result);
-  if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
-    result.effects = find_vehicle_effects(drives, result.windows, setup.map, *setup.vehicle,
-                                          setup.gravity_mps2, options.seed, options.stop);
-  }
-  if (result.effects) claim_effects(drives, result);
   result.interrupted = result.interrupted || options.stop.stop_requested();
   say_what_is_silent(setup, drives, result);
   const bool a_class = std::ranges::any_of(
