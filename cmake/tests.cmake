@@ -6,7 +6,7 @@ function(regoplan_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
   add_executable(${folder}_tests ${sources})
   target_compile_definitions(${folder}_tests PRIVATE REGOPLAN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  target_link_libraries(${folder}_tests PRIVATE ${ARGN} GTest::gtest_main)
+  target_link_libraries(${folder}_tests PRIVATE regoplan_options ${ARGN} GTest::gtest_main)
   target_precompile_headers(${folder}_tests PRIVATE <gtest/gtest.h>)
   # What takes time is in the libraries; tests compile a third faster so.
   target_compile_options(${folder}_tests PRIVATE -O1)
@@ -39,3 +39,13 @@ add_test(NAME type_names COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -P
                                  ${CMAKE_SOURCE_DIR}/cmake/type_names.cmake)
 include(cmake/browser_tests.cmake)
 include(cmake/robustness_tests.cmake)
+
+# The package as others take it: found installed, as a subfolder, and the program from a prefix.
+if(NOT REGOPLAN_DEV)
+  foreach(how find_package add_subdirectory program)
+    add_test(NAME package.${how}
+             COMMAND ${CMAKE_SOURCE_DIR}/tests/package/run.sh ${how} ${CMAKE_BINARY_DIR}
+                     ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/package/${how})
+    set_tests_properties(package.${how} PROPERTIES LABELS package TIMEOUT 900)
+  endforeach()
+endif()

@@ -78,6 +78,8 @@ class VehicleDynamics {
   /// and ground they must outlive this
   VehicleDynamics(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws, Ground ground,
                   double gravity_mps2);
+  VehicleDynamics(Vehicle&& gone, std::span<const WheelLaw> soil_laws, Ground ground,
+                  double gravity_mps2) = delete;
 
   /// The state after `duration_s` under a constant control. Second order in the duration.
   StepResult step(const VehicleState& state, const VehicleControl& control,

@@ -95,6 +95,8 @@ std::string_view name(WheelStatus status) {
       return "cohesion_carries_load";
     case WheelStatus::kOutsideCorrection:
       return "outside_correction";
+    case WheelStatus::kLifted:
+      return "lifted";
   }
   return "";
 }
@@ -133,7 +135,7 @@ WheelModel::WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy)
 namespace {
 
 void require_valid(double load_n, const WheelMotion& motion) {
-  if (!(load_n > 0 && std::isfinite(load_n))) throw ValueError("load_n", load_n, "above 0");
+  if (!(load_n >= 0 && std::isfinite(load_n))) throw ValueError("load_n", load_n, "0 or above");
   for (const auto& [field, value] :
        {std::pair{"vx_mps", motion.vx_mps}, std::pair{"vy_mps", motion.vy_mps},
         std::pair{"rim_speed_mps", motion.rim_speed_mps}}) {
@@ -147,6 +149,7 @@ WheelChannels WheelModel::channels(double load_n, const WheelMotion& motion,
                                    const WheelConditions& conditions) const {
   require_valid(load_n, motion);
   if (conditions.pass < 1) throw ValueError("pass", conditions.pass, "1 or more");
+  if (load_n == 0) return {.forces = {.status = WheelStatus::kLifted}};
   WheelChannels channels = mechanism_channels(*this, load_n, motion, conditions);
   if (spec_.generic) {
     const double sinkage_m = channels.forces.sinkage_m;
@@ -159,6 +162,7 @@ WheelChannels WheelModel::channels(double load_n, const WheelMotion& motion,
 
 WheelForces WheelModel::forces(double load_n, const WheelMotion& motion) const {
   require_valid(load_n, motion);
+  if (load_n == 0) return {.status = WheelStatus::kLifted};
   const WheelForces forces = without_correction(load_n, motion);
   return spec_.generic ? corrected(*spec_.generic, load_n, motion, forces) : forces;
 }

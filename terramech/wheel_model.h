@@ -27,6 +27,7 @@ enum class WheelStatus {
   kSinksToAxle,          ///< no sinkage below the radius carries the load: no forces
   kCohesionCarriesLoad,  ///< yoshida2004: the stress scale would be negative: no forces
   kOutsideCorrection,    ///< outside the region a generic correction was learned in
+  kLifted,               ///< no load: the wheel does not touch the soil, and all forces are 0
 };
 
 /// The status as it stands in files: `ok`, `untrusted`, ...
@@ -95,7 +96,8 @@ class WheelModel {
 
   /// Forces on the wheel under the given vertical load.
   /// Mechanisms act as on a first pass at the motion's own speed.
-  /// \param load_n > 0 \throws ValueError for a load that is not finite and positive, or a motion
+  /// \param load_n 0 for a lifted wheel, which has no forces (`kLifted`)
+  /// \throws ValueError for a load that is not finite or negative, or a motion
   /// that is not finite
   WheelForces forces(double load_n, const WheelMotion& motion) const;
 

@@ -130,8 +130,9 @@ std::vector<std::string> lead_sentences(const JournalContents& contents, const T
   }
   const RunBounds& bounds = contents.origins.front().bounds;
   sentences.push_back(fmt::format(
-      "Each search had {} s{} and {} MB; each solution was driven again by the exact wheel model "
-      "with a ten times finer step, and counts only where that confirms it.",
+      "Each search was asked to stop after {} s{}, which some planners heed only at the end of a "
+      "longer step, and had {} MB; each solution was driven again by the exact wheel model with a "
+      "ten times finer step, and counts only where that confirms it.",
       bounds.time_s,
       bounds.iterations ? fmt::format(" (at most {} iterations)", *bounds.iterations) : "",
       bounds.memory_mb));

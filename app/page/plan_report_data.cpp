@@ -11,6 +11,7 @@
 #include "planner/driving/wheel_loads_along.h"
 #include "planner/problem/rejection_text.h"
 #include "planner/verdict/pareto.h"
+#include "planner/verdict/ranking.h"
 
 namespace regoplan {
 namespace {
@@ -299,6 +300,8 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"planning_time_s", result.planning_time_s},
                {"verification_time_s", result.verification_time_s},
                {"least_duration_s", nullptr},
+               {"doubtful", !result.candidates.empty() &&
+                                is_doubtful(result.candidates.front(), problem.limits)},
                {"problem", problem_json(problem)},
                {"map", report_map(problem.map)},
                {"candidates", candidates_json(problem, result.candidates)},

@@ -9,6 +9,7 @@
 #include "app/page/plan_report_data.h"
 #include "app/page/report_assets.h"
 #include "app/page/report_page.h"
+#include "planner/verdict/ranking.h"
 
 namespace regoplan {
 namespace {
@@ -62,17 +63,18 @@ std::string gap_sentence(const PlanResult& result) {
       *fastest_s, *result.least_duration_s, 100 * *gap);
 }
 
-/// The margin that the soils leave of the best path: in 95 % of the draws, and how many draws keep
-/// it at all; at the mean soils where nothing was drawn.
-std::string margin_words(const Candidate& best) {
+/// How sure the best path is, and with how much margin: over the draws of the soils first, as its
+/// margin at the mean soils alone promises too much.
+std::string best_words(const Candidate& best) {
   const std::string at_mean = number(best.verified.margin_min, 2);
-  if (!best.spread) return fmt::format("a stability margin of {} at the mean soils", at_mean);
+  if (!best.spread) {
+    return fmt::format("the best keeps a stability margin of {} at the mean soils", at_mean);
+  }
   const MarginSpread& spread = *best.spread;
   return fmt::format(
-      "a stability margin of {} in 95 % of the draws of the soils and enough in {:.0f} of {} ({} "
-      "at the "
-      "mean soils)",
-      number(spread.p05, 2), spread.feasible.share * spread.draws, spread.draws, at_mean);
+      "the best holds in {:.0f} of {} draws of the soils, with a stability margin of {} or more in "
+      "95 % of them ({} at the mean soils)",
+      spread.feasible.share * spread.draws, spread.draws, number(spread.p05, 2), at_mean);
 }
 
 std::string what_if_sentence(const WhatIf& what_if) {
@@ -119,7 +121,7 @@ std::vector<std::string> lead_sentences(const PlanResult& result) {
 
 }  // namespace
 
-std::string plan_headline(const PlanResult& result) {
+std::string plan_headline(const PlanResult& result, const Limits& limits) {
   switch (result.status) {
     case PlanStatus::kInfeasible:
       return with_stop("Infeasible: " +
@@ -133,10 +135,12 @@ std::string plan_headline(const PlanResult& result) {
   }
   if (result.candidates.empty()) return "Feasible.";
   const Candidate& best = result.candidates.front();
-  return fmt::format("Feasible: {}; the best keeps {}; {} binds at {}.",
-                     counted(result.candidates.size(), "verified path"), margin_words(best),
-                     words(name(best.limiting.margin)),
-                     place(best.limiting.x_m, best.limiting.y_m, best.limiting.time_s));
+  return fmt::format(
+      "Feasible{}: {}; {}; {} binds at {}.",
+      is_doubtful(best, limits) ? " at the mean soils, doubtful over their draws" : "",
+      counted(result.candidates.size(), "verified path"), best_words(best),
+      words(name(best.limiting.margin)),
+      place(best.limiting.x_m, best.limiting.y_m, best.limiting.time_s));
 }
 
 std::string plan_report(const PlanningProblem& problem, const PlanResult& result) {
@@ -145,7 +149,7 @@ std::string plan_report(const PlanningProblem& problem, const PlanResult& result
   return render(
       {.title = fmt::format("Plan for {} from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})",
                             problem.vehicle.name, start.x_m, start.y_m, goal.x_m, goal.y_m),
-       .headline = plan_headline(result),
+       .headline = plan_headline(result, problem.limits),
        .lead = lead_sentences(result),
        .body_html = report_assets::kPlanHtml,
        .script = report_assets::kPlanScript,

@@ -8,7 +8,8 @@
 namespace regoplan {
 
 /// The verdict in one sentence, with the margin of the best candidate and what binds it.
-std::string plan_headline(const PlanResult& result);
+/// Where fewer draws of the soils hold than are asked for (`is_doubtful`), it says so first.
+std::string plan_headline(const PlanResult& result, const Limits& limits);
 
 /// A result for people: one self-contained HTML page with the verdict, the candidates on the map,
 /// what decides along each of them, what was rejected and why, and how it was decided. Its data

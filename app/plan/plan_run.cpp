@@ -35,8 +35,8 @@ std::string candidate_row(const Candidate& candidate) {
              : "-");
 }
 
-std::string summary(const PlanResult& result) {
-  std::string text = plan_headline(result) + "\n";
+std::string summary(const PlanResult& result, const Limits& limits) {
+  std::string text = plan_headline(result, limits) + "\n";
   if (result.interrupted) text = "Interrupted. " + text;
   if (const auto gap = duration_gap(result)) {
     text += fmt::format(
@@ -81,7 +81,8 @@ ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
            {.on_progress = [&](const PlanProgress& progress) { line.show(progress); },
             .on_verified = [&](const Candidate& path,
                                double since_start_s) { say(verified_line(path, since_start_s)); },
-            .on_answer = [&](const PlanResult& answer) { say(summary(answer)); },
+            .on_answer =
+                [&](const PlanResult& answer) { say(summary(answer, scenario.problem.limits)); },
             .stop = stop_on_interrupt(),
             .started = kProgramStart});
   line.wipe();

@@ -173,7 +173,9 @@ std::vector<double> side_slope_limits_rad(const FeasibilityChart& chart,
   std::vector<bool> ended(settings.soils.size());
   for (const SideSlope& at : chart.side_slopes) {
     const auto soil = static_cast<std::size_t>(at.soil);
+    constexpr double kRounding = 1e-9;
     const bool safe =
+        at.slope_rad <= settings.limits.slope_max_rad * (1 + kRounding) &&
         std::min({at.cornering, at.tip_over, at.traction}) >= settings.limits.margin_min;
     if (!safe) ended[soil] = true;
     if (!ended[soil]) limits[soil] = at.slope_rad;

@@ -53,8 +53,8 @@ struct FeasibilityChart {
 /// to within 1 % from below.
 FeasibilityChart feasibility_chart(const ChartSettings& settings);
 
-/// The steepest side slope at which the smallest margin, up to there, is allowed; nothing where not
-/// even level ground is.
+/// The steepest side slope, in whole degrees, up to which the smallest margin and the slope itself
+/// are allowed; NaN where not even level ground is.
 std::vector<double> side_slope_limits_rad(const FeasibilityChart& chart,
                                           const ChartSettings& settings);
 

@@ -27,6 +27,7 @@ class OmplProblem {
   /// Seeds what OMPL draws from here on, in the whole process.
   /// \param world must outlive it
   OmplProblem(const World& world, const SearchGuidance& guidance);
+  OmplProblem(World&& gone, const SearchGuidance& guidance) = delete;
   OmplProblem(const OmplProblem&) = delete;
   OmplProblem& operator=(const OmplProblem&) = delete;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <type_traits>
 
 namespace regoplan {
 namespace {
@@ -160,11 +161,15 @@ void VehicleSpace::interpolate(const ob::State* from, const ob::State* to, doubl
 }
 
 void VehicleSpace::serialize(void* bytes, const ob::State* state) const {
-  std::memcpy(bytes, &vehicle(state), sizeof(VehicleState));
+  static_assert(std::is_trivially_copyable_v<Values>);
+  const Values& values = *state->as<StateType>();
+  std::memcpy(bytes, &values, sizeof(Values));
 }
 
 void VehicleSpace::deserialize(ob::State* state, const void* bytes) const {
-  std::memcpy(&vehicle(state), bytes, sizeof(VehicleState));
+  Values values;
+  std::memcpy(&values, bytes, sizeof(Values));
+  static_cast<Values&>(*state->as<StateType>()) = values;
 }
 
 ob::StateSamplerPtr VehicleSpace::allocDefaultStateSampler() const {

@@ -56,7 +56,8 @@ class VehicleSpace : public ompl::base::StateSpace {
   bool equalStates(const ompl::base::State* a, const ompl::base::State* b) const override;
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
-  unsigned int getSerializationLength() const override { return sizeof(VehicleState); }
+  unsigned int getSerializationLength() const override { return sizeof(Values); }
+  /// Keeps everything that a state holds, strain and cost included.
   void serialize(void* bytes, const ompl::base::State* state) const override;
   void deserialize(ompl::base::State* state, const void* bytes) const override;
   ompl::base::StateSamplerPtr allocDefaultStateSampler() const override;

@@ -38,6 +38,7 @@ class World {
  public:
   /// \param problem must outlive it \param threads that build the tables
   World(const PlanningProblem& problem, WorldUse use, int threads);
+  World(PlanningProblem&& gone, WorldUse use, int threads) = delete;
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 

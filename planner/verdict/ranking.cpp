@@ -81,4 +81,10 @@ bool probable_enough(const Candidate& candidate, const Limits& limits) {
   return shown >= limits.probability_min;
 }
 
+bool is_doubtful(const Candidate& candidate, const Limits& limits) {
+  constexpr double kCountedOn = 0.95;
+  const double asked = limits.probability_min > 0 ? limits.probability_min : kCountedOn;
+  return candidate.spread && candidate.spread->feasible.share < asked;
+}
+
 }  // namespace regoplan

@@ -19,4 +19,8 @@ void rank(std::vector<VerifiedPath>& paths);
 /// counts. What was not drawn keeps none but that of 0.
 bool probable_enough(const Candidate& candidate, const Limits& limits);
 
+/// Whether fewer of its draws hold than somebody would count on: than the chance constraint asks,
+/// or than 95 % where there is none.
+bool is_doubtful(const Candidate& candidate, const Limits& limits);
+
 }  // namespace regoplan

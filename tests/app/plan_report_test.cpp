@@ -134,7 +134,7 @@ TEST_F(PlanReport, WritesWhatIsNotKnownAsNull) {
 
 TEST_F(PlanReport, SaysTheVerdictFirst) {
   const std::string page = plan_report(problem_, result_);
-  EXPECT_EQ(headline_of(page), plan_headline(result_));
+  EXPECT_EQ(headline_of(page), plan_headline(result_, problem_.limits));
   EXPECT_LT(page.find("<h1"), page.find("<main>"));
   EXPECT_NE(page.find("Rejected for cornering at"), std::string::npos);
 }
@@ -182,7 +182,7 @@ TEST(PlanHeadline, FeasibleNamesTheMarginAndWhatBindsWhereAndWhen) {
   result.candidates[0].limiting = {
       .margin = MarginKind::kTipOver, .x_m = 12.34, .y_m = 56, .time_s = 7.25};
   result.candidates[0].verified.margin_min = 0.213;
-  EXPECT_EQ(plan_headline(result),
+  EXPECT_EQ(plan_headline(result, {}),
             "Feasible: 2 verified paths; the best keeps a stability margin of 0.21 at the "
             "mean soils; tip over binds at x = 12.3 m, y = 56.0 m, t = 7.2 s.");
   result.candidates[0].spread = MarginSpread{.draws = 100,
@@ -191,32 +191,34 @@ TEST(PlanHeadline, FeasibleNamesTheMarginAndWhatBindsWhereAndWhen) {
                                              .p05_high = 0.02,
                                              .feasible = probability_of(58, 100)};
   EXPECT_EQ(
-      plan_headline(result),
-      "Feasible: 2 verified paths; the best keeps a stability margin of -1.00 in 95 % of the "
-      "draws of the soils and enough in 58 of 100 (0.21 at the mean soils); tip over binds at "
-      "x = 12.3 m, y = 56.0 m, t = 7.2 s.");
+      plan_headline(result, {}),
+      "Feasible at the mean soils, doubtful over their draws: 2 verified paths; the best holds in "
+      "58 of 100 draws of the soils, with a stability margin of -1.00 or more in 95 % of them "
+      "(0.21 "
+      "at the mean soils); tip over binds at x = 12.3 m, y = 56.0 m, t = 7.2 s.");
+  EXPECT_EQ(plan_headline(result, {.probability_min = 0.5}).rfind("Feasible: 2", 0), 0u);
 }
 
 TEST(PlanHeadline, OnePathIsNotSeveral) {
   PlanResult result;
   result.status = PlanStatus::kFeasible;
   result.candidates.resize(1);
-  EXPECT_NE(plan_headline(result).find("1 verified path;"), std::string::npos);
+  EXPECT_NE(plan_headline(result, {}).find("1 verified path;"), std::string::npos);
 }
 
 TEST(PlanHeadline, InfeasibleGivesTheReason) {
   PlanResult result;
   result.status = PlanStatus::kInfeasible;
   result.reason = "the goal lies in forbidden ground";
-  EXPECT_EQ(plan_headline(result), "Infeasible: the goal lies in forbidden ground.");
+  EXPECT_EQ(plan_headline(result, {}), "Infeasible: the goal lies in forbidden ground.");
 }
 
 TEST(PlanHeadline, UndecidedNeverSoundsLikeNo) {
   PlanResult result;
   result.status = PlanStatus::kUndecided;
-  EXPECT_EQ(plan_headline(result), "Undecided: no path was verified within the budget.");
+  EXPECT_EQ(plan_headline(result, {}), "Undecided: no path was verified within the budget.");
   result.reason = "no path was found in 20 s.";
-  EXPECT_EQ(plan_headline(result), "Undecided: no path was found in 20 s.");
+  EXPECT_EQ(plan_headline(result, {}), "Undecided: no path was found in 20 s.");
 }
 
 }  // namespace

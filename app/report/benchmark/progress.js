@@ -22,14 +22,17 @@ function bands(series, times) {
           const k = d3.bisector(p => p.t).right(points, t);
           return k ? points[k - 1].value : null;
         });
-        const known = at.filter(isKnown).sort(d3.ascending);
-        return known.length * 2 >= series.length ? {
-          t,
-          low: d3.quantile(known, 0.25),
-          middle: d3.quantile(known, 0.5),
-          high: d3.quantile(known, 0.75)
-        } :
-                                                   null;
+        const known = at.filter(isKnown);
+        // A run without a solution yet counts as one of any cost: else the median would rise as
+        // late runs join.
+        const sorted = at.map(v => isKnown(v) ? v : Infinity).sort(d3.ascending);
+        const quantile = share => {
+          const value = d3.quantile(sorted, share);
+          return isKnown(value) ? value : d3.max(known);
+        };
+        return isKnown(d3.quantile(sorted, 0.5)) ?
+            {t, low: quantile(0.25), middle: quantile(0.5), high: quantile(0.75)} :
+            null;
       })
       .filter(p => p);
 }
@@ -51,7 +54,8 @@ function progressFigure(property) {
   const drawn = planners.map(p => ({name: p.name, points: bands(p.series, times)}));
   const all = drawn.flatMap(p => p.points.flatMap(q => [q.low, q.high]));
   if (!all.length) return null;
-  const title = capital(property.replace(/ REAL$/, ''));
+  const title = `${capital(property.replace(/ REAL$/, ''))} (weighted sum of the objective; ` +
+      `seconds where only time counts)`;
   const spec = {
     title,
     keys: drawn.map(p => plannerKey(p.name)),

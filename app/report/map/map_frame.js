@@ -1,7 +1,9 @@
 // Where the map lies on the screen. Base pixels are those of the whole map fitted into the plot;
 // pan and zoom transform base to screen.
 function mapFrame() {
-  const margin = {left: 52, right: 1, top: 1, bottom: 22};
+  // Northings of UTM have seven digits: the labels need their room.
+  const digits = d3.max([MAP.south_m, MAP.north_m], y => Math.round(y).toString().length);
+  const margin = {left: 24 + 7 * Math.max(4, digits), right: 1, top: 1, bottom: 22};
   const mapWidth_m = MAP.east_m - MAP.west_m;
   const mapHeight_m = MAP.north_m - MAP.south_m;
   const frame = {

@@ -16,7 +16,7 @@ function chartBox(svg, width, height, margin) {
 
 /// How many ticks fit side by side.
 const tickCount = (box, each_px = 85) =>
-    Math.max(2, Math.min(10, Math.floor((box.right - box.left) / each_px)));
+    Math.max(3, Math.min(10, Math.floor((box.right - box.left) / each_px)));
 
 /// Draws the axes {scale, ticks: their number, values: the ticks, format, title, grid} into a box
 /// that their scales fill.

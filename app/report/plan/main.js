@@ -1,5 +1,5 @@
 // Draws the planning report.
-document.body.classList.add(`status-${PLAN.status}`);
+document.body.classList.add(`status-${PLAN.doubtful ? 'doubtful' : PLAN.status}`);
 candidateTable(byId('candidates'));
 whatIfTable(byId('what-ifs'));
 rejectionBars(byId('rejected'));

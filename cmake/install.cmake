@@ -1,0 +1,62 @@
+# Installs the libraries with the headers that their umbrella header reaches, the package's
+# configuration, the program with what it shares, and makes a Debian package of them (cpack -G DEB).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# public_headers(variable header): the header and all of ours that it includes, from the source root.
+function(public_headers variable header)
+  set(found "")
+  set(open ${header})
+  while(open)
+    list(POP_FRONT open next)
+    list(APPEND found ${next})
+    set(file ${PROJECT_SOURCE_DIR}/${next})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    file(STRINGS ${file} lines REGEX "^#include \"[a-z_/]+/[a-z_0-9]+\\.h\"")
+    foreach(line ${lines})
+      string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${line}")
+      if(NOT included IN_LIST found AND NOT included IN_LIST open)
+        list(APPEND open ${included})
+      endif()
+    endforeach()
+  endwhile()
+  set(${variable} ${found} PARENT_SCOPE)
+endfunction()
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/regoplan)
+foreach(component ${REGOPLAN_COMPONENTS})
+  set_target_properties(regoplan_${component} PROPERTIES EXPORT_NAME ${component})
+  install(TARGETS regoplan_${component} EXPORT regoplan-${component}
+          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT regoplan-${component} FILE regoplan-${component}.cmake NAMESPACE regoplan::
+          DESTINATION ${package_folder})
+  public_headers(headers ${component}/${component}.h)
+  foreach(header ${headers})
+    get_filename_component(folder ${header} DIRECTORY)
+    install(FILES ${PROJECT_SOURCE_DIR}/${header}
+            DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/regoplan/${folder})
+  endforeach()
+endforeach()
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/regoplanConfig.cmake.in
+                              ${PROJECT_BINARY_DIR}/regoplanConfig.cmake
+                              INSTALL_DESTINATION ${package_folder})
+# Semantic versions; before 1.0 a minor version may break.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/regoplanConfigVersion.cmake
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/regoplanConfig.cmake
+              ${PROJECT_BINARY_DIR}/regoplanConfigVersion.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/ompl.cmake
+        DESTINATION ${package_folder})
+
+if(REGOPLAN_PROGRAM)
+  install(FILES ${PROJECT_SOURCE_DIR}/scenarios/demo/soils.yaml
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/regoplan/scenarios/demo)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_CONTACT "the authors of regoplan <regoplan@localhost>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY
+      "Motion-planning feasibility for wheeled vehicles on loose soil")
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  include(CPack)
+endif()
