@@ -14,9 +14,6 @@ namespace {
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-VehicleState& vehicle(ob::State* state) {
-  return state->as<VehicleSpace::StateType>()->vehicle;
-}
 const VehicleState& vehicle(const ob::State* state) {
   return state->as<VehicleSpace::StateType>()->vehicle;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -123,7 +124,7 @@ World::World(const PlanningProblem& problem, WorldUse use, int threads)
 
 double World::lateral_share_of(int soil) const {
   GroundPatch level{.known = true};
-  level.soil.fill(soil);
+  level.soil.fill(static_cast<std::int16_t>(soil));
   constexpr double kSlow_mps = 0.01;  // forces depend on ratios of velocities only
   const StateMargins straight = judge_.margins(dynamics_.rolling_state(0, 0, 0, kSlow_mps), level);
   if (!straight.supply) return 0;

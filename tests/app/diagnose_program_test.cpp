@@ -170,5 +170,17 @@ TEST_F(Diagnose, CtrlCLeavesWholeFilesMarkedInterrupted) {
   EXPECT_FALSE(folder_.read("out/corrected-model.yaml").empty());
 }
 
+TEST_F(Diagnose, NamesTheGrousersThatOneOfTwoMeasuredWheelsHas) {
+  const std::string bed = REGOPLAN_SOURCE_DIR "/benchmarks/measured/granular_bed/";
+  const ProgramRun run =
+      diagnose(bed + "grousered.csv", bed + "setup.yaml", "--reference '" + bed + "smooth.csv'");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  const auto result = nlohmann::json::parse(folder_.read("out/diagnosis.json"));
+  EXPECT_EQ(result.at("verdict"), "partly");
+  const auto& claim = result.at("mechanisms").at(0);
+  EXPECT_EQ(claim.at("id"), "grousers");
+  EXPECT_GT(claim.at("share").at("explained"), 0.75);
+}
+
 }  // namespace
 }  // namespace regoplan

@@ -276,11 +276,21 @@ TEST(WheelBadInput, NamesTheFieldThatIsOutOfRange) {
   EXPECT_EQ(rejected_field([&] { WheelModel model(spec); }), "gravity_mps2");
 }
 
+TEST(WheelModel, ALiftedWheelHasNoForces) {
+  const WheelForces lifted = WheelModel(wheel_specs::ishigami2007()).forces(0, {1, 0.1, 1.2});
+  EXPECT_EQ(lifted.status, WheelStatus::kLifted);
+  EXPECT_EQ(name(lifted.status), "lifted");
+  EXPECT_EQ(lifted.fx_n, 0);
+  EXPECT_EQ(lifted.fy_n, 0);
+  EXPECT_EQ(lifted.torque_nm, 0);
+  EXPECT_EQ(lifted.sinkage_m, 0);
+}
+
 TEST(WheelBadInput, NamesTheConditionThatCannotBe) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const WheelModel model(wheel_specs::ishigami2007());
-  for (const double load_n : {-1.0, 0.0, nan, inf}) {
+  for (const double load_n : {-1.0, nan, inf}) {
     EXPECT_EQ(rejected_field([&] { model.forces(load_n, {1, 0, 1}); }), "load_n");
   }
   EXPECT_EQ(rejected_field([&] { model.forces(60, {nan, 0, 1}); }), "vx_mps");
