@@ -37,7 +37,7 @@ class DiagnosisReportInTheBrowser : public InTheBrowser {};
 TEST_F(DiagnosisReportInTheBrowser, DrawsAClaimFromTheFindingDownToTheNumbers) {
   const std::string page = drawn(diagnosis_report(claimed_diagnosis()));
   expect_drawn_without_error(page);
-  for (const char* text : {"slip sinkage or grousers", "slip ratio 0.3 to 0.4", "95\u00a0%", "42.3",
+  for (const char* text : {"slip sinkage or grousers", "slip ratio 0.3 to 0.4", "95&nbsp;%", "42.3",
                            "beyond", "measure torque", "held out by slip band", "Drawbar pull Fx",
                            "n = n0 + n1 s + n2 s^2 (s &gt; 0)"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;

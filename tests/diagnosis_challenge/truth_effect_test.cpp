@@ -9,7 +9,6 @@
 namespace regoplan::challenge {
 namespace {
 
-
 /// Dry sand whose shear is mobilised at moderate slip.
 TruthPhysics sand(const TruthConditions& at) {
   WheelModelSpec spec = wheel_specs::ishigami2007();
