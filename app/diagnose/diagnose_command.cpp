@@ -93,8 +93,8 @@ ExitStatus run_diagnosis(const Options& options) {
   Recording& recording = run.recording.recording;
   for (const std::string& reference : options.references) {
     run.references.push_back(read_recording(reference));
-    for (std::string& warning : doubtful_values(run.references.back(), run.setup.setup)) {
-      recording.warnings.push_back(reference + ": " + warning);
+    for (const std::string& warning : doubtful_values(run.references.back(), run.setup.setup)) {
+      recording.warnings.push_back(fmt::format("{}: {}", reference, warning));
     }
     notify_of_left_out(run.references.back().left_out, options.quiet);
   }
