@@ -9,7 +9,6 @@
 namespace regoplan::challenge {
 namespace {
 
-
 TruthPhysics base_of(const WheelModelSpec& spec, double load_n, double slip, double beta_rad) {
   return {.variant = spec.variant,
           .wheel = spec.wheel,

@@ -13,7 +13,6 @@
 namespace regoplan {
 namespace {
 
-
 ForceTableSpec table_spec(const wheel_specs::NamedSpec& named) {
   return {.model = named.spec, .nominal_load_n = named.nominal_load_n, .accuracy = {}};
 }

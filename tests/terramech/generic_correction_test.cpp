@@ -14,7 +14,6 @@
 namespace regoplan {
 namespace {
 
-
 GenericCorrection some_correction() {
   return {.slip_scale = 0.25,
           .slip_angle_scale_rad = 0.15,

@@ -16,7 +16,6 @@
 namespace regoplan {
 namespace {
 
-
 WheelModel with(WheelModelSpec spec, const std::string& id, const std::string& form = "",
                 std::map<std::string, double> parameters = {}) {
   spec.mechanisms.push_back({id, form, std::move(parameters)});
