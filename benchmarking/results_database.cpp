@@ -9,7 +9,7 @@
 #include <set>
 
 #include "benchmarking/ompl_log.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "planner/problem/world.h"
 #include "planner/runtime/child_processes.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

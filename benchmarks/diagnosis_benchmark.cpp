@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "diagnosis/calibration.h"
-#include "diagnosis/condensed_recording.h"
+#include "diagnosis/bed/condensed_recording.h"
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/fit/calibration.h"
 #include "tests/diagnosis/synthetic_bed.h"
 
 namespace regoplan {

@@ -3,16 +3,14 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "planner/evaluation/evaluation.h"
 #include "planner/evaluation/manoeuvres.h"
+#include "terramech/basics/angles.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// An LRV that winds its way over firm lunar regolith of which twelve numbers are uncertain.
 struct WindingPath {

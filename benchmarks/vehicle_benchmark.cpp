@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "terramech/force_table.h"
-#include "terramech/state_margins.h"
+#include "terramech/force_table/force_table.h"
+#include "terramech/margins/state_margins.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {

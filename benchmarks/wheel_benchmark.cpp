@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "terramech/force_table.h"
-#include "terramech/wheel_model.h"
+#include "terramech/force_table/force_table.h"
+#include "terramech/wheel/wheel_model.h"
 #include "tests/terramech/wheel_reference.h"
 #include "tests/terramech/wheel_specs.h"
 

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/calibrated_recording.h"
-#include "diagnosis/claim.h"
-#include "diagnosis/correction.h"
-#include "diagnosis/detection.h"
-#include "diagnosis/instrument_checks.h"
-#include "diagnosis/location.h"
-#include "diagnosis/name_contest.h"
-#include "diagnosis/next_experiment.h"
-#include "diagnosis/partial_claim.h"
-#include "diagnosis/sentence.h"
-#include "diagnosis/smallest_detectable.h"
-#include "diagnosis/unnamed_correction.h"
+#include "diagnosis/checks/detection.h"
+#include "diagnosis/checks/instrument_checks.h"
+#include "diagnosis/checks/location.h"
+#include "diagnosis/checks/smallest_detectable.h"
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/findings/sentence.h"
+#include "diagnosis/fit/unnamed_correction.h"
+#include "diagnosis/names/calibrated_recording.h"
+#include "diagnosis/names/claim.h"
+#include "diagnosis/names/correction.h"
+#include "diagnosis/names/name_contest.h"
+#include "diagnosis/names/next_experiment.h"
+#include "diagnosis/names/partial_claim.h"
 
 namespace regoplan {
 namespace {

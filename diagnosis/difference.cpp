@@ -6,23 +6,22 @@
 #include <cmath>
 #include <memory>
 
-#include "diagnosis/capped_contest.h"
-#include "diagnosis/claim.h"
-#include "diagnosis/correction.h"
-#include "diagnosis/location.h"
-#include "diagnosis/name_share.h"
-#include "diagnosis/next_experiment.h"
-#include "diagnosis/partial_claim.h"
-#include "diagnosis/sentence.h"
-#include "diagnosis/shared_shortcomings.h"
-#include "diagnosis/unnamed_correction.h"
-#include "terramech/input_error.h"
+#include "diagnosis/checks/location.h"
+#include "diagnosis/checks/shared_shortcomings.h"
+#include "diagnosis/findings/sentence.h"
+#include "diagnosis/fit/unnamed_correction.h"
+#include "diagnosis/names/capped_contest.h"
+#include "diagnosis/names/claim.h"
+#include "diagnosis/names/correction.h"
+#include "diagnosis/names/name_share.h"
+#include "diagnosis/names/next_experiment.h"
+#include "diagnosis/names/partial_claim.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
 
 constexpr std::size_t kFewestConditions = 3;
-constexpr std::size_t kLargestClass = 4;
 constexpr double kSignificance = 1e-3;  // of a difference, under every setting of the base
 constexpr int kWorlds = 79;             // nameless differences
 

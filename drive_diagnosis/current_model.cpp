@@ -14,7 +14,6 @@ namespace regoplan {
 namespace {
 
 constexpr int kTerms = CurrentModel::kTerms;
-constexpr double kMoving_mps = 0.1;
 
 using Windows = std::vector<CurrentWindow>;
 /// Which windows go together: of one drive, one day, one stretch of a drive.

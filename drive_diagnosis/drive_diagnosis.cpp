@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "drive_diagnosis/time_checks.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 SideGeometry sides_of(const std::optional<Vehicle>& vehicle) {
   SideGeometry sides;

@@ -15,7 +15,7 @@
 #include "drive_diagnosis/mounting.h"
 #include "drive_diagnosis/sensor_checks.h"
 #include "maps/terrain_map.h"
-#include "terramech/vehicle.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace regoplan {
+
+/// Stands for a value that was not sampled, or that samples do not give.
+inline constexpr double kNotSampled = std::numeric_limits<double>::quiet_NaN();
 
 /// One sensed quantity of a drive, a value a row; NaN where it was not sampled.
 struct DriveChannel {

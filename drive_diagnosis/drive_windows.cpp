@@ -12,17 +12,15 @@
 namespace regoplan {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 struct Rows {
   std::size_t from = 0, to = 0;  ///< to is excluded
 };
 
 /// A polynomial through samples, about the middle of the window.
 struct Smoothed {
-  double value = kNaN, slope = kNaN, bend = 0;
-  double slope_std = kNaN;
-  double scatter = kNaN;  ///< standard deviation of the samples about it
+  double value = kNotSampled, slope = kNotSampled, bend = 0;
+  double slope_std = kNotSampled;
+  double scatter = kNotSampled;  ///< standard deviation of the samples about it
   int count = 0;
 };
 
@@ -64,7 +62,7 @@ double mean_of(const std::vector<float>& values, const Rows& rows) {
     sum += static_cast<double>(values[i]);
     ++count;
   }
-  return count > 0 ? sum / count : kNaN;
+  return count > 0 ? sum / count : kNotSampled;
 }
 
 double mean_angle(const std::vector<float>& values, const Rows& rows) {
@@ -76,7 +74,7 @@ double mean_angle(const std::vector<float>& values, const Rows& rows) {
     s += std::sin(static_cast<double>(values[i]));
     any = true;
   }
-  return any ? std::atan2(s, c) : kNaN;
+  return any ? std::atan2(s, c) : kNotSampled;
 }
 
 double range_of(const std::vector<float>& values, const Rows& rows) {
@@ -99,7 +97,8 @@ void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s
     ys.push_back(drive.y_m[i]);
   }
   window.fixes = static_cast<int>(xs.size());
-  const double x0 = xs.empty() ? kNaN : xs.front(), y0 = ys.empty() ? kNaN : ys.front();
+  const double x0 = xs.empty() ? kNotSampled : xs.front(),
+               y0 = ys.empty() ? kNotSampled : ys.front();
   for (double& x : xs) x -= x0;
   for (double& y : ys) y -= y0;
   const Smoothed x = smoothed(time_s, xs), y = smoothed(time_s, ys);
@@ -118,7 +117,7 @@ void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s
 void smooth_yaw(const DriveRecording& drive, const Rows& rows, double middle_s,
                 DriveWindow& window) {
   const DriveChannel* yaw = drive.channel("yaw_rad");
-  window.yaw_rad = window.yaw_rate_rad_s = window.yaw_rate_std_rad_s = kNaN;
+  window.yaw_rad = window.yaw_rate_rad_s = window.yaw_rate_std_rad_s = kNotSampled;
   if (!yaw) return;
   std::vector<double> time_s, values;
   for (std::size_t i = rows.from; i < rows.to; ++i) {
@@ -152,7 +151,7 @@ double wheel_acceleration(const DriveRecording& drive, const Rows& rows, double 
     sum += smoothed(time_s, values).slope;
     ++count;
   }
-  return count > 0 ? sum / count : kNaN;
+  return count > 0 ? sum / count : kNotSampled;
 }
 
 DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows& rows) {
@@ -162,7 +161,7 @@ DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows
   smooth_yaw(drive, rows, middle_s, window);
   smooth_track(drive, rows, middle_s, window);
   window.wheel_acceleration_rad_s2 = wheel_acceleration(drive, rows, middle_s);
-  window.pitch_rad = window.roll_rad = window.sensed_speed_mps = kNaN;
+  window.pitch_rad = window.roll_rad = window.sensed_speed_mps = kNotSampled;
   window.steady = true;
   for (const DriveChannel& channel : drive.channels) {
     const bool turns = channel.name == "yaw_rad" || channel.name == "course_rad";
@@ -205,7 +204,7 @@ double channel_mean(const DriveRecording& drive, const DriveWindow& window,
   for (std::size_t i = 0; i < drive.channels.size(); ++i) {
     if (drive.channels[i].name == channel) return window.channels[i];
   }
-  return kNaN;
+  return kNotSampled;
 }
 
 }  // namespace regoplan

@@ -7,6 +7,9 @@
 
 namespace regoplan {
 
+/// Slower, a drive is taken to stand: positions and rim speeds scatter by as much.
+inline constexpr double kMoving_mps = 0.1;
+
 /// What a drive did over a few seconds, from its fresh samples alone. NaN where the drive does not
 /// say.
 struct DriveWindow {

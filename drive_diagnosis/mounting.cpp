@@ -125,8 +125,8 @@ std::vector<Mounting> find_mountings(const std::vector<DriveRecording>& drives,
       day = mountings.end() - 1;
     }
     const auto at = static_cast<std::size_t>(day - mountings.begin());
-    constexpr double kMoving_mps = 0.15, kStraight_rad_s = 0.08;
-    if (!(window.speed_mps > kMoving_mps) || std::abs(window.yaw_rate_rad_s) > kStraight_rad_s) {
+    constexpr double kSteady_mps = 0.15, kStraight_rad_s = 0.08;
+    if (!(window.speed_mps > kSteady_mps) || std::abs(window.yaw_rate_rad_s) > kStraight_rad_s) {
       continue;
     }
     const auto ground =

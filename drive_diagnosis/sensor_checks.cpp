@@ -11,13 +11,10 @@
 #include <span>
 
 #include "drive_diagnosis/robust_statistics.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegree = std::numbers::pi / 180;
-constexpr double kMoving_mps = 0.1;
 
 /// A correlation that pairs without any relation reach once in a million.
 bool is_sure(double r, std::size_t n) {
@@ -239,7 +236,7 @@ void Checker::check_current_sides() {
 
 /// Speeds every tenth of a second, NaN where unknown.
 std::vector<double> track_speeds(const DriveRecording& drive, double step_s, std::size_t count) {
-  std::vector<double> speeds(count, kNaN);
+  std::vector<double> speeds(count, kNotSampled);
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     if (std::isnan(drive.x_m[i])) continue;
@@ -260,7 +257,7 @@ std::vector<double> track_speeds(const DriveRecording& drive, double step_s, std
 }
 
 std::vector<double> wheel_speeds(const DriveRecording& drive, double step_s, std::size_t count) {
-  std::vector<double> speeds(count, kNaN);
+  std::vector<double> speeds(count, kNotSampled);
   const auto wheels = channels_of(drive, "wheel_speed_");
   for (std::size_t i = 0; i < drive.size(); ++i) {
     double sum = 0;
@@ -292,7 +289,7 @@ double side_mean(const DriveRecording& drive, const DriveWindow& window, std::st
     sum += value;
     ++count;
   }
-  return count > 0 ? sum / count : kNaN;
+  return count > 0 ? sum / count : kNotSampled;
 }
 
 SensorChecks check_sensors(const std::vector<DriveRecording>& drives,

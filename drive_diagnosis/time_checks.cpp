@@ -11,8 +11,6 @@
 namespace regoplan {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 template <class Number>
 void keep(std::vector<Number>& values, const std::vector<bool>& kept) {
   std::size_t to = 0;
@@ -109,7 +107,7 @@ void mend_positions(DriveRecording& drive, double speed_max_mps) {
   std::vector<std::size_t> fresh;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     if (std::isnan(drive.x_m[i]) || std::isnan(drive.y_m[i])) {
-      drive.x_m[i] = drive.y_m[i] = kNaN;
+      drive.x_m[i] = drive.y_m[i] = kNotSampled;
       continue;
     }
     ++sampled;
@@ -117,7 +115,7 @@ void mend_positions(DriveRecording& drive, double speed_max_mps) {
         drive.y_m[i] == drive.y_m[fresh.back()] && i - fresh.back() < 100) {
       ++stale;
       // The last of the repeats stays the anchor, so that a parked vehicle counts as repeating.
-      drive.x_m[i] = drive.y_m[i] = kNaN;
+      drive.x_m[i] = drive.y_m[i] = kNotSampled;
       continue;
     }
     fresh.push_back(i);
@@ -150,7 +148,7 @@ void mend_positions(DriveRecording& drive, double speed_max_mps) {
     }
   }
   for (const std::size_t i : bad) {
-    drive.x_m[i] = drive.y_m[i] = kNaN;
+    drive.x_m[i] = drive.y_m[i] = kNotSampled;
     ++jumps;
   }
   if (jumps > 0) {

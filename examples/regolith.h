@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "terramech/soil.h"
+#include "terramech/parameters/soil.h"
 
 /// Firm lunar regolith, as the numbers of a soil are given: SI units and radians.
 inline regoplan::Soil firm_regolith() {

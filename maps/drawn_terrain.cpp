@@ -8,22 +8,11 @@
 #include <numbers>
 
 #include "maps/smooth_noise.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/basics/value_range.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-void check(const std::string& field, double value, double min, double max) {
-  if (!(value >= min && value <= max)) {
-    throw ValueError(field, value, fmt::format("{} to {}", min, max));
-  }
-}
-
-void check_above_0(const std::string& field, double value) {
-  if (!(value > 0 && value < kInfinity)) throw ValueError(field, value, "above 0");
-}
 
 double gaps_of(const DrawnRockRow& row) {
   const double length_m = std::hypot(row.to_x_m - row.from_x_m, row.to_y_m - row.from_y_m);
@@ -43,7 +32,7 @@ void require_bounded_work(const DrawnTerrain& drawn) {
   }
   double rocks = 0;
   for (const DrawnRockRow& row : drawn.rock_rows) {
-    check_above_0("rock_rows.spacing_m", row.spacing_m);
+    require("rock_rows.spacing_m", row.spacing_m, kAbove0);
     rocks += 1 + gaps_of(row);
   }
   if (!(rocks <= kRocksMax)) {
@@ -53,21 +42,22 @@ void require_bounded_work(const DrawnTerrain& drawn) {
 }
 
 void validate(const DrawnTerrain& drawn) {
-  check("cell_m", drawn.cell_m, 0.01, 100);
-  check("width_m", drawn.width_m, 16 * drawn.cell_m, 20000 * drawn.cell_m);
-  check("height_m", drawn.height_m, 16 * drawn.cell_m, 20000 * drawn.cell_m);
+  require("cell_m", drawn.cell_m, {.min = 0.01, .max = 100});
+  require("width_m", drawn.width_m, {.min = 16 * drawn.cell_m, .max = 20000 * drawn.cell_m});
+  require("height_m", drawn.height_m, {.min = 16 * drawn.cell_m, .max = 20000 * drawn.cell_m});
   for (const DrawnCrater& crater : drawn.craters) {
-    check_above_0("craters.diameter_m", crater.diameter_m);
-    check("craters.depth_m", crater.depth_m, 0, crater.diameter_m);
-    check("craters.rim_height_m", crater.rim_height_m, 0, crater.depth_m);
+    require("craters.diameter_m", crater.diameter_m, kAbove0);
+    require("craters.depth_m", crater.depth_m, {.min = 0, .max = crater.diameter_m});
+    require("craters.rim_height_m", crater.rim_height_m, {.min = 0, .max = crater.depth_m});
   }
   if (drawn.dunes) {
-    check("dunes.wavelength_m", drawn.dunes->wavelength_m, 4 * drawn.cell_m, 1e6);
-    check("dunes.height_m", drawn.dunes->height_m, 0, drawn.dunes->wavelength_m / 3);
+    require("dunes.wavelength_m", drawn.dunes->wavelength_m, {.min = 4 * drawn.cell_m, .max = 1e6});
+    require("dunes.height_m", drawn.dunes->height_m,
+            {.min = 0, .max = drawn.dunes->wavelength_m / 3});
   }
   for (const DrawnZone& zone : drawn.zones) {
-    check("zones.east_m", zone.east_m, zone.west_m, kInfinity);
-    check("zones.north_m", zone.north_m, zone.south_m, kInfinity);
+    require("zones.east_m", zone.east_m, {.min = zone.west_m});
+    require("zones.north_m", zone.north_m, {.min = zone.south_m});
   }
   require_bounded_work(drawn);
 }

@@ -12,8 +12,9 @@
 #include <optional>
 #include <string_view>
 
+#include "maps/table_text.h"
 #include "maps/undeclared_nodata.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
@@ -35,13 +36,6 @@ char separator_of(std::string_view line) {
     if (line.find(separator) != std::string_view::npos) return separator;
   }
   return ' ';
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\"";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
 /// The cells of a line; a run of spaces is one separator.

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "maps/terrain_map.h"
-#include "terramech/ground_patch.h"
-#include "terramech/vehicle.h"
+#include "terramech/parameters/ground_patch.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 

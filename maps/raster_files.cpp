@@ -20,7 +20,7 @@
 #include "maps/raster_units.h"
 #include "maps/undeclared_nodata.h"
 #include "maps/whole_file.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

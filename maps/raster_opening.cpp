@@ -16,7 +16,7 @@
 
 #include "maps/network_rasters.h"
 #include "maps/vrt_sources.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -10,7 +10,7 @@
 #include <regex>
 #include <string_view>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <unordered_map>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

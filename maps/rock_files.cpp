@@ -9,8 +9,9 @@
 #include <iterator>
 #include <string_view>
 
+#include "maps/table_text.h"
 #include "maps/whole_file.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 
@@ -29,13 +30,6 @@ constexpr std::array<Column, 4> kColumns{{{"x_m", &Rock::x_m, false},
                                           {"y_m", &Rock::y_m, false},
                                           {"radius_m", &Rock::radius_m, true},
                                           {"height_m", &Rock::height_m, true}}};
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\"";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 std::vector<std::string_view> fields(std::string_view line) {
   std::vector<std::string_view> result;

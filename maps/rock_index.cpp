@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

@@ -9,7 +9,8 @@
 #include "maps/crater_field.h"
 #include "maps/rock_field.h"
 #include "maps/smooth_noise.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/basics/value_range.h"
 
 namespace regoplan {
 
@@ -18,28 +19,26 @@ namespace {
 /// What hangs on the seed separately, so that a change of one leaves the others alone.
 enum Stream : std::uint64_t { kCraters, kGround, kTexture, kRocks, kRockPatches, kZones };
 
-void check(const char* field, double value, double min, double max) {
-  if (!(value >= min && value <= max)) {
-    throw ValueError(field, value, fmt::format("{} to {}", min, max));
-  }
-}
-
 void validate(const SyntheticTerrainSettings& settings) {
-  check("cell_m", settings.cell_m, 0.01, 100);
-  check("width_m", settings.width_m, 16 * settings.cell_m, 20000 * settings.cell_m);
-  check("height_m", settings.height_m, 16 * settings.cell_m, 20000 * settings.cell_m);
+  require("cell_m", settings.cell_m, {.min = 0.01, .max = 100});
+  require("width_m", settings.width_m,
+          {.min = 16 * settings.cell_m, .max = 20000 * settings.cell_m});
+  require("height_m", settings.height_m,
+          {.min = 16 * settings.cell_m, .max = 20000 * settings.cell_m});
   // A crater of fewer cells has neither rim nor floor.
-  check("crater_diameter_min_m", settings.crater_diameter_min_m, 4 * settings.cell_m, 5000);
-  check("crater_diameter_max_m", settings.crater_diameter_max_m, settings.crater_diameter_min_m,
-        5000);
-  check("crater_density_scale", settings.crater_density_scale, 0, 4);
-  check("roughness_m", settings.roughness_m, 0, 100);
-  check("rock_coverage", settings.rock_coverage, 0, 0.3);
-  check("rock_diameter_min_m", settings.rock_diameter_min_m, 0.05, 20);
-  check("rock_diameter_max_m", settings.rock_diameter_max_m, settings.rock_diameter_min_m,
-        std::min({20.0, settings.width_m / 2, settings.height_m / 2}));
-  check("soil_zones", settings.soil_zones, 1, 100);
-  check("soil_zone_size_m", settings.soil_zone_size_m, 2 * settings.cell_m, 1e6);
+  require("crater_diameter_min_m", settings.crater_diameter_min_m,
+          {.min = 4 * settings.cell_m, .max = 5000});
+  require("crater_diameter_max_m", settings.crater_diameter_max_m,
+          {.min = settings.crater_diameter_min_m, .max = 5000});
+  require("crater_density_scale", settings.crater_density_scale, {.min = 0, .max = 4});
+  require("roughness_m", settings.roughness_m, {.min = 0, .max = 100});
+  require("rock_coverage", settings.rock_coverage, {.min = 0, .max = 0.3});
+  require("rock_diameter_min_m", settings.rock_diameter_min_m, {.min = 0.05, .max = 20});
+  require("rock_diameter_max_m", settings.rock_diameter_max_m,
+          {.min = settings.rock_diameter_min_m,
+           .max = std::min({20.0, settings.width_m / 2, settings.height_m / 2})});
+  require("soil_zones", settings.soil_zones, {.min = 1, .max = 100});
+  require("soil_zone_size_m", settings.soil_zone_size_m, {.min = 2 * settings.cell_m, .max = 1e6});
 }
 
 /// `value(x_m, y_m)` at the centre of every cell.

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "maps/rock_index.h"
-#include "terramech/soil.h"
+#include "terramech/parameters/soil.h"
 
 namespace regoplan {
 

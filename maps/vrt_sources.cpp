@@ -13,7 +13,7 @@
 #include <set>
 #include <string_view>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

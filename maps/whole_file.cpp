@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

@@ -9,7 +9,7 @@
 #include "planner/ompl/search_run.h"
 #include "planner/runtime/child_processes.h"
 #include "planner/verdict/verified_path.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

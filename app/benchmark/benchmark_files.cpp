@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/benchmark/optional_json.h"
 #include "app/io/staged_files.h"
 #include "benchmarking/ompl_log.h"
 #include "benchmarking/results_database.h"
@@ -13,10 +14,6 @@
 namespace regoplan {
 namespace {
 
-nlohmann::json json_of(const std::optional<double>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
-}
-
 nlohmann::json json_of(const PlannerSummary& summary) {
   return {{"planner", summary.planner},
           {"runs", summary.runs},
@@ -24,12 +21,12 @@ nlohmann::json json_of(const PlannerSummary& summary) {
           {"overturned", summary.overturned},
           {"crashed", summary.crashed},
           {"success_ci95", summary.success_ci95},
-          {"time_median_s", json_of(summary.time_median_s)},
-          {"length_median_m", json_of(summary.length_median_m)},
-          {"duration_median_s", json_of(summary.duration_median_s)},
-          {"energy_median_j", json_of(summary.energy_median_j)},
-          {"margin_median", json_of(summary.margin_median)},
-          {"propagations_median", json_of(summary.propagations_median)}};
+          {"time_median_s", or_null(summary.time_median_s)},
+          {"length_median_m", or_null(summary.length_median_m)},
+          {"duration_median_s", or_null(summary.duration_median_s)},
+          {"energy_median_j", or_null(summary.energy_median_j)},
+          {"margin_median", or_null(summary.margin_median)},
+          {"propagations_median", or_null(summary.propagations_median)}};
 }
 
 nlohmann::json json_of(const PairedComparison& pair) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/benchmark/optional_json.h"
 #include "app/page/report_assets.h"
 #include "app/page/report_map.h"
 #include "app/page/report_page.h"
@@ -13,10 +14,6 @@
 
 namespace regoplan {
 namespace {
-
-nlohmann::json json_of(const std::optional<double>& value) {
-  return value ? nlohmann::json(*value) : nlohmann::json(nullptr);
-}
 
 /// Every so manieth point, so that a page of many runs stays small.
 nlohmann::json thinned(const std::vector<std::array<double, 3>>& path) {
@@ -37,14 +34,14 @@ nlohmann::json json_of(const RunRecord& run, bool with_path) {
                       {"verified", solved_and_verified(outcome)},
                       {"overturned", number(outcome, "overturned BOOLEAN") == 1},
                       {"crashed", number(outcome, "status ENUM") == ompl_crash_status()},
-                      {"time_s", json_of(number(outcome, "time REAL"))},
-                      {"first_solution_s", json_of(first_solution_s(outcome))},
-                      {"length_m", json_of(number(outcome, "path length m REAL"))},
-                      {"duration_s", json_of(number(outcome, "path duration s REAL"))},
-                      {"energy_j", json_of(number(outcome, "path energy j REAL"))},
-                      {"margin_min", json_of(number(outcome, "margin min REAL"))},
-                      {"margin_p05", json_of(number(outcome, "margin p05 REAL"))},
-                      {"propagations", json_of(number(outcome, "propagations INTEGER"))}};
+                      {"time_s", or_null(number(outcome, "time REAL"))},
+                      {"first_solution_s", or_null(first_solution_s(outcome))},
+                      {"length_m", or_null(number(outcome, "path length m REAL"))},
+                      {"duration_s", or_null(number(outcome, "path duration s REAL"))},
+                      {"energy_j", or_null(number(outcome, "path energy j REAL"))},
+                      {"margin_min", or_null(number(outcome, "margin min REAL"))},
+                      {"margin_p05", or_null(number(outcome, "margin p05 REAL"))},
+                      {"propagations", or_null(number(outcome, "propagations INTEGER"))}};
   if (with_path) json["path"] = thinned(outcome.path);
   if (!outcome.progress.empty()) {
     json["progress_names"] = outcome.progress_names;

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "terramech/value_range.h"
+#include "terramech/basics/value_range.h"
 
 namespace regoplan {
 

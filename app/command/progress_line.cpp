@@ -5,11 +5,9 @@
 
 #include <cstdio>
 
-namespace regoplan {
+#include "app/command/terminal_line.h"
 
-namespace {
-constexpr const char* kWipeLine = "\r\033[K";
-}
+namespace regoplan {
 
 ProgressLine::ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) == 1) {}
 

@@ -5,10 +5,10 @@
 
 #include <cstdio>
 
+#include "app/command/terminal_line.h"
+
 namespace regoplan {
 namespace {
-
-constexpr const char* kWipeLine = "\r\033[K";
 
 std::string words(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", seconds);

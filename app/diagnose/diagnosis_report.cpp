@@ -9,7 +9,8 @@
 #include "app/page/report_assets.h"
 #include "app/page/report_page.h"
 #include "app/settings/model_settings.h"
-#include "terramech/mechanism.h"
+#include "terramech/basics/angles.h"
+#include "terramech/mechanisms/mechanism.h"
 
 namespace regoplan {
 namespace {
@@ -26,7 +27,6 @@ json column(const std::vector<WheelRun>& runs, Get get) {
 
 json runs_json(const Recording& recording) {
   const auto& runs = recording.runs;
-  const auto degrees = [](double rad) { return rad * 180 / std::numbers::pi; };
   json columns = {{"run_id", column(runs, [](const WheelRun& run) { return run.run_id; })},
                   {"load_n", column(runs, [](const WheelRun& run) { return run.load_n; })},
                   {"slip_ratio", column(runs, [](const WheelRun& run) { return run.slip_ratio; })},

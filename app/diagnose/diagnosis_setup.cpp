@@ -13,10 +13,6 @@
 namespace regoplan {
 namespace {
 
-constexpr std::array<Channel, kChannelCount> kChannels{Channel::kFx,      Channel::kFy,
-                                                       Channel::kTorque,  Channel::kSinkage,
-                                                       Channel::kRutLeft, Channel::kRutRight};
-
 std::map<Channel, double> read_noise(const SettingsNode& node) {
   return read_mapping(node, [](SettingsMapping& mapping) {
     std::map<Channel, double> noise;

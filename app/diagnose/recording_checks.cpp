@@ -4,16 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
-#include "terramech/input_error.h"
-#include "terramech/wheel_model.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// One value of a channel, in units of what limits it, beside the model's.
 struct Sample {

@@ -8,19 +8,17 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <optional>
 
 #include "app/io/csv_table.h"
 #include "app/io/number_text.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
 
 using Cells = CsvTable::Cells;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 constexpr std::array<std::string_view, 4> kRequired{"run_id", "load_n", "slip_ratio",
                                                     "slip_angle_deg"};
@@ -41,10 +39,6 @@ constexpr std::array<Circumstance, 4> kCircumstances{{
      &RecordedColumns::wheel_angle},
 }};
 constexpr std::array<std::string_view, 4> kOtherCircumstances{"day", "replicate", "pass", "wheel"};
-
-constexpr std::array<Channel, kChannelCount> kChannels{Channel::kFx,      Channel::kFy,
-                                                       Channel::kTorque,  Channel::kSinkage,
-                                                       Channel::kRutLeft, Channel::kRutRight};
 
 /// Days since 1970-01-01 of `2020-11-16`, also with a time of day behind a `T` or a space.
 std::optional<double> iso_day(std::string_view text) {

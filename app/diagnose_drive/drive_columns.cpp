@@ -4,11 +4,11 @@
 #include <numbers>
 
 #include "app/settings/settings_mapping.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kRpm = std::numbers::pi / 30;
 
 struct ColumnUnit {

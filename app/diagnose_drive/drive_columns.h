@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/settings/settings_node.h"
-#include "terramech/value_range.h"
+#include "terramech/basics/value_range.h"
 
 namespace regoplan {
 

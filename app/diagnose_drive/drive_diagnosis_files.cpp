@@ -5,17 +5,15 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/diagnose_drive/drive_diagnosis_report.h"
 #include "app/io/csv_cells.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kDegree = std::numbers::pi / 180;
-
 Json estimate_json(const DriveEstimate& estimate) {
   return {{"value", estimate.value}, {"std", estimate.std}};
 }

@@ -14,12 +14,10 @@
 #include "app/io/csv_table.h"
 #include "app/io/number_text.h"
 #include "drive_diagnosis/time_checks.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A column of the file on its way to a channel.
 struct BoundColumn {
@@ -154,20 +152,20 @@ void DriveReader::note(const std::string& kind, const std::string& what) {
 
 double DriveReader::cell_value(const CsvTable::Cells& cells, const BoundColumn& column) {
   const std::string& cell = cells[column.cell];
-  if (cell.empty()) return kNaN;
-  if (column.fresh && parse_number(cells[*column.fresh]).value_or(1) == 0) return kNaN;
+  if (cell.empty()) return kNotSampled;
+  if (column.fresh && parse_number(cells[*column.fresh]).value_or(1) == 0) return kNotSampled;
   const std::optional<double> number = parse_number(cell);
   if (!number) {
     note("no_number", fmt::format("{}:{}: {}: {} is no number", file_, table_.line(), column.shown,
                                   cell.substr(0, 20)));
-    return kNaN;
+    return kNotSampled;
   }
   const double value = column.scale * *number + column.offset;
   if (!column.known.allowed.contains(value)) {
     note("out_of_range",
          fmt::format("{}:{}: {}: {} is not valid (allowed: {})", file_, table_.line(), column.shown,
                      cell.substr(0, 20), column.known.allowed.text()));
-    return kNaN;
+    return kNotSampled;
   }
   return value * column.known.per_unit;
 }
@@ -175,7 +173,7 @@ double DriveReader::cell_value(const CsvTable::Cells& cells, const BoundColumn& 
 void DriveReader::add_attitude(const CsvTable::Cells& cells, std::vector<double>& values) {
   std::array<double, 4> q{};
   for (std::size_t i = 0; i < 4; ++i)
-    q.at(i) = parse_number(cells[quaternion_.at(i)]).value_or(kNaN);
+    q.at(i) = parse_number(cells[quaternion_.at(i)]).value_or(kNotSampled);
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (!(std::abs(norm - 1) < 0.1)) {
     if (std::isfinite(norm)) {
@@ -183,7 +181,7 @@ void DriveReader::add_attitude(const CsvTable::Cells& cells, std::vector<double>
                                        "(allowed: 0.9 to 1.1)",
                                        file_, table_.line(), norm));
     }
-    values.insert(values.end(), {kNaN, kNaN, kNaN});
+    values.insert(values.end(), {kNotSampled, kNotSampled, kNotSampled});
     return;
   }
   for (double& part : q) part /= norm;

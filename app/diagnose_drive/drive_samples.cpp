@@ -6,8 +6,6 @@
 namespace regoplan {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 double merged(double a, double b, bool mean, bool first) {
   if (std::isnan(a)) return b;
   if (std::isnan(b) || first) return a;
@@ -55,7 +53,7 @@ void DriveSamples::add(const std::vector<double>& values) {
 void DriveSamples::flush() {
   pending_ = 0;
   for (Column& column : columns_) {
-    double value = kNaN;
+    double value = kNotSampled;
     if (column.count > 0) {
       value = column.merge == Merge::kMean ? column.sum / column.count : column.last;
     }

@@ -1,16 +1,14 @@
 #include "app/diagnose_drive/drive_setup.h"
 
 #include <filesystem>
-#include <numbers>
 
 #include "app/settings/scenario_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/vehicle_settings.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 DriveEstimate read_angle(const SettingsNode& node) {
   constexpr ValueRange kAngle{.min = -180, .max = 180};

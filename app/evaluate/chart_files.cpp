@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "app/io/csv_cells.h"
 #include "app/page/report_page.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
-
-double degrees(double rad) {
-  return rad * (180 / std::numbers::pi);
-}
 
 struct Axis {
   std::string label;

@@ -5,22 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/evaluate/evaluation_report.h"
 #include "app/io/staged_files.h"
 #include "app/settings/effective_settings.h"
 #include "app/settings/model_settings.h"
 #include "planner/problem/rejection_text.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double degrees(double rad) {
-  return rad * (180 / std::numbers::pi);
-}
 
 Json refusal_json(const Refusal& refusal) {
   const RejectedQuantity& counted = quantity(refusal.reason);

@@ -11,9 +11,9 @@
 #include "app/io/csv_cells.h"
 #include "app/io/number_text.h"
 #include "planner/evaluation/course_bounds.h"
-#include "terramech/angles.h"
-#include "terramech/input_error.h"
-#include "terramech/value_range.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/basics/value_range.h"
 
 namespace regoplan {
 namespace {

@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "app/io/result_manifest.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace fs = std::filesystem;

@@ -11,7 +11,7 @@
 #include "app/settings/map_notices.h"
 #include "app/settings/soil_settings.h"
 #include "maps/raster_files.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

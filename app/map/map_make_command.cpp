@@ -14,8 +14,8 @@
 #include "app/map/stub_options.h"
 #include "app/settings/soil_settings.h"
 #include "maps/synthetic_terrain.h"
-#include "terramech/input_error.h"
-#include "terramech/vehicle.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 namespace {

@@ -4,14 +4,11 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
-
-double degrees(double rad) {
-  return rad * (180 / std::numbers::pi);
-}
 
 /// `PROJCRS["UTM zone 33N", ...` is called "UTM zone 33N".
 std::string crs_title(const std::string& wkt) {

@@ -14,8 +14,8 @@
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "planner/problem/world.h"
-#include "terramech/angles.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

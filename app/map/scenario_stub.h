@@ -5,7 +5,7 @@
 
 #include "app/io/staged_files.h"
 #include "maps/terrain_map.h"
-#include "terramech/vehicle.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 

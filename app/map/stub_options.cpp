@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "app/command/command.h"
-#include "terramech/vehicle.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 namespace {

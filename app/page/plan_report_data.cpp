@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "app/page/report_map.h"
 #include "app/page/spread_json.h"
@@ -12,6 +11,7 @@
 #include "planner/problem/rejection_text.h"
 #include "planner/verdict/pareto.h"
 #include "planner/verdict/ranking.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
@@ -21,10 +21,6 @@ using nlohmann::json;
 constexpr std::size_t kPointsOfPathMax = 1000;
 constexpr std::size_t kPointsOfAllMax = 8000;
 constexpr std::size_t kRejectedStatesMax = 4000;
-
-double degrees(double angle_rad) {
-  return angle_rad * 180 / std::numbers::pi;
-}
 
 /// Short to write; what is not finite stays what it is.
 double rounded(double value, int decimals) {

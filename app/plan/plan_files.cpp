@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <regex>
 #include <string_view>
 
@@ -17,15 +16,12 @@
 #include "maps/raster_files.h"
 #include "planner/problem/terrain_rasters.h"
 #include "planner/verdict/pareto.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double degrees(double rad) {
-  return rad * (180 / std::numbers::pi);
-}
 
 std::string candidate_file(int rank, std::string_view extension) {
   return fmt::format("candidate-{}.{}", rank, extension);

@@ -4,7 +4,7 @@
 
 #include "app/io/number_text.h"
 #include "app/settings/settings_mapping.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "app/settings/settings_node.h"
-#include "terramech/generic_correction.h"
+#include "terramech/mechanisms/generic_correction.h"
 
 namespace regoplan {
 

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The degrees that read back to these radians.
-double degrees(double angle_rad) {
+double degrees_as_written(double angle_rad) {
   return parse_number(number_in_unit(angle_rad, std::numbers::pi / 180)).value();
 }
 
@@ -40,7 +40,7 @@ Json as_json(const YAML::Node& yaml) {
 Json start_json(const StartState& start) {
   return {{"x_m", start.x_m},
           {"y_m", start.y_m},
-          {"heading_deg", degrees(start.heading_rad)},
+          {"heading_deg", degrees_as_written(start.heading_rad)},
           {"speed_mps", start.speed_mps}};
 }
 
@@ -50,8 +50,8 @@ Json goal_json(const Goal& goal) {
             {"radius_m", goal.radius_m},
             {"speed_mps", {{"max", goal.speed_max_mps}}}};
   if (goal.heading_rad) {
-    json["heading_deg"] = degrees(*goal.heading_rad);
-    json["heading_tolerance_deg"] = degrees(goal.heading_tolerance_rad);
+    json["heading_deg"] = degrees_as_written(*goal.heading_rad);
+    json["heading_tolerance_deg"] = degrees_as_written(goal.heading_tolerance_rad);
   }
   return json;
 }

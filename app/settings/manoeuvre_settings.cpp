@@ -9,7 +9,7 @@
 
 #include "app/settings/settings_mapping.h"
 #include "app/settings/vehicle_settings.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "maps/terrain_map.h"
-#include "terramech/vehicle.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 

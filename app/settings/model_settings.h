@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/settings/settings_node.h"
-#include "terramech/wheel_model.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 

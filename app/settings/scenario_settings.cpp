@@ -14,7 +14,7 @@
 #include "app/settings/terrain_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "maps/raster_files.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

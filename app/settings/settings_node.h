@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "terramech/input_error.h"
-#include "terramech/value_range.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/basics/value_range.h"
 
 namespace regoplan {
 

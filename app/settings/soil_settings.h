@@ -5,7 +5,7 @@
 
 #include "app/settings/settings_mapping.h"
 #include "maps/terrain_map.h"
-#include "terramech/wheel_model.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/settings/settings_mapping.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

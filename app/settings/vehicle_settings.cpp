@@ -12,7 +12,7 @@
 #include "app/settings/settings_mapping.h"
 #include "app/settings/settings_path.h"
 #include "app/settings/soil_settings.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

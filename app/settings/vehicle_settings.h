@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/settings/settings_node.h"
-#include "terramech/vehicle.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 

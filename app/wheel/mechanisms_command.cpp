@@ -5,15 +5,15 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 
 #include "app/command/command.h"
 #include "app/command/plan_options.h"
 #include "app/settings/model_settings.h"
-#include "terramech/input_error.h"
-#include "terramech/mechanism.h"
-#include "terramech/wheel_model.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/mechanisms/mechanism.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 namespace {
@@ -27,7 +27,6 @@ struct MechanismsOptions {
   bool quiet = false;
 };
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kSlips{-0.6, -0.3, 0.0, 0.2, 0.4, 0.6, 0.8};
 constexpr double kSlipAngle_rad = 15 * kDegree;
 constexpr double kLoad_n = 60;
@@ -50,7 +49,7 @@ WheelModelSpec pictured() {
 }
 
 /// Second pass, fast, late, in the zone: where mechanisms of circumstances act.
-constexpr WheelConditions kCircumstances{
+constexpr WheelConditions kWhereMechanismsAct{
     .pass = 2, .speed_mps = 0.2, .position_m = 0.5, .time_s = 3e4, .heading_rad = 0};
 
 struct Change {
@@ -74,7 +73,7 @@ std::vector<std::optional<Change>> changes_of(const MechanismForm& form) {
   for (const double slip : kSlips) {
     const WheelMotion motion = motion_at(slip, kSlipAngle_rad);
     const WheelForces a = base.forces(kLoad_n, motion);
-    const WheelForces b = with.channels(kLoad_n, motion, kCircumstances).forces;
+    const WheelForces b = with.channels(kLoad_n, motion, kWhereMechanismsAct).forces;
     if (!has_forces(a.status) || !has_forces(b.status)) {
       changes.emplace_back();
       continue;

@@ -16,7 +16,7 @@
 #include "app/settings/model_settings.h"
 #include "app/wheel/wheel_figures.h"
 #include "app/wheel/wheel_rows.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-#include "terramech/paper_figures.h"
+#include "terramech/wheel/paper_figures.h"
 
 namespace regoplan {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "terramech/wheel_model.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 

@@ -14,7 +14,7 @@
 
 #include "benchmarks/diagnosis/baselines.h"
 #include "benchmarks/diagnosis/challenge_files.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan::challenge {
 namespace {

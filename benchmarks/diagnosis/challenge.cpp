@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan::challenge {
 namespace {

@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+
+#include "terramech/basics/angles.h"
 
 namespace regoplan::challenge {
-namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
-
-}  // namespace
+namespace {}  // namespace
 
 std::string recording_csv(const Recording& recording) {
   const RecordedColumns& has = recording.columns;

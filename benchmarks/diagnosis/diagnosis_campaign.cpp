@@ -12,7 +12,7 @@
 
 #include "benchmarks/diagnosis/campaign_summary.h"
 #include "benchmarks/diagnosis/case_process.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace {
 

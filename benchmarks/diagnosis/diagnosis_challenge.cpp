@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "benchmarks/diagnosis/challenge_files.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace {
 

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "terramech/basics/angles.h"
 
 namespace regoplan::challenge {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr int kDays = 3;
 
 std::size_t at(Channel channel) {

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
+
+#include "terramech/basics/angles.h"
 
 namespace regoplan::challenge {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Bed {
   Wheel wheel;

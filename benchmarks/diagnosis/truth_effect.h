@@ -45,7 +45,8 @@ struct DrawnEffect {
   double shape = 0.5;
 };
 
-/// At least two forms of most ids of the vocabulary, none of them a form of terramech/mechanism.h.
+/// At least two forms of most ids of the vocabulary, none of them a form of
+/// terramech/mechanisms/mechanism.h.
 const std::vector<TruthEffect>& listed_effects();
 
 /// The parts of that list.

@@ -3,7 +3,7 @@
 #include <limits>
 #include <optional>
 
-#include "terramech/wheel_model.h"
+#include "terramech/wheel/wheel_model.h"
 
 /// Challenges for the diagnosis: recordings whose missing physics is known to the generator alone.
 namespace regoplan::challenge {

@@ -10,7 +10,7 @@
 #include "benchmarks/planner/campaign_runs.h"
 #include "benchmarks/planner/campaign_text.h"
 #include "benchmarks/planner/campaigns.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

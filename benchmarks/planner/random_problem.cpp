@@ -7,7 +7,7 @@
 
 #include "planner/search/search_processes.h"
 #include "planner/verdict/verified_path.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

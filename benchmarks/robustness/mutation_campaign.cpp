@@ -17,7 +17,7 @@
 
 #include "benchmarks/robustness/mutation.h"
 #include "benchmarks/robustness/readers.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -20,7 +20,7 @@
 #include "app/settings/vehicle_settings.h"
 #include "maps/raster_files.h"
 #include "maps/rock_files.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <ompl/base/PlannerStatus.h>
-#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/config.h>
 #include <ompl/control/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
@@ -13,10 +12,11 @@
 #include <cmath>
 
 #include "planner/driving/margin_draws.h"
+#include "planner/ompl/iteration_termination.h"
 #include "planner/ompl/ompl_planners.h"
 #include "planner/ompl/ompl_problem.h"
 #include "planner/verdict/verified_path.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/certificate/least_length.h"
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 
 namespace regoplan {
 

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "planner/problem/world.h"
-#include "terramech/angles.h"
-#include "terramech/parallel_for.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "maps/ground_finder.h"
 #include "planner/chart/feasibility_chart.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

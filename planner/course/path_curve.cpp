@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

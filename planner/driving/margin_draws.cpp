@@ -6,7 +6,7 @@
 #include <set>
 
 #include "planner/soils/soil_uncertainty.h"
-#include "terramech/parallel_for.h"
+#include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "maps/ground_finder.h"
-#include "terramech/state_margins.h"
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/margins/state_margins.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 
 namespace regoplan {
 namespace {

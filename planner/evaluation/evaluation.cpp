@@ -9,7 +9,7 @@
 #include "planner/driving/path_margins.h"
 #include "planner/driving/stopping.h"
 #include "planner/problem/rejection_text.h"
-#include "terramech/parallel_for.h"
+#include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "planner/evaluation/course_bounds.h"
-#include "terramech/angles.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

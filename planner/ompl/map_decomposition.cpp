@@ -29,7 +29,7 @@ class MapDecomposition : public oc::GridDecomposition {
       : oc::GridDecomposition(kRegionsAcross, 2, bounds_of(frame)) {}
 
   void project(const ob::State* state, std::vector<double>& place) const override {
-    const VehicleState& vehicle = state->as<VehicleSpace::StateType>()->vehicle;
+    const VehicleState& vehicle = VehicleSpace::vehicle(state);
     place = {vehicle.x_m, vehicle.y_m};
   }
   void sampleFullState(const ob::StateSamplerPtr& sampler, const std::vector<double>& place,

@@ -14,7 +14,7 @@
 #include "planner/ompl/map_decomposition.h"
 #include "planner/ompl/stable_sparse.h"
 #include "planner/ompl/state_cost.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

@@ -80,13 +80,13 @@ class VehicleGoal : public ob::GoalSampleableRegion {
     return isSatisfied(state);
   }
   double distanceGoal(const ob::State* state) const override {
-    const VehicleState& v = state->as<VehicleSpace::StateType>()->vehicle;
+    const VehicleState& v = VehicleSpace::vehicle(state);
     return std::hypot(v.x_m - goal_.x_m, v.y_m - goal_.y_m);
   }
   /// A state that may well be: at half of the speed that is allowed, any place and heading that
   /// counts.
   void sampleGoal(ob::State* state) const override {
-    constexpr double kSpeedShare = 0.5;
+    constexpr double kLikelySpeedShare = 0.5;
     const double speed_max_mps = std::min(goal_.speed_max_mps, world_.problem().speed_max_mps);
     const double share = World::kSearchGoalShare;
     const double away_m = share * goal_.radius_m * std::sqrt(random_.uniform01());
@@ -96,9 +96,9 @@ class VehicleGoal : public ob::GoalSampleableRegion {
                                    ? *goal_.heading_rad + share * turn * goal_.heading_tolerance_rad
                                    : turn * std::numbers::pi;
     auto* typed = state->as<VehicleSpace::StateType>();
-    typed->vehicle = world_.dynamics().rolling_state(goal_.x_m + away_m * std::cos(aside_rad),
-                                                     goal_.y_m + away_m * std::sin(aside_rad),
-                                                     heading_rad, kSpeedShare * speed_max_mps);
+    typed->vehicle = world_.dynamics().rolling_state(
+        goal_.x_m + away_m * std::cos(aside_rad), goal_.y_m + away_m * std::sin(aside_rad),
+        heading_rad, kLikelySpeedShare * speed_max_mps);
     typed->strain = {};
     typed->possible = true;
     const auto& cost_axis = si_->getStateSpace()->as<VehicleSpace>()->cost_axis();

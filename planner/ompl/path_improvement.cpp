@@ -13,7 +13,7 @@
 #include "planner/ompl/path_cost.h"
 #include "planner/ompl/search_steps.h"
 #include "planner/ompl/steering_samplers.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -1,11 +1,11 @@
 #include "planner/ompl/search_run.h"
 
-#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/util/Console.h>
 
 #include <chrono>
 #include <limits>
 
+#include "planner/ompl/iteration_termination.h"
 #include "planner/ompl/ompl_planners.h"
 #include "planner/ompl/ompl_problem.h"
 

@@ -1,11 +1,11 @@
 #include "planner/ompl/state_cost.h"
 
-#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/control/PathControl.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "planner/ompl/iteration_termination.h"
 #include "planner/ompl/ompl_planners.h"
 #include "planner/ompl/path_cost.h"
 
@@ -15,14 +15,14 @@ namespace {
 namespace ob = ompl::base;
 
 /// The drives of a path up to where it reaches the goal, and what they cost.
-struct Driven {
+struct DrivesToGoal {
   std::vector<Drive> drives;
   double cost = std::numeric_limits<double>::infinity();  ///< finite where it does
 };
 
-Driven driven(OmplProblem& problem, const VehicleSpace::Values& start,
-              const std::vector<ControlSegment>& controls) {
-  Driven path;
+DrivesToGoal driven(OmplProblem& problem, const VehicleSpace::Values& start,
+                    const std::vector<ControlSegment>& controls) {
+  DrivesToGoal path;
   VehicleSpace::Values values = start;
   double cost = 0;
   for (const Drive& drive : drives_of(controls, problem.step_s())) {
@@ -70,7 +70,7 @@ bool StateCost::round(const ob::PlannerTerminationCondition& stop, const std::st
   planner->setup();
   ob::IterationTerminationCondition share(iterations);
   planner->solve(ob::plannerOrTerminationCondition(stop, share));
-  Driven path = driven(problem_, start_, exact_solution(*definition));
+  DrivesToGoal path = driven(problem_, start_, exact_solution(*definition));
   return best_.offer(path.cost, std::move(path.drives));
 }
 

@@ -16,10 +16,6 @@ namespace {
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-const VehicleState& vehicle(const ob::State* state) {
-  return state->as<VehicleSpace::StateType>()->vehicle;
-}
-
 /// A turn slips the wheels and tilted ground takes of the supply: not all that straight driving
 /// leaves is there to turn with. Where straight driving has nothing to spare, turns are still
 /// tried.
@@ -93,13 +89,13 @@ void SteeringSampler::sample(oc::Control* control) {
 
 void SteeringSampler::sample(oc::Control* control, const ob::State* state) {
   if (rng_.uniform01() < 0.5) {
-    VehicleControlSpace::set(control, drawn_control(world_, vehicle(state), rng_));
+    VehicleControlSpace::set(control, drawn_control(world_, VehicleSpace::vehicle(state), rng_));
     return;
   }
   const double speed = drawn_speed_mps(world_.problem(), rng_);
-  const CostToGo::Place place = aim(world_, way_, vehicle(state), speed, rng_);
-  VehicleControlSpace::set(control,
-                           control_toward(world_, vehicle(state), place.x_m, place.y_m, speed));
+  const CostToGo::Place place = aim(world_, way_, VehicleSpace::vehicle(state), speed, rng_);
+  VehicleControlSpace::set(
+      control, control_toward(world_, VehicleSpace::vehicle(state), place.x_m, place.y_m, speed));
 }
 
 void SteeringSampler::sampleNext(oc::Control* control, const oc::Control* /*previous*/,
@@ -122,7 +118,7 @@ unsigned int PursuitSampler::drive(const oc::Control* control, const ob::State* 
     si_->propagate(result, control, 1, next);
     if (!si_->isValid(next)) break;
     si_->copyState(result, next);
-    if (world_.at_goal(vehicle(result))) {
+    if (world_.at_goal(VehicleSpace::vehicle(result))) {
       ++done;
       break;
     }
@@ -137,10 +133,11 @@ unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* sou
   constexpr unsigned int kShortestMotion = 4;  // steps, unless it arrives
   constexpr double kGuided = 0.5, kAny = std::numeric_limits<double>::infinity();
   const PlanningProblem& problem = world_.problem();
-  const VehicleState& from = vehicle(source);
-  const CostToGo::Place place = rng_.uniform01() < kGuided
-                                    ? aim(world_, way_, from, drawn_speed_mps(problem, rng_), rng_)
-                                    : CostToGo::Place{vehicle(target).x_m, vehicle(target).y_m};
+  const VehicleState& from = VehicleSpace::vehicle(source);
+  const CostToGo::Place place =
+      rng_.uniform01() < kGuided
+          ? aim(world_, way_, from, drawn_speed_mps(problem, rng_), rng_)
+          : CostToGo::Place{VehicleSpace::vehicle(target).x_m, VehicleSpace::vehicle(target).y_m};
   const double away = std::hypot(place.x_m - from.x_m, place.y_m - from.y_m);
   ob::State* reached = si_->allocState();
   ob::State* best = si_->allocState();
@@ -161,9 +158,9 @@ unsigned int PursuitSampler::sampleTo(oc::Control* control, const ob::State* sou
     const auto& values = *reached->as<VehicleSpace::StateType>();
     const bool arrived = done > 0 && problem_.arrival(values, values.cost, kAny).reached;
     if (done < kShortestMotion && !arrived) continue;
-    const double distance =
-        arrived ? 0
-                : std::hypot(vehicle(reached).x_m - place.x_m, vehicle(reached).y_m - place.y_m);
+    const double distance = arrived ? 0
+                                    : std::hypot(VehicleSpace::vehicle(reached).x_m - place.x_m,
+                                                 VehicleSpace::vehicle(reached).y_m - place.y_m);
     if (best_steps == 0 || distance < best_distance) {
       best_steps = done;
       best_distance = distance;

@@ -14,10 +14,6 @@ namespace {
 namespace ob = ompl::base;
 namespace oc = ompl::control;
 
-const VehicleState& vehicle(const ob::State* state) {
-  return state->as<VehicleSpace::StateType>()->vehicle;
-}
-
 double angle_between(double a, double b) {
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
 }
@@ -38,13 +34,13 @@ class UniformSampler : public ob::StateSampler {
         rng_.uniformReal(0.5 * speed_max_, speed_max_));
   }
   void sampleUniformNear(ob::State* state, const ob::State* near, double distance) override {
-    const VehicleState& v = vehicle(near);
+    const VehicleState& v = VehicleSpace::vehicle(near);
     set(state, v.x_m + rng_.uniformReal(-distance, distance),
         v.y_m + rng_.uniformReal(-distance, distance), v.yaw_rad + rng_.uniformReal(-1, 1),
         rng_.uniformReal(0.5 * speed_max_, speed_max_));
   }
   void sampleGaussian(ob::State* state, const ob::State* mean, double deviation) override {
-    const VehicleState& v = vehicle(mean);
+    const VehicleState& v = VehicleSpace::vehicle(mean);
     set(state, rng_.gaussian(v.x_m, deviation), rng_.gaussian(v.y_m, deviation),
         rng_.gaussian(v.yaw_rad, 0.5), rng_.uniformReal(0.5 * speed_max_, speed_max_));
   }
@@ -84,8 +80,8 @@ class MapProjection : public ob::ProjectionEvaluator {
     bounds_.high = {frame_.east_m(), frame_.north_m};
   }
   void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> projection) const override {
-    projection[0] = vehicle(state).x_m;
-    projection[1] = vehicle(state).y_m;
+    projection[0] = VehicleSpace::vehicle(state).x_m;
+    projection[1] = VehicleSpace::vehicle(state).y_m;
   }
 
  private:
@@ -115,7 +111,7 @@ void VehicleSpace::enforceBounds(ob::State* /*state*/) const {
 }
 
 bool VehicleSpace::satisfiesBounds(const ob::State* state) const {
-  const VehicleState& v = vehicle(state);
+  const VehicleState& v = VehicleSpace::vehicle(state);
   return state->as<StateType>()->possible && regoplan::covers(frame_, v.x_m, v.y_m);
 }
 
@@ -124,8 +120,8 @@ void VehicleSpace::copyState(ob::State* to, const ob::State* from) const {
 }
 
 double VehicleSpace::distance(const ob::State* a, const ob::State* b) const {
-  const VehicleState& va = vehicle(a);
-  const VehicleState& vb = vehicle(b);
+  const VehicleState& va = VehicleSpace::vehicle(a);
+  const VehicleState& vb = VehicleSpace::vehicle(b);
   const double dearer = std::abs(a->as<StateType>()->cost - b->as<StateType>()->cost);
   return std::hypot(va.x_m - vb.x_m, va.y_m - vb.y_m) +
          weights_.heading_m_per_rad * angle_between(va.yaw_rad, vb.yaw_rad) +
@@ -134,8 +130,8 @@ double VehicleSpace::distance(const ob::State* a, const ob::State* b) const {
 }
 
 bool VehicleSpace::equalStates(const ob::State* a, const ob::State* b) const {
-  const VehicleState& va = vehicle(a);
-  const VehicleState& vb = vehicle(b);
+  const VehicleState& va = VehicleSpace::vehicle(a);
+  const VehicleState& vb = VehicleSpace::vehicle(b);
   return va.x_m == vb.x_m && va.y_m == vb.y_m && va.yaw_rad == vb.yaw_rad &&
          va.motion.vx_mps == vb.motion.vx_mps && va.motion.vy_mps == vb.motion.vy_mps &&
          va.motion.yaw_rate_rad_s == vb.motion.yaw_rate_rad_s &&

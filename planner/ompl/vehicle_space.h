@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "maps/terrain_map.h"
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 
 namespace regoplan {
 
@@ -64,6 +64,11 @@ class VehicleSpace : public ompl::base::StateSpace {
   ompl::base::State* allocState() const override { return new StateType; }
   void freeState(ompl::base::State* state) const override;
   void registerProjections() override;
+
+  /// The vehicle of a state of this space.
+  static const VehicleState& vehicle(const ompl::base::State* state) {
+    return state->as<StateType>()->vehicle;
+  }
 
   const GridFrame& frame() const { return frame_; }
   double speed_max_mps() const { return speed_max_mps_; }

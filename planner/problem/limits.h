@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
-#include "terramech/value_range.h"
-#include "terramech/vehicle.h"
+#include "terramech/basics/value_range.h"
+#include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
 

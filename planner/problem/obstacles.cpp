@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-#include "terramech/steered_wheel.h"
+#include "terramech/vehicle/steered_wheel.h"
 
 namespace regoplan {
 namespace {

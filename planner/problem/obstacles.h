@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "maps/terrain_map.h"
-#include "terramech/ground_patch.h"
-#include "terramech/vehicle.h"
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/parameters/ground_patch.h"
+#include "terramech/parameters/vehicle.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 
 namespace regoplan {
 

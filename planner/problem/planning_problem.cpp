@@ -9,8 +9,8 @@
 #include "maps/ground_finder.h"
 #include "planner/problem/obstacles.h"
 #include "planner/runtime/draw_statistics.h"
-#include "terramech/angles.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "maps/terrain_map.h"
 #include "planner/problem/limits.h"
-#include "terramech/margin_judge.h"
-#include "terramech/vehicle.h"
-#include "terramech/wheel_model.h"
+#include "terramech/margins/margin_judge.h"
+#include "terramech/parameters/vehicle.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

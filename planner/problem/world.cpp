@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -9,10 +9,10 @@
 #include "planner/problem/obstacles.h"
 #include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
-#include "terramech/force_table.h"
-#include "terramech/margin_judge.h"
-#include "terramech/vehicle_dynamics.h"
-#include "terramech/wheel_model.h"
+#include "terramech/force_table/force_table.h"
+#include "terramech/margins/margin_judge.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 

@@ -19,7 +19,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "planner/problem/world.h"
 #include "planner/soils/soil_surrogate.h"
-#include "terramech/parallel_for.h"
+#include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {

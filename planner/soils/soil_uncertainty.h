@@ -8,7 +8,7 @@
 
 #include "planner/problem/plan_result.h"
 #include "planner/runtime/draw_statistics.h"
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 
 namespace regoplan {
 

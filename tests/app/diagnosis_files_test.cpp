@@ -12,47 +12,47 @@
 namespace regoplan {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json parsed(const DiagnosisRun& run) {
-  return json::parse(diagnosis_json(run));
+Json parsed(const DiagnosisRun& run) {
+  return Json::parse(diagnosis_json(run));
 }
 
 TEST(DiagnosisJson, HoldsTheVerdictAndItsClaims) {
-  const json d = parsed(claimed_diagnosis());
+  const Json d = parsed(claimed_diagnosis());
   EXPECT_EQ(d["verdict"], "class");
   ASSERT_EQ(d["mechanisms"].size(), 1u);
-  const json& claim = d["mechanisms"][0];
+  const Json& claim = d["mechanisms"][0];
   EXPECT_EQ(claim["id"], "slip_sinkage");
   EXPECT_EQ(claim["probability"], 0.953);
   EXPECT_EQ(claim["parameters"]["n1"]["value"], 0.31);
   EXPECT_EQ(claim["parameters"]["n1"]["std"], 0.04);
-  EXPECT_EQ(claim["equivalent"], json({"grousers"}));
-  EXPECT_EQ(claim["channels"], json({"sinkage_m", "fx_n"}));
+  EXPECT_EQ(claim["equivalent"], Json({"grousers"}));
+  EXPECT_EQ(claim["channels"], Json({"sinkage_m", "fx_n"}));
   EXPECT_EQ(claim["evidence_nats"], 12.5);
 }
 
 TEST(DiagnosisJson, RankingIsOfEveryCandidateInItsOrder) {
-  const json d = parsed(claimed_diagnosis());
+  const Json d = parsed(claimed_diagnosis());
   ASSERT_EQ(d["ranking"].size(), 4u);
   double sum = 0;
-  for (const json& candidate : d["ranking"]) sum += candidate["probability"].get<double>();
+  for (const Json& candidate : d["ranking"]) sum += candidate["probability"].get<double>();
   EXPECT_NEAR(sum, 1, 1e-12);
   EXPECT_EQ(d["ranking"][1]["id"], "grousers");
 }
 
 TEST(DiagnosisJson, SaysWhereByColumnsOfTheRecording) {
-  const json where = parsed(claimed_diagnosis())["where"];
+  const Json where = parsed(claimed_diagnosis())["where"];
   ASSERT_EQ(where.size(), 1u);
   EXPECT_EQ(where[0]["channel"], "sinkage_m");
-  EXPECT_EQ(where[0]["region"], json({{"slip_ratio", {0.3, 0.4}}}));
+  EXPECT_EQ(where[0]["region"], Json({{"slip_ratio", {0.3, 0.4}}}));
   EXPECT_EQ(where[0]["effect"], 0.0031);
-  EXPECT_EQ(where[0]["ci95"], json({0.0024, 0.0038}));
+  EXPECT_EQ(where[0]["ci95"], Json({0.0024, 0.0038}));
   EXPECT_EQ(where[0]["p_value"], 1e-6);
 }
 
 TEST(DiagnosisJson, FitIsByChannelAndSaysHowConditionsWereHeldOut) {
-  const json d = parsed(claimed_diagnosis());
+  const Json d = parsed(claimed_diagnosis());
   EXPECT_EQ(d["fit"]["fx_n"]["noise_floor"], 0.1);
   EXPECT_EQ(d["fit"]["fx_n"]["baseline_rmse"], 2.0);
   EXPECT_EQ(d["fit"]["fx_n"]["calibrated_rmse"], 1.1);
@@ -66,17 +66,17 @@ TEST(DiagnosisJson, FitIsByChannelAndSaysHowConditionsWereHeldOut) {
 }
 
 TEST(DiagnosisJson, SaysWhatToMeasureNext) {
-  const json next = parsed(claimed_diagnosis())["next_experiment"];
+  const Json next = parsed(claimed_diagnosis())["next_experiment"];
   ASSERT_EQ(next.size(), 2u);
   EXPECT_EQ(next[0]["conditions"]["slip_ratio"], 0.8);
-  EXPECT_EQ(next[0]["separates"], json({"slip_sinkage", "grousers"}));
+  EXPECT_EQ(next[0]["separates"], Json({"slip_sinkage", "grousers"}));
   EXPECT_EQ(next[0]["expected_gain_nats"], 3.2);
   EXPECT_TRUE(next[0]["further_sensor"].is_null());
   EXPECT_EQ(next[1]["further_sensor"], "torque_nm");
 }
 
 TEST(DiagnosisJson, WithoutAClaimSaysWhatCouldHaveBeenSeen) {
-  const json d = parsed(consistent_diagnosis());
+  const Json d = parsed(consistent_diagnosis());
   EXPECT_EQ(d["verdict"], "consistent");
   EXPECT_TRUE(d["mechanisms"].empty());
   EXPECT_EQ(d["smallest_detectable"]["slip_sinkage"]["value"], 0.05);
@@ -90,9 +90,9 @@ TEST(DiagnosisJson, WhatIsNotFiniteIsNull) {
 TEST(DiagnosisJson, KeepsTheNotesOfReadingAndTheIgnoredColumns) {
   DiagnosisRun run = claimed_diagnosis();
   run.setup.warnings = {"of the setup"};
-  const json d = parsed(run);
-  EXPECT_EQ(d["notes"], json({"of the setup", run.diagnosis.notes[0]}));
-  EXPECT_EQ(d["ignored_columns"], json({"note", "corrected_fx_n"}));
+  const Json d = parsed(run);
+  EXPECT_EQ(d["notes"], Json({"of the setup", run.diagnosis.notes[0]}));
+  EXPECT_EQ(d["ignored_columns"], Json({"note", "corrected_fx_n"}));
   EXPECT_EQ(d["seed"], 7);
   EXPECT_EQ(d["interrupted"], false);
 }
@@ -103,12 +103,12 @@ TEST(DiagnosisJson, ListsTheRowsThatWereLeftOut) {
       {.run_id = "r17",
        .cell = {.line = 19, .column = "slip_angle_deg", .value = 90.04, .allowed = "-90 to 90"},
        .why = "r.csv:19: ..."}};
-  const json row = {{"line", 19},
+  const Json row = {{"line", 19},
                     {"run_id", "r17"},
                     {"column", "slip_angle_deg"},
                     {"value", 90.04},
                     {"allowed", "-90 to 90"}};
-  EXPECT_EQ(parsed(run)["left_out"], json::array({row}));
+  EXPECT_EQ(parsed(run)["left_out"], Json::array({row}));
   EXPECT_TRUE(parsed(claimed_diagnosis())["left_out"].empty());
 }
 

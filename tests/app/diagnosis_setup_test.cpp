@@ -12,7 +12,7 @@ SetupSettings setup(const std::string& yaml) {
   return read_setup(parse_settings(yaml, "s.yaml"));
 }
 
-std::string error_of(const std::string& from, const std::string& to) {
+std::string setup_error(const std::string& from, const std::string& to) {
   return error_text([&] { setup(replaced(kSimulantModel, from, to)); });
 }
 
@@ -41,15 +41,15 @@ TEST(DiagnosisSetup, NoiseIsOfAChannelAndAbove0) {
 }
 
 TEST(DiagnosisSetup, WhatCannotBeIsAnErrorWithItsLine) {
-  EXPECT_EQ(error_of("radius_m: 0.09", "radius_m: 90"),
+  EXPECT_EQ(setup_error("radius_m: 0.09", "radius_m: 90"),
             "s.yaml:2: wheel.radius_m: 90 is not valid (allowed: above 0 to 5); suspected: mm");
-  EXPECT_EQ(error_of("ishigami2007", "bekker1956"),
+  EXPECT_EQ(setup_error("ishigami2007", "bekker1956"),
             "s.yaml:1: model: bekker1956 is not valid (allowed: ishigami2007 | yoshida2004)");
-  EXPECT_NE(error_of("gravity_mps2", "gravity").find("s.yaml:1: gravity_mps2 is missing"),
+  EXPECT_NE(setup_error("gravity_mps2", "gravity").find("s.yaml:1: gravity_mps2 is missing"),
             std::string::npos);
-  EXPECT_EQ(error_of("mechanisms: []", "mechanisms: [{id: grousers}]"),
+  EXPECT_EQ(setup_error("mechanisms: []", "mechanisms: [{id: grousers}]"),
             "s.yaml:19: mechanisms: a diagnosis starts from the base model (allowed: none)");
-  EXPECT_NE(error_of("lambda", "lamda").find("lambda is missing"), std::string::npos);
+  EXPECT_NE(setup_error("lambda", "lamda").find("lambda is missing"), std::string::npos);
 }
 
 TEST(DiagnosisSetup, NumbersThatLookLikeAnotherUnitAreReported) {

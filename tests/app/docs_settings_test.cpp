@@ -11,7 +11,7 @@
 #include "app/settings/model_settings.h"
 #include "app/settings/scenario_settings.h"
 #include "app/settings/suite_settings.h"
-#include "terramech/mechanism.h"
+#include "terramech/mechanisms/mechanism.h"
 #include "tests/app/documents.h"
 #include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"

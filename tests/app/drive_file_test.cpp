@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/app/error_text.h"
 
 namespace regoplan {

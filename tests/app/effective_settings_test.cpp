@@ -9,7 +9,7 @@
 
 #include "app/settings/scenario_settings.h"
 #include "app/settings/vehicle_settings.h"
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 #include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"

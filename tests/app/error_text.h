@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 

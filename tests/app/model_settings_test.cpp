@@ -12,7 +12,7 @@ ModelSettings model(const std::string& yaml) {
   return read_model(parse_settings(yaml, "m.yaml"));
 }
 
-std::string error_of(const std::string& from, const std::string& to) {
+std::string model_error(const std::string& from, const std::string& to) {
   return error_text([&] { model(replaced(kSimulantModel, from, to)); });
 }
 
@@ -27,17 +27,17 @@ TEST(ModelSettings, AMeanAndItsSpreadCountByTheMeanWhereOneNumberIsNeeded) {
 }
 
 TEST(ModelSettings, WhatCannotBeAModelIsAnErrorWithItsLine) {
-  EXPECT_EQ(error_of("radius_m: 0.09", "radius_m: 0"),
+  EXPECT_EQ(model_error("radius_m: 0.09", "radius_m: 0"),
             "m.yaml:2: wheel.radius_m: 0 is not valid (allowed: above 0)");
-  EXPECT_EQ(error_of("gravity_mps2: 9.80665", "gravity_mps2: .inf"),
+  EXPECT_EQ(model_error("gravity_mps2: 9.80665", "gravity_mps2: .inf"),
             "m.yaml:3: gravity_mps2: .inf is not valid (allowed: a number, above 0)");
-  EXPECT_EQ(error_of("ishigami2007", "bekker1956"),
+  EXPECT_EQ(model_error("ishigami2007", "bekker1956"),
             "m.yaml:1: model: bekker1956 is not valid (allowed: ishigami2007 | yoshida2004)");
-  EXPECT_EQ(error_of("ishigami2007", "yoshida2004"), "m.yaml:5: soil: c0_m is missing");
-  EXPECT_TRUE(error_of("mechanisms: []", "mechanisms: [{id: stickiness}]")
+  EXPECT_EQ(model_error("ishigami2007", "yoshida2004"), "m.yaml:5: soil: c0_m is missing");
+  EXPECT_TRUE(model_error("mechanisms: []", "mechanisms: [{id: stickiness}]")
                   .starts_with("m.yaml:19: mechanisms[0]"));
-  EXPECT_TRUE(error_of("mechanisms: []",
-                       "mechanisms: [{id: slip_sinkage, form: exponent, parameters: {n9: 1}}]")
+  EXPECT_TRUE(model_error("mechanisms: []",
+                          "mechanisms: [{id: slip_sinkage, form: exponent, parameters: {n9: 1}}]")
                   .starts_with("m.yaml:19: mechanisms[0]"));
 }
 

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "app/diagnose/recording_file.h"
-#include "diagnosis/condensed_recording.h"
-#include "diagnosis/discrepancy.h"
+#include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/bed/discrepancy.h"
 #include "tests/measured_data.h"
 
 namespace regoplan {

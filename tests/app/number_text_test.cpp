@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "terramech/angles.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {

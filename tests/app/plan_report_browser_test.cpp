@@ -1,4 +1,3 @@
-#include <limits>
 
 #include "app/plan/plan_report.h"
 #include "tests/app/browser_page.h"
@@ -6,8 +5,6 @@
 
 namespace regoplan {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class PlanReportInTheBrowser : public InTheBrowser {
  protected:

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <limits>
+
 #include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
 
 namespace regoplan {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Craters on three soils with a corner nobody knows, a forbidden patch and rocks; drawn by hand.
 /// \param cells a side of the square map of 200 m

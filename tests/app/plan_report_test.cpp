@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -12,9 +11,7 @@
 namespace regoplan {
 namespace {
 
-using nlohmann::json;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using Json = nlohmann::json;
 
 /// The page without the d3 library, whose text is not ours.
 std::string own_text(std::string page) {
@@ -23,10 +20,10 @@ std::string own_text(std::string page) {
   return page.erase(begin, end - begin);
 }
 
-json data_of(const std::string& page) {
+Json data_of(const std::string& page) {
   const std::string open = "<script type=\"application/json\" id=\"data\">";
   const std::size_t begin = page.find(open) + open.size();
-  return json::parse(page.substr(begin, page.find("</script>", begin) - begin));
+  return Json::parse(page.substr(begin, page.find("</script>", begin) - begin));
 }
 
 std::string headline_of(const std::string& page) {
@@ -55,11 +52,11 @@ TEST_F(PlanReport, CarriesTheLicenceOfTheLibraryItDrawsWith) {
 }
 
 TEST_F(PlanReport, HoldsTheNumbersOfTheCandidatesToTheLastBit) {
-  const json data = data_of(plan_report(problem_, result_));
+  const Json data = data_of(plan_report(problem_, result_));
   ASSERT_EQ(data["candidates"].size(), result_.candidates.size());
   for (std::size_t k = 0; k < result_.candidates.size(); ++k) {
     const Candidate& candidate = result_.candidates[k];
-    const json& row = data["candidates"][k];
+    const Json& row = data["candidates"][k];
     EXPECT_EQ(row["rank"], candidate.rank);
     EXPECT_EQ(row["planner"], candidate.planner);
     EXPECT_EQ(row["length_m"], candidate.length_m);
@@ -77,7 +74,7 @@ TEST_F(PlanReport, HoldsTheNumbersOfTheCandidatesToTheLastBit) {
 
 TEST_F(PlanReport, ThinsALongPathWithoutLosingItsEndsOrItsWorstPoint) {
   const std::vector<TrajectoryPoint>& points = result_.candidates.front().points;
-  const json row = data_of(plan_report(problem_, result_))["candidates"][0];
+  const Json row = data_of(plan_report(problem_, result_))["candidates"][0];
   const std::vector<double> margins = row["points"]["margin"];
   EXPECT_LT(margins.size(), points.size());
   EXPECT_EQ(row["points_total"], points.size());
@@ -89,10 +86,10 @@ TEST_F(PlanReport, ThinsALongPathWithoutLosingItsEndsOrItsWorstPoint) {
 }
 
 TEST_F(PlanReport, KeepsWhatWasRejectedAndWhy) {
-  const json data = data_of(plan_report(problem_, result_));
+  const Json data = data_of(plan_report(problem_, result_));
   ASSERT_EQ(data["rejected"].size(), std::size_t{kRejectionCount});
   for (int k = 0; k < kRejectionCount; ++k) {
-    const json& row = data["rejected"][static_cast<std::size_t>(k)];
+    const Json& row = data["rejected"][static_cast<std::size_t>(k)];
     EXPECT_EQ(row["reason"], name(static_cast<Rejection>(k)));
     EXPECT_EQ(row["count"], result_.rejected[static_cast<std::size_t>(k)]);
   }
@@ -107,7 +104,7 @@ TEST_F(PlanReport, SaysAnglesOfRejectedStatesInDegrees) {
   result_.rejected_states = {
       {.reason = Rejection::kSlope,
        .exceeded = Exceeded{.found = std::acos(-1.0) / 6, .limit = std::acos(-1.0) / 12}}};
-  const json state = data_of(plan_report(problem_, result_))["rejected_states"][0];
+  const Json state = data_of(plan_report(problem_, result_))["rejected_states"][0];
   EXPECT_NEAR(state["value"], 30, 1e-4);
   EXPECT_NEAR(state["limit"], 15, 1e-4);
 }
@@ -123,7 +120,7 @@ TEST_F(PlanReport, WritesWhatIsNotKnownAsNull) {
   result_.rejected_states.front().exceeded = {.found = kNaN, .limit = 0.05};
   result_.what_ifs.front().margin_min = kNaN;
   const std::string page = plan_report(problem_, result_);
-  const json data = data_of(page);
+  const Json data = data_of(page);
   EXPECT_TRUE(data["candidates"][0]["points"]["margin"][0].is_null());
   EXPECT_TRUE(data["candidates"][0]["points"]["supply_max_n"][0].is_null());
   EXPECT_TRUE(data["candidates"][0]["margin_p05"].is_null());
@@ -151,7 +148,7 @@ TEST_F(PlanReport, EscapesTextThatComesFromFiles) {
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
   EXPECT_EQ(page.find("<b>rover"), std::string::npos);
   EXPECT_NE(page.find("&lt;b&gt;rover&lt;/b&gt;"), std::string::npos);
-  const json data = data_of(page);
+  const Json data = data_of(page);
   EXPECT_EQ(data["map"]["soils"][0]["source"], hostile);
   EXPECT_EQ(data["reason"], hostile);
 }
@@ -170,7 +167,7 @@ TEST(PlanReportSize, StaysUnderFiveMegabytesForAMap4096CellsWide) {
     result.rejected_states.push_back(result.rejected_states[result.rejected_states.size() % given]);
   const std::string page = plan_report(problem, result);
   EXPECT_LT(page.size(), std::size_t{5'000'000});
-  const json raster = data_of(page)["map"]["raster"];
+  const Json raster = data_of(page)["map"]["raster"];
   EXPECT_EQ(raster["columns"], 512);
   EXPECT_EQ(raster["cells_averaged"], 8);
 }

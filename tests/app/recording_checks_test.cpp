@@ -4,16 +4,14 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "app/diagnose/diagnosis_setup.h"
+#include "terramech/basics/angles.h"
 #include "tests/app/error_text.h"
 #include "tests/app/simulant_model.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 DiagnosisSetup simulant() {
   return read_setup(parse_settings(kSimulantModel, "setup.yaml")).setup;

@@ -23,7 +23,7 @@ RecordingFile read(const std::string& text) {
   return read_recording(stream, "r.csv");
 }
 
-std::string error_of(const std::string& from, const std::string& to) {
+std::string recording_error(const std::string& from, const std::string& to) {
   return error_text([&] { read(replaced(kRecording, from, to)); });
 }
 
@@ -89,22 +89,22 @@ TEST(RecordingFile, CircumstancesGoWhereTheModelLooksForThem) {
 
 TEST(RecordingFile, WhatCannotBeIsAnErrorWithItsPlace) {
   const std::string one_of_three = "; 1 of 3 rows are out of range (up to 5 % are left out)";
-  EXPECT_EQ(error_of("64.7,", "0,"),
+  EXPECT_EQ(recording_error("64.7,", "0,"),
             "r.csv:2: load_n: 0 is not valid (allowed: above 0)" + one_of_three);
-  EXPECT_EQ(error_of("64.7,", "-3,"),
+  EXPECT_EQ(recording_error("64.7,", "-3,"),
             "r.csv:2: load_n: -3 is not valid (allowed: above 0)" + one_of_three);
-  EXPECT_EQ(error_of("-20,", "nan,"),
+  EXPECT_EQ(recording_error("-20,", "nan,"),
             "r.csv:2: fx_n: nan is not valid (allowed: any finite number)");
-  EXPECT_EQ(error_of("4.5,18", "4.5,inf"),
+  EXPECT_EQ(recording_error("4.5,18", "4.5,inf"),
             "r.csv:3: fy_n: inf is not valid (allowed: any finite number)");
-  EXPECT_EQ(error_of("0.30,16", "0.30,106"),
+  EXPECT_EQ(recording_error("0.30,16", "0.30,106"),
             "r.csv:3: slip_angle_deg: 106 is not valid (allowed: -90 to 90)" + one_of_three);
-  EXPECT_EQ(error_of("2020-11-16", "2020-02-30"),
+  EXPECT_EQ(recording_error("2020-11-16", "2020-02-30"),
             "r.csv:2: day: 2020-02-30 is not valid (allowed: a number or an ISO date such as "
             "2020-11-16)");
-  EXPECT_EQ(error_of("17,2,", "17,two,"),
+  EXPECT_EQ(recording_error("17,2,", "17,two,"),
             "r.csv:4: replicate: two is not valid (allowed: 0 to 1000000)");
-  EXPECT_EQ(error_of(",wheel,", ",wheel"), "r.csv:2: 12 cells (the header has 11)");
+  EXPECT_EQ(recording_error(",wheel,", ",wheel"), "r.csv:2: 12 cells (the header has 11)");
 }
 
 /// A recording of so many rows, some of them with a slip angle that no wheel can have.
@@ -145,20 +145,21 @@ TEST(RecordingFile, WhatIsNoNumberIsNeverLeftOut) {
 
 TEST(RecordingFile, ASlipInPerCentIsSuspectedAsSuch) {
   EXPECT_NE(
-      error_of("0.30", "30")
+      recording_error("0.30", "30")
           .find("r.csv:3: slip_ratio: 30 is not valid (allowed: -1 to 1); is it in per cent?"),
       std::string::npos);
   EXPECT_NE(
-      error_of("-0.25", "-25")
+      recording_error("-0.25", "-25")
           .find("r.csv:2: slip_ratio: -25 is not valid (allowed: -1 to 1); is it in per cent?"),
       std::string::npos);
-  EXPECT_NE(error_of("-0.25", "-1.5").find("a braking wheel's slip is (r w - Vx)/Vx"),
+  EXPECT_NE(recording_error("-0.25", "-1.5").find("a braking wheel's slip is (r w - Vx)/Vx"),
             std::string::npos);
 }
 
 TEST(RecordingFile, MissingColumnsAreNamed) {
   for (const char* column : {"run_id", "load_n", "slip_ratio", "slip_angle_deg"}) {
-    EXPECT_EQ(error_of(column, "other"), std::string("r.csv:1: column ") + column + " is missing");
+    EXPECT_EQ(recording_error(column, "other"),
+              std::string("r.csv:1: column ") + column + " is missing");
   }
   EXPECT_NE(error_text([] {
               read("run_id,load_n,slip_ratio,slip_angle_deg\na,60,0,0\n");

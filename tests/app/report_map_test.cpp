@@ -8,7 +8,7 @@
 namespace regoplan {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
@@ -69,8 +69,8 @@ TerrainMap map_of(int columns, int rows, std::vector<float> height_m,
 }
 
 TEST(ReportMap, QuantisesHeightsFromLowestToHighestAndMarksTheUnknown) {
-  const json data = report_map(map_of(2, 2, {-1, 3, kUnknown, 1}));
-  const json& elevation = data["raster"]["elevation"];
+  const Json data = report_map(map_of(2, 2, {-1, 3, kUnknown, 1}));
+  const Json& elevation = data["raster"]["elevation"];
   EXPECT_EQ(elevation["min_m"], -1);
   EXPECT_EQ(elevation["max_m"], 3);
   EXPECT_EQ(numbers_of(elevation["base64"]), (std::vector<int>{1, 65535, 0, 32768}));
@@ -79,7 +79,7 @@ TEST(ReportMap, QuantisesHeightsFromLowestToHighestAndMarksTheUnknown) {
 }
 
 TEST(ReportMap, DrawsLevelGround) {
-  const json elevation = report_map(map_of(3, 1, {2, 2, 2}))["raster"]["elevation"];
+  const Json elevation = report_map(map_of(3, 1, {2, 2, 2}))["raster"]["elevation"];
   EXPECT_EQ(numbers_of(elevation["base64"]), (std::vector<int>{1, 1, 1}));
 }
 
@@ -88,7 +88,7 @@ TEST(ReportMap, AveragesWhatIsKnownAndLeavesHalfUnknownBlocksUnknown) {
   height_m[0] = 0;                       // block 0: (0 + 4 + 4 + 4)/4 = 3
   height_m[2] = kUnknown;                // block 1: one unknown of four
   height_m[4] = height_m[5] = kUnknown;  // block 2: half unknown
-  const json raster = report_map(map_of(1024, 2, height_m))["raster"];
+  const Json raster = report_map(map_of(1024, 2, height_m))["raster"];
   EXPECT_EQ(raster["columns"], 512);
   EXPECT_EQ(raster["rows"], 1);
   EXPECT_EQ(raster["cell_width_m"], 4);
@@ -100,7 +100,7 @@ TEST(ReportMap, AveragesWhatIsKnownAndLeavesHalfUnknownBlocksUnknown) {
 }
 
 TEST(ReportMap, CoversAMapThatBlocksDoNotDivide) {
-  const json data = report_map(map_of(1025, 1, std::vector<float>(1025, 1)));
+  const Json data = report_map(map_of(1025, 1, std::vector<float>(1025, 1)));
   EXPECT_EQ(data["raster"]["columns"], 342);  // of 3 cells; the last stands for 2
   EXPECT_EQ(data["raster"]["cells_averaged"], 3);
   EXPECT_EQ(data["east_m"], 100 + 2 * 1025);
@@ -114,15 +114,15 @@ TEST(ReportMap, NumbersSoilsFromOneAndForbiddenGroundZero) {
   classes.frame.north_m = 50;
   classes.frame.cell_width_m = classes.frame.cell_height_m = 2;
   classes.code = {7, 5, ClassRaster::kNoData};
-  const json data = report_map(map_of(3, 1, {0, 1, 2}, classes));
+  const Json data = report_map(map_of(3, 1, {0, 1, 2}, classes));
   EXPECT_EQ(numbers_of(data["raster"]["soil_base64"]), (std::vector<int>{2, 1, 0}));
   EXPECT_EQ(data["soils"][1]["name"], "loose");
   EXPECT_EQ(data["unmapped"], "forbidden");
 }
 
 TEST(ReportMap, GivesSoilNumbersInTheUnitsOfFiles) {
-  const json data = report_map(map_of(2, 1, {0, 1}));
-  for (const json& parameter : data["soils"][0]["parameters"]) {
+  const Json data = report_map(map_of(2, 1, {0, 1}));
+  for (const Json& parameter : data["soils"][0]["parameters"]) {
     if (parameter["name"] == "friction_angle_deg") {
       EXPECT_NEAR(parameter["mean"], 34.377, 1e-3);
       return;
@@ -134,7 +134,7 @@ TEST(ReportMap, GivesSoilNumbersInTheUnitsOfFiles) {
 TEST(ReportMap, OfTooManyRocksKeepsTheLargestAndSaysHowManyThereAre) {
   std::vector<Rock> rocks(25000, {.x_m = 101, .y_m = 49, .radius_m = 0.1, .height_m = 0.1});
   rocks.back().radius_m = 0.9;
-  const json data = report_map(map_of(2, 1, {0, 1}, std::nullopt, rocks));
+  const Json data = report_map(map_of(2, 1, {0, 1}, std::nullopt, rocks));
   EXPECT_EQ(data["rocks_total"], 25000);
   EXPECT_EQ(data["rocks"].size(), 20000u);
   EXPECT_EQ(data["rocks"][0][2], 0.9);

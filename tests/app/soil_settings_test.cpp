@@ -49,7 +49,7 @@ SoilCatalogue catalogue(const std::string& yaml,
   return read_soil_catalogue(parse_settings(yaml, "soils.yaml"), variant);
 }
 
-std::string error_of(const std::string& from, const std::string& to) {
+std::string soils_error(const std::string& from, const std::string& to) {
   return error_text([&] { catalogue(replaced(kSoils, from, to)); });
 }
 
@@ -113,21 +113,22 @@ TEST(SoilSettings, EveryNumberOutOfItsRangeIsAnErrorWithItsLine) {
 }
 
 TEST(SoilSettings, WhatCannotBeASoilIsAnError) {
-  EXPECT_EQ(error_of("    kphi: 8.14e5\n", ""), "soils.yaml:4: soils.sand: kphi is missing");
-  EXPECT_EQ(error_of("    kc: 1.37e3\n", "    kc: 1.37e3\n    stickiness: 3\n").substr(0, 48),
+  EXPECT_EQ(soils_error("    kphi: 8.14e5\n", ""), "soils.yaml:4: soils.sand: kphi is missing");
+  EXPECT_EQ(soils_error("    kc: 1.37e3\n", "    kc: 1.37e3\n    stickiness: 3\n").substr(0, 48),
             "soils.yaml:9: soils.sand.stickiness: unknown key");
-  EXPECT_EQ(error_of("std: 50", "std: -1"),
+  EXPECT_EQ(soils_error("std: 50", "std: -1"),
             "soils.yaml:6: soils.sand.cohesion_pa.std: -1 is not valid (allowed: at least 0)");
-  EXPECT_EQ(error_of(", std: 50", ""), "soils.yaml:6: soils.sand.cohesion_pa: std is missing");
-  EXPECT_NE(error_of("{1: sand", "{1: gravel"), "");
-  EXPECT_NE(error_of("{1: sand", "{one: sand"), "");
-  EXPECT_NE(error_of("{1: sand, 2: firm", "{1: sand, 01: firm"), "");
-  EXPECT_NE(error_of("unmapped: firm", "unmapped: gravel"), "");
-  EXPECT_NE(error_of("  sand:\n", "  forbidden:\n"), "");
-  EXPECT_EQ(error_of("a1: .15\n    lambda: .9\n    density_kgpm3: 1600\n    kx0_m: .036\n    kx1",
-                     "a1: .6\n    lambda: .9\n    density_kgpm3: 1600\n    kx0_m: .036\n    kx1"),
-            "soils.yaml:25: soils.firm.a1: 0.6 is not valid (allowed: 0 < a0 + a1 s < 1 for every "
-            "slip s from -1 to 1)");
+  EXPECT_EQ(soils_error(", std: 50", ""), "soils.yaml:6: soils.sand.cohesion_pa: std is missing");
+  EXPECT_NE(soils_error("{1: sand", "{1: gravel"), "");
+  EXPECT_NE(soils_error("{1: sand", "{one: sand"), "");
+  EXPECT_NE(soils_error("{1: sand, 2: firm", "{1: sand, 01: firm"), "");
+  EXPECT_NE(soils_error("unmapped: firm", "unmapped: gravel"), "");
+  EXPECT_NE(soils_error("  sand:\n", "  forbidden:\n"), "");
+  EXPECT_EQ(
+      soils_error("a1: .15\n    lambda: .9\n    density_kgpm3: 1600\n    kx0_m: .036\n    kx1",
+                  "a1: .6\n    lambda: .9\n    density_kgpm3: 1600\n    kx0_m: .036\n    kx1"),
+      "soils.yaml:25: soils.firm.a1: 0.6 is not valid (allowed: 0 < a0 + a1 s < 1 for every "
+      "slip s from -1 to 1)");
 }
 
 TEST(SoilSettings, SlipSinkageIsRequiredByThePapersOwnVariantOnly) {

@@ -29,7 +29,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& table) {
   return rows;
 }
 
-std::string error_of(const std::string& table) {
+std::string rows_error(const std::string& table) {
   return error_text([&] { rows_of(table); });
 }
 
@@ -87,18 +87,18 @@ TEST(WheelRows, AMeasuredColumnOfTheSameNameIsKeptUnderAnother) {
 
 TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
   const std::string header = "load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n";
-  EXPECT_EQ(error_of(header + "-1,0,0\n"), "c.csv:3: load_n: -1 is not valid (allowed: above 0)");
-  EXPECT_EQ(error_of(header + "64.7,1.01,0\n"),
+  EXPECT_EQ(rows_error(header + "-1,0,0\n"), "c.csv:3: load_n: -1 is not valid (allowed: above 0)");
+  EXPECT_EQ(rows_error(header + "64.7,1.01,0\n"),
             "c.csv:3: slip_ratio: 1.01 is not valid (allowed: -1 to 1)");
-  EXPECT_EQ(error_of(header + "64.7,0,nan\n"),
+  EXPECT_EQ(rows_error(header + "64.7,0,nan\n"),
             "c.csv:3: slip_angle_deg: nan is not valid (allowed: -90 to 90)");
-  EXPECT_EQ(error_of(header + "64.7,,0\n"),
+  EXPECT_EQ(rows_error(header + "64.7,,0\n"),
             "c.csv:3: slip_ratio: an empty cell is not valid (allowed: -1 to 1)");
-  EXPECT_EQ(error_of(header + "64.7,0\n"), "c.csv:3: 2 cells (the header has 3)");
-  EXPECT_EQ(error_of(header + "\n64.7,0,0\n"), "c.csv:3: an empty line");
-  EXPECT_EQ(error_of("load_n,slip_ratio\n1,0\n"), "c.csv:1: column slip_angle_deg is missing");
-  EXPECT_EQ(error_of("load_n,load_n\n"), "c.csv:1: column load_n given twice");
-  EXPECT_EQ(error_of(""), "c.csv: empty (expected a header line)");
+  EXPECT_EQ(rows_error(header + "64.7,0\n"), "c.csv:3: 2 cells (the header has 3)");
+  EXPECT_EQ(rows_error(header + "\n64.7,0,0\n"), "c.csv:3: an empty line");
+  EXPECT_EQ(rows_error("load_n,slip_ratio\n1,0\n"), "c.csv:1: column slip_angle_deg is missing");
+  EXPECT_EQ(rows_error("load_n,load_n\n"), "c.csv:1: column load_n given twice");
+  EXPECT_EQ(rows_error(""), "c.csv: empty (expected a header line)");
 }
 
 TEST(WheelRows, ATableWithoutRowsIsATableWithoutRows) {

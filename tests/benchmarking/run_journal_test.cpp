@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/benchmarking/made_up_runs.h"
 
 namespace regoplan {

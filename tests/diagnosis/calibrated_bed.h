@@ -1,8 +1,8 @@
 #pragma once
 
-#include "diagnosis/calibration.h"
-#include "diagnosis/candidate_fit.h"
-#include "diagnosis/condensed_recording.h"
+#include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/fit/calibration.h"
+#include "diagnosis/fit/candidate_fit.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {

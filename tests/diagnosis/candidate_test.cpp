@@ -1,10 +1,10 @@
-#include "diagnosis/candidate.h"
+#include "diagnosis/fit/candidate.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "diagnosis/condensed_recording.h"
+#include "diagnosis/bed/condensed_recording.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {

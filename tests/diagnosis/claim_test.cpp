@@ -1,4 +1,4 @@
-#include "diagnosis/claim.h"
+#include "diagnosis/names/claim.h"
 
 #include <gtest/gtest.h>
 

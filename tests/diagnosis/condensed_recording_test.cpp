@@ -1,4 +1,4 @@
-#include "diagnosis/condensed_recording.h"
+#include "diagnosis/bed/condensed_recording.h"
 
 #include <gtest/gtest.h>
 

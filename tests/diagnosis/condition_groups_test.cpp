@@ -1,4 +1,4 @@
-#include "diagnosis/condition_groups.h"
+#include "diagnosis/recording/condition_groups.h"
 
 #include <gtest/gtest.h>
 

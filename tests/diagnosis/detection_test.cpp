@@ -1,9 +1,9 @@
-#include "diagnosis/detection.h"
+#include "diagnosis/checks/detection.h"
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/calibration.h"
-#include "diagnosis/location.h"
+#include "diagnosis/checks/location.h"
+#include "diagnosis/fit/calibration.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {

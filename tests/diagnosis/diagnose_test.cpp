@@ -5,7 +5,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "synthetic_bed.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "synthetic_bed.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/evidence.h"
+#include "diagnosis/fit/evidence.h"
 
 #include <gtest/gtest.h>
 

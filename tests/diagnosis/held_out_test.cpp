@@ -1,4 +1,4 @@
-#include "diagnosis/held_out.h"
+#include "diagnosis/fit/held_out.h"
 
 #include <gtest/gtest.h>
 

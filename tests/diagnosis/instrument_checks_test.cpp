@@ -1,4 +1,4 @@
-#include "diagnosis/instrument_checks.h"
+#include "diagnosis/checks/instrument_checks.h"
 
 #include <gtest/gtest.h>
 

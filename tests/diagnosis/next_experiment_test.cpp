@@ -1,15 +1,12 @@
-#include "diagnosis/next_experiment.h"
+#include "diagnosis/names/next_experiment.h"
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "calibrated_bed.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 ScoredId fitted(const CalibratedBed& bed, const Recording& raw, const std::string& id) {
   for (const Effect& effect : effects_for(bed.recording.bed, raw)) {

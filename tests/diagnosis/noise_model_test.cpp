@@ -1,4 +1,4 @@
-#include "diagnosis/noise_model.h"
+#include "diagnosis/recording/noise_model.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -1,4 +1,4 @@
-#include "diagnosis/recording.h"
+#include "diagnosis/recording/recording.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/sentence.h"
+#include "diagnosis/findings/sentence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "diagnosis/smallest_detectable.h"
+#include "diagnosis/checks/smallest_detectable.h"
 
 #include <gtest/gtest.h>
 

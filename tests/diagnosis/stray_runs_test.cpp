@@ -1,4 +1,4 @@
-#include "diagnosis/stray_runs.h"
+#include "diagnosis/checks/stray_runs.h"
 
 #include <gtest/gtest.h>
 

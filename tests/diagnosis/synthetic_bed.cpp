@@ -7,12 +7,11 @@
 #include <numbers>
 #include <random>
 
+#include "terramech/basics/angles.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Sums {
   double fx = 0, fz_stress = 0, fz_cohesion = 0, fy = 0, torque = 0;

@@ -1,9 +1,9 @@
-#include "diagnosis/unnamed_correction.h"
+#include "diagnosis/fit/unnamed_correction.h"
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/calibration.h"
-#include "diagnosis/condensed_recording.h"
+#include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/fit/calibration.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {

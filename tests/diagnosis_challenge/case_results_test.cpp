@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan::challenge {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "benchmarks/diagnosis/challenge_files.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan::challenge {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "maps/raster_files.h"
 #include "temporary_folder.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

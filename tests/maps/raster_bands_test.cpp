@@ -7,25 +7,25 @@
 
 #include "maps/raster_files.h"
 #include "temporary_folder.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
 
-const GridFrame kFrame{.columns = 3,
-                       .rows = 2,
-                       .west_m = 500010,
-                       .north_m = 4649990,
-                       .cell_width_m = 0.5,
-                       .cell_height_m = 2,
-                       .crs_wkt = {}};
+const GridFrame kBandFrame{.columns = 3,
+                           .rows = 2,
+                           .west_m = 500010,
+                           .north_m = 4649990,
+                           .cell_width_m = 0.5,
+                           .cell_height_m = 2,
+                           .crs_wkt = {}};
 
 TEST(RasterBands, ReadBackInPlaceWithTheirNames) {
   const TemporaryFolder folder;
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   const std::string file = folder.file("bands.tif");
-  write_bands(kFrame, {{"first", {1, 2, 3, 4, 5, 6}}, {"second", {-1, -2, kUnknown, -4, -5, -6}}},
-              file);
+  write_bands(kBandFrame,
+              {{"first", {1, 2, 3, 4, 5, 6}}, {"second", {-1, -2, kUnknown, -4, -5, -6}}}, file);
   GDALAllRegister();
   const GDALDatasetUniquePtr dataset(
       GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR));
@@ -49,8 +49,8 @@ TEST(RasterBands, ReadBackInPlaceWithTheirNames) {
 
 TEST(RasterBands, OfTheWrongSizeAreRefused) {
   const TemporaryFolder folder;
-  EXPECT_THROW(write_bands(kFrame, {{"first", {1, 2}}}, folder.file("bands.tif")), InputError);
-  EXPECT_THROW(write_bands(kFrame, {}, folder.file("bands.tif")), InputError);
+  EXPECT_THROW(write_bands(kBandFrame, {{"first", {1, 2}}}, folder.file("bands.tif")), InputError);
+  EXPECT_THROW(write_bands(kBandFrame, {}, folder.file("bands.tif")), InputError);
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 
 #include "maps/terrain_summary.h"
 #include "temporary_folder.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 #include "tests/measured_data.h"
 
 namespace regoplan {
@@ -375,7 +376,6 @@ TEST(RasterFiles, TheMarsMapReadsWithTheFactsThatItsOwnersState) {
       .soils = {{.name = "any", .source = "", .soil = {}}}, .classes = {}, .unmapped = {}};
   for (std::int32_t code = 1; code <= 30; ++code) soils.classes.emplace_back(code, 0);
   const TerrainSummary summary = summarize(TerrainMap(elevation, classes, soils, {}));
-  constexpr double kDegree = M_PI / 180;
   EXPECT_EQ(summary.known_share, 1);
   EXPECT_NEAR(summary.no_soil_share, 0.60, 0.01);
   EXPECT_NEAR(summary.slope_p50_rad / kDegree, 6.7, 0.1);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "temporary_folder.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

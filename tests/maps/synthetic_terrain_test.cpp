@@ -9,8 +9,8 @@
 #include "maps/crater_field.h"
 #include "maps/rock_field.h"
 #include "maps/terrain_summary.h"
-#include "terramech/angles.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -7,7 +7,7 @@
 #include <random>
 #include <string>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

@@ -47,8 +47,6 @@ testing::AssertionResult passed(const std::optional<VerifiedPath>& path) {
 
 class ArrivalOf : public testing::TestWithParam<std::string> {};
 
-}  // namespace
-
 TEST_P(ArrivalOf, PathEndsAtRestInTheGoalBeforeAWall) {
   // From 3 m/s the vehicle stops in 15 m; the wall stands 7 m behind the goal's centre.
   const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall_at(47)));
@@ -124,4 +122,5 @@ TEST(Arrival, ComesToRestInACircleOfHalfAMetreUphillAndDown) {
   }
 }
 
+}  // namespace
 }  // namespace regoplan

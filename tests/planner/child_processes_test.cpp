@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

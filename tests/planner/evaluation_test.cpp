@@ -6,7 +6,7 @@
 
 #include "planner/evaluation/manoeuvres.h"
 #include "planner/plan.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

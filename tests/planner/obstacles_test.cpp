@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "maps/ground_finder.h"
-#include "terramech/steered_wheel.h"
+#include "terramech/vehicle/steered_wheel.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

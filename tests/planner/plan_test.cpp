@@ -7,7 +7,7 @@
 
 #include "planner/driving/replay.h"
 #include "planner/problem/world.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/util/Console.h>
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "planner/ompl/iteration_termination.h"
 #include "planner/ompl/ompl_planners.h"
 #include "planner/ompl/ompl_problem.h"
 #include "tests/planner/flat_problem.h"

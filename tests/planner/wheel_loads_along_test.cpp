@@ -11,7 +11,7 @@
 namespace regoplan {
 namespace {
 
-TrajectoryPoint driving(double curvature_1pm) {
+TrajectoryPoint driving_at(double curvature_1pm) {
   TrajectoryPoint point;
   point.x_m = 20;
   point.y_m = 20;
@@ -30,7 +30,7 @@ TEST(WheelLoadsAlong, TogetherCarryTheWeightOnLevelGround) {
   const PlanningProblem problem = lrv_problem(one_soil_map(60, firm_regolith(), flat));
   const double weight_n = problem.vehicle.mass_kg * problem.gravity_mps2;
   for (const double curvature : {0.0, 0.05, -0.1}) {
-    const auto loads = wheel_loads_along_n(problem, std::vector{driving(curvature)});
+    const auto loads = wheel_loads_along_n(problem, std::vector{driving_at(curvature)});
     ASSERT_EQ(loads.size(), 1U);
     ASSERT_EQ(loads[0].size(), problem.vehicle.wheels.size());
     EXPECT_NEAR(sum(loads[0]), weight_n, 1e-9 * weight_n);
@@ -39,7 +39,7 @@ TEST(WheelLoadsAlong, TogetherCarryTheWeightOnLevelGround) {
 
 TEST(WheelLoadsAlong, ATurnToTheLeftLoadsTheRight) {
   const PlanningProblem problem = lrv_problem(one_soil_map(60, firm_regolith(), flat));
-  const auto loads = wheel_loads_along_n(problem, std::vector{driving(0.05)})[0];
+  const auto loads = wheel_loads_along_n(problem, std::vector{driving_at(0.05)})[0];
   double left_n = 0, right_n = 0;
   for (std::size_t i = 0; i < loads.size(); ++i) {
     (problem.vehicle.wheels[i].y_m > 0 ? left_n : right_n) += loads[i];
@@ -53,7 +53,7 @@ TEST(WheelLoadsAlong, ATurnToTheLeftLoadsTheRight) {
 
 TEST(WheelLoadsAlong, OnUnknownGroundNothingIsKnown) {
   const PlanningProblem problem = lrv_problem(one_soil_map(60, firm_regolith(), flat));
-  TrajectoryPoint outside = driving(0);
+  TrajectoryPoint outside = driving_at(0);
   outside.x_m = -1e4;
   const auto loads = wheel_loads_along_n(problem, std::vector{outside});
   ASSERT_EQ(loads.at(0).size(), problem.vehicle.wheels.size());

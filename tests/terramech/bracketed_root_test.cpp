@@ -1,4 +1,4 @@
-#include "terramech/bracketed_root.h"
+#include "terramech/basics/bracketed_root.h"
 
 #include <gtest/gtest.h>
 

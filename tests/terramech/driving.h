@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {

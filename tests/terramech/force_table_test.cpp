@@ -1,4 +1,4 @@
-#include "terramech/force_table.h"
+#include "terramech/force_table/force_table.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <random>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/terramech/wheel_specs.h"
 
 namespace regoplan {

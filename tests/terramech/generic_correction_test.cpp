@@ -1,4 +1,4 @@
-#include "terramech/generic_correction.h"
+#include "terramech/mechanisms/generic_correction.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "terramech/corrected_forces.h"
-#include "terramech/force_table.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/force_table/force_table.h"
+#include "terramech/wheel/corrected_forces.h"
 #include "tests/terramech/wheel_specs.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "terramech/ground_patch.h"
+#include "terramech/parameters/ground_patch.h"
 
 #include <gtest/gtest.h>
 

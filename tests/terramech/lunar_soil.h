@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "terramech/angles.h"
-#include "terramech/ground_patch.h"
-#include "terramech/supply.h"
-#include "terramech/vehicle.h"
-#include "terramech/wheel_law.h"
+#include "terramech/basics/angles.h"
+#include "terramech/margins/supply.h"
+#include "terramech/parameters/ground_patch.h"
+#include "terramech/parameters/vehicle.h"
+#include "terramech/wheel/wheel_law.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "terramech/margins.h"
+#include "terramech/margins/margins.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "terramech/vehicle.h"
-#include "terramech/wheel_model.h"
+#include "terramech/parameters/vehicle.h"
+#include "terramech/wheel/wheel_model.h"
 
 /// The soils that the tests and benchmarks speak of by name, and those that come with the program.
 namespace regoplan::named_soils {

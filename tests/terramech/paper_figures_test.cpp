@@ -1,4 +1,4 @@
-#include "terramech/paper_figures.h"
+#include "terramech/wheel/paper_figures.h"
 
 #include <gtest/gtest.h>
 

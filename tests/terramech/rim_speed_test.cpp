@@ -1,8 +1,8 @@
-#include "terramech/rim_speed.h"
+#include "terramech/vehicle/rim_speed.h"
 
 #include <gtest/gtest.h>
 
-#include "terramech/wheel_law.h"
+#include "terramech/wheel/wheel_law.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <map>
 
-#include "terramech/angles.h"
-#include "terramech/wheel_model.h"
+#include "terramech/basics/angles.h"
+#include "terramech/wheel/wheel_model.h"
 #include "tests/measured_data.h"
 #include "tests/terramech/csv_rows.h"
 

@@ -1,4 +1,4 @@
-#include "terramech/soil.h"
+#include "terramech/parameters/soil.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {

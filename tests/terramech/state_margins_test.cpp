@@ -1,4 +1,4 @@
-#include "terramech/state_margins.h"
+#include "terramech/margins/state_margins.h"
 
 #include <gtest/gtest.h>
 

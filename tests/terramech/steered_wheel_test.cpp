@@ -1,4 +1,4 @@
-#include "terramech/steered_wheel.h"
+#include "terramech/vehicle/steered_wheel.h"
 
 #include <gtest/gtest.h>
 

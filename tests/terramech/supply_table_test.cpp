@@ -1,11 +1,11 @@
-#include "terramech/supply_table.h"
+#include "terramech/margins/supply_table.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "terramech/state_margins.h"
+#include "terramech/margins/state_margins.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {

@@ -1,10 +1,10 @@
-#include "terramech/supply.h"
+#include "terramech/margins/supply.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "terramech/margins.h"
+#include "terramech/margins/margins.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {

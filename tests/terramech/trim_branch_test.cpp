@@ -1,4 +1,4 @@
-#include "terramech/trim_branch.h"
+#include "terramech/margins/trim_branch.h"
 
 #include <gtest/gtest.h>
 

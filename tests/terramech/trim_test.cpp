@@ -1,4 +1,4 @@
-#include "terramech/trim.h"
+#include "terramech/margins/trim.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "terramech/force_table.h"
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/force_table/force_table.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {

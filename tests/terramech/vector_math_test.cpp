@@ -1,4 +1,4 @@
-#include "terramech/vector_math.h"
+#include "terramech/basics/vector_math.h"
 
 #include <gtest/gtest.h>
 

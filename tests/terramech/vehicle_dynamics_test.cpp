@@ -1,11 +1,11 @@
-#include "terramech/vehicle_dynamics.h"
+#include "terramech/vehicle/vehicle_dynamics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "terramech/trim.h"
+#include "terramech/margins/trim.h"
 #include "tests/terramech/driving.h"
 
 namespace regoplan {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "terramech/force_table.h"
+#include "terramech/force_table/force_table.h"
 #include "tests/terramech/driving.h"
 
 namespace regoplan {

@@ -1,12 +1,12 @@
-#include "terramech/vehicle.h"
+#include "terramech/parameters/vehicle.h"
 
 #include <cmath>
 #include <functional>
 #include <limits>
 
 #include "gtest/gtest.h"
-#include "terramech/angles.h"
-#include "terramech/input_error.h"
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {

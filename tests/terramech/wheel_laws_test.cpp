@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "terramech/input_error.h"
-#include "terramech/wheel_model.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/wheel/wheel_model.h"
 #include "tests/terramech/wheel_specs.h"
 
 namespace regoplan {

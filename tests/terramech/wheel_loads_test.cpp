@@ -1,4 +1,4 @@
-#include "terramech/wheel_loads.h"
+#include "terramech/vehicle/wheel_loads.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terramech/wheel_model.h"
+#include "terramech/wheel/wheel_model.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "terramech/input_error.h"
+#include "terramech/basics/input_error.h"
 #include "tests/measured_data.h"
 #include "tests/terramech/csv_rows.h"
 #include "tests/terramech/wheel_specs.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "terramech/wheel_model.h"
+#include "terramech/wheel/wheel_model.h"
 
 /// The wheel model written the naive way, from the equations alone and sharing no code with the
 /// library: adaptive Gauss-Kronrod quadrature, a scan for the smallest rising root, and a

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "terramech/angles.h"
-#include "terramech/wheel_model.h"
+#include "terramech/basics/angles.h"
+#include "terramech/wheel/wheel_model.h"
 #include "tests/terramech/named_soils.h"
 
 /// Wheels on soils over which the laws of the wheel model are tested.

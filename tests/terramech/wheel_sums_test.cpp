@@ -1,8 +1,8 @@
-#include "terramech/wheel_sums.h"
+#include "terramech/vehicle/wheel_sums.h"
 
 #include <gtest/gtest.h>
 
-#include "terramech/force_table.h"
+#include "terramech/force_table/force_table.h"
 #include "tests/terramech/lunar_soil.h"
 
 namespace regoplan {

@@ -1,0 +1,358 @@
+#include "diagnosis/bed/condensed_recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "terramech/basics/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kDay_s = 86400;
+
+using ChannelValues = std::array<double, kChannelCount>;
+
+struct Usable {
+  std::vector<std::size_t> runs;
+  std::vector<ChannelValues> model;  // per run of the recording, at the prior means
+  int untrusted = 0, without_forces = 0;
+};
+
+Usable usable_runs(const Recording& recording, const WheelModel& model) {
+  Usable usable;
+  ChannelValues none;
+  none.fill(WheelRun::kNotMeasured);
+  usable.model.assign(recording.runs.size(), none);
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    const WheelRun& run = recording.runs[i];
+    const bool trusted = run.slip_ratio >= -0.9 && run.slip_ratio <= 0.95 &&
+                         std::abs(run.slip_angle_rad) <= std::numbers::pi / 3 + 1e-9;
+    if (!trusted) {
+      ++usable.untrusted;
+      continue;
+    }
+    const auto value =
+        channels_at(model, run.load_n, run.slip_ratio, run.slip_angle_rad, run.conditions);
+    if (!value) {
+      ++usable.without_forces;
+      continue;
+    }
+    usable.model[i] = *value;
+    usable.runs.push_back(i);
+  }
+  return usable;
+}
+
+/// The day as a time where no time is recorded.
+Recording with_times(Recording recording) {
+  if (recording.runs.empty()) return recording;
+  double first = INFINITY;
+  for (const WheelRun& run : recording.runs) first = std::min(first, run.day);
+  if (recording.columns.time) return recording;
+  for (WheelRun& run : recording.runs) run.conditions.time_s = (run.day - first) * kDay_s;
+  return recording;
+}
+
+/// Whether most side forces push the way the wheel moves.
+bool side_is_turned(const Recording& recording, const std::vector<std::size_t>& used) {
+  constexpr double kClearly_rad = 0.05;
+  double along = 0, against = 0;
+  for (const std::size_t i : used) {
+    const WheelRun& run = recording.runs[i];
+    const double fy = run.value(Channel::kFy);
+    if (!std::isfinite(fy) || std::abs(run.slip_angle_rad) < kClearly_rad) continue;
+    (fy * run.slip_angle_rad > 0 ? against : along) += std::abs(fy);
+  }
+  return along > 3 * against;
+}
+
+std::size_t days_of(const Recording& recording) {
+  std::set<double> days;
+  for (const WheelRun& run : recording.runs) days.insert(run.day);
+  return days.size();
+}
+
+/// Between its smallest and its largest value.
+double span_of(const Recording& recording, Channel channel) {
+  double low = INFINITY, high = -INFINITY;
+  for (const WheelRun& run : recording.runs) {
+    if (!std::isfinite(run.value(channel))) continue;
+    low = std::min(low, run.value(channel));
+    high = std::max(high, run.value(channel));
+  }
+  return high - low;
+}
+
+std::string setup_note(const Recording& recording, const ChannelNoise& noise) {
+  std::string text =
+      fmt::format("{}: no replicates; noise {:.3g} from the setup, days by half of it (assumed)",
+                  name(noise.channel), noise.constant);
+  const double span = span_of(recording, noise.channel);
+  if (noise.constant > span) {
+    text +=
+        fmt::format("; all its values lie within {:.3g}: is the unit of the noise right?", span);
+  }
+  return text;
+}
+
+std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
+  const std::string channel(name(noise.channel));
+  switch (noise.source) {
+    case NoiseSource::kSetup:
+      return setup_note(recording, noise);
+    case NoiseSource::kNeighbours:
+      return fmt::format(
+          "{}: neither replicates nor setup tell the noise; {:.3g} was taken from "
+          "the scatter between neighbouring conditions, which is cautious: small "
+          "effects stay unseen",
+          channel, noise.constant);
+    case NoiseSource::kReplicates:
+      break;
+  }
+  std::string text = fmt::format("{}: one run scatters by {:.3g} ({} degrees of freedom)", channel,
+                                 noise.constant, noise.degrees_of_freedom);
+  if (noise.proportional > 0)
+    text += fmt::format(", plus {:.2g} of the signal", noise.proportional);
+  if (noise.day_offset > 0) {
+    text +=
+        fmt::format(", days differ by {:.3g}{}", noise.day_offset,
+                    noise.day_assumed ? " (assumed: no condition was run on several days)" : "");
+  }
+  if (noise.day_gain > 0) text += fmt::format(", days by {:.2g} of the signal", noise.day_gain);
+  if (!noise.outliers.empty()) {
+    text += ", outliers:";
+    for (const std::size_t run : noise.outliers) text += " " + recording.runs[run].run_id;
+  }
+  return text;
+}
+
+/// Runs in groups, each channel moved to its group's means.
+struct Grouped {
+  std::vector<Condition> conditions;
+  std::vector<std::size_t> condition;  // per run
+  std::vector<ChannelRuns> channels;
+};
+
+Grouped group(const Recording& recording, const Usable& usable, const WheelModel& model,
+              const std::vector<int>& block) {
+  Grouped result{.conditions = group_conditions(recording, usable.runs, block)};
+  result.condition.assign(recording.runs.size(), result.conditions.size());
+  std::vector<std::optional<ChannelValues>> at_means;
+  for (std::size_t k = 0; k < result.conditions.size(); ++k) {
+    const Condition& at = result.conditions[k];
+    for (const std::size_t run : at.runs) result.condition[run] = k;
+    at_means.push_back(
+        channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions));
+  }
+  for (const Channel channel : recording.channels) {
+    const auto c = static_cast<std::size_t>(channel);
+    std::vector<double> adjusted(recording.runs.size(), WheelRun::kNotMeasured);
+    std::vector<double> modelled = adjusted;
+    bool measured = false;
+    for (const std::size_t run : usable.runs) {
+      const auto& mean = at_means[result.condition[run]];
+      const double moved = mean ? (*mean)[c] - usable.model[run][c] : 0;
+      adjusted[run] = recording.runs[run].value(channel) + moved;
+      modelled[run] = usable.model[run][c];
+      measured = measured || std::isfinite(adjusted[run]);
+    }
+    if (measured) result.channels.push_back({channel, std::move(adjusted), std::move(modelled)});
+  }
+  return result;
+}
+
+/// What may change in the course of a recording: every channel by as much, by a share of itself, or
+/// as other soil numbers would have it.
+std::vector<CourseKind> course_kinds(const Recording& recording, const Usable& usable,
+                                     const Grouped& grouped, const DiagnosisSetup& setup) {
+  CourseKind offset{.name = "offset"}, gain{.name = "gain"};
+  for (const ChannelRuns& channel : grouped.channels) {
+    offset.of_channel.emplace_back(recording.runs.size(), 1.0);
+    gain.of_channel.push_back(channel.modelled);
+  }
+  std::vector<CourseKind> kinds{std::move(offset), std::move(gain)};
+  const auto add = [&](std::string kind, double cohesion, double limit, double stiffness) {
+    Soil soil = setup.soil.mean;
+    soil.cohesion_pa *= cohesion * limit;
+    soil.friction_angle_rad = std::atan(limit * std::tan(soil.friction_angle_rad));
+    soil.kc *= stiffness;
+    soil.kphi *= stiffness;
+    const WheelModel changed({.variant = setup.variant,
+                              .wheel = setup.wheel,
+                              .soil = soil,
+                              .gravity_mps2 = setup.gravity_mps2});
+    CourseKind by_soil{.name = std::move(kind)};
+    for (const ChannelRuns& channel : grouped.channels) {
+      std::vector<double> change(recording.runs.size(), 0.0);
+      for (const std::size_t run : usable.runs) {
+        const WheelRun& at = recording.runs[run];
+        const auto value =
+            channels_at(changed, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions);
+        const auto c = static_cast<std::size_t>(channel.channel);
+        if (value) change[run] = (*value)[c] - usable.model[run][c];
+      }
+      by_soil.of_channel.push_back(std::move(change));
+    }
+    kinds.push_back(std::move(by_soil));
+  };
+  if (setup.soil.mean.cohesion_pa > 0) add("cohesion", 1.3, 1, 1);
+  add("strength", 1, 1.1, 1);
+  add("stiffness", 1, 1, 1.3);
+  return kinds;
+}
+
+std::string course_note(const Course& course, const std::vector<ChannelNoise>& noise) {
+  std::string text = fmt::format(
+      "replicates do not scatter only: they follow {} ({}; {:.0f} nats over days and scatter "
+      "alone)",
+      course.column, course.kind, course.gain_nats);
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    double low = INFINITY, high = -INFINITY;
+    for (const double t : course.trend[c]) {
+      low = std::min(low, noise[c].trend * t);
+      high = std::max(high, noise[c].trend * t);
+    }
+    text += fmt::format("{} {} by {:.3g}", c == 0 ? ":" : ",", name(noise[c].channel), high - low);
+  }
+  return text;
+}
+
+/// Moves every run to the mean of what it follows.
+void take_off(const Course& course, const std::vector<ChannelNoise>& noise,
+              std::vector<ChannelRuns>& channels) {
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    double mean = 0;
+    for (const double t : course.trend[c]) mean += t / static_cast<double>(course.trend[c].size());
+    for (std::size_t run = 0; run < course.trend[c].size(); ++run) {
+      channels[c].adjusted[run] -= noise[c].trend * (course.trend[c][run] - mean);
+    }
+  }
+}
+
+}  // namespace
+
+ChannelData means_of(const Recording& recording, const std::vector<Condition>& conditions,
+                     const ChannelNoise& noise, const std::vector<double>& adjusted) {
+  ChannelData data{.channel = noise.channel};
+  struct Part {
+    double day, weight;
+  };
+  std::vector<std::vector<Part>> parts;
+  std::vector<double> means, own, scales;
+  for (std::size_t k = 0; k < conditions.size(); ++k) {
+    double sum = 0, weights = 0;
+    std::vector<Part> of_days;
+    for (const std::size_t run : conditions[k].runs) {
+      if (!std::isfinite(adjusted[run])) continue;
+      const double w = noise.weight[run];
+      sum += w * adjusted[run];
+      weights += w;
+      of_days.push_back({recording.runs[run].day, w});
+    }
+    if (weights == 0) continue;
+    for (Part& part : of_days) part.weight /= weights;
+    data.conditions.push_back(k);
+    means.push_back(sum / weights);
+    scales.push_back(run_deviation(noise, sum / weights));
+    own.push_back(scales.back() * scales.back() / weights);
+    parts.push_back(std::move(of_days));
+  }
+  const auto n = static_cast<Eigen::Index>(means.size());
+  data.mean = Eigen::Map<const Eigen::VectorXd>(means.data(), n);
+  data.noise = Eigen::Map<const Eigen::VectorXd>(own.data(), n).asDiagonal();
+  const double offset2 = noise.day_offset * noise.day_offset;
+  const double gain2 = noise.day_gain * noise.day_gain;
+  if (offset2 + gain2 > 0) {
+    for (Eigen::Index a = 0; a < n; ++a) {
+      for (Eigen::Index b = 0; b < n; ++b) {
+        double shared = 0;
+        for (const Part& p : parts[static_cast<std::size_t>(a)]) {
+          for (const Part& q : parts[static_cast<std::size_t>(b)]) {
+            if (p.day == q.day) shared += p.weight * q.weight;
+          }
+        }
+        data.noise(a, b) += shared * (offset2 + gain2 * data.mean[a] * data.mean[b]);
+      }
+    }
+  }
+  std::ranges::nth_element(scales, scales.begin() + n / 2);
+  data.scale = scales[static_cast<std::size_t>(n / 2)];
+  return data;
+}
+
+CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, std::size_t fewest) {
+  CondensedRecording result;
+  Recording recording = with_times(raw);
+  const WheelModel model({.variant = setup.variant,
+                          .wheel = setup.wheel,
+                          .soil = setup.soil.mean,
+                          .gravity_mps2 = setup.gravity_mps2});
+  const Usable usable = usable_runs(recording, model);
+  if (usable.untrusted > 0) {
+    result.notes.push_back(
+        fmt::format("{} runs lie where the model is not trusted (slip outside "
+                    "-0.9 to 0.95, slip angle beyond 60 deg) and are not judged",
+                    usable.untrusted));
+  }
+  if (usable.without_forces > 0) {
+    result.notes.push_back(
+        fmt::format("{} runs have no model forces at the prior means and are "
+                    "not judged",
+                    usable.without_forces));
+  }
+  result.used = usable.runs;
+  if (side_is_turned(recording, usable.runs)) {
+    result.side_sign = -1;
+    result.notes.push_back(
+        "fy_n opposes the convention (positive for a positive slip angle): it "
+        "was turned for the analysis");
+    for (WheelRun& run : recording.runs) run.measured[1] = -run.measured[1];
+  }
+  TestBed& bed = result.bed;
+  bed.setup = setup;
+  Grouped grouped = group(recording, usable, model, {});
+  if (grouped.conditions.size() < fewest) {
+    throw InputError(
+        fmt::format("recording: {} different conditions that the model can judge; a "
+                    "diagnosis needs {} and more",
+                    grouped.conditions.size(), fewest));
+  }
+  result.course = course_of(recording, grouped.conditions, grouped.channels,
+                            course_kinds(recording, usable, grouped, setup), setup);
+  for (std::size_t c = 0; c < grouped.channels.size(); ++c) {
+    const ChannelRuns& runs = grouped.channels[c];
+    result.noise.push_back(
+        estimate_noise(recording, grouped.conditions, runs.channel, runs.adjusted, runs.modelled,
+                       setup, result.course ? result.course->trend[c] : std::vector<double>{}));
+  }
+  if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
+  if (result.course && result.course->in_time()) {
+    grouped = group(recording, usable, model, blocks_of(*result.course));
+    for (Condition& at : grouped.conditions) {
+      for (const std::size_t run : at.runs) {
+        at.when += result.course->value[run] / static_cast<double>(at.runs.size());
+      }
+    }
+  } else if (result.course) {
+    take_off(*result.course, result.noise, grouped.channels);
+  }
+  bed.conditions = std::move(grouped.conditions);
+  result.condition = std::move(grouped.condition);
+  for (ChannelRuns& runs : grouped.channels) result.adjusted.push_back(std::move(runs.adjusted));
+  if (result.noise.empty()) throw InputError("recording: no channel is measured");
+  share_day_offsets(result.noise, days_of(recording));
+  for (std::size_t c = 0; c < result.noise.size(); ++c) {
+    result.notes.push_back(noise_note(recording, result.noise[c]));
+    bed.channels.push_back(
+        means_of(recording, bed.conditions, result.noise[c], result.adjusted[c]));
+  }
+  bed.accuracy = sufficient_accuracy(bed);
+  result.correlation = noise_correlation(result.noise, bed.conditions, result.adjusted);
+  return result;
+}
+
+}  // namespace regoplan

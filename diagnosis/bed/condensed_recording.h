@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/bed/wheel_bed.h"
+#include "diagnosis/recording/course.h"
+
+namespace regoplan {
+
+/// A recording as it is analysed.
+struct CondensedRecording {
+  TestBed bed;
+  std::vector<std::size_t> used;              ///< runs that can be judged
+  std::vector<ChannelNoise> noise;            ///< per channel of the bed
+  Eigen::MatrixXd correlation;                ///< of the noise between channels
+  std::vector<std::vector<double>> adjusted;  ///< per channel, per run: at its condition's means
+  std::vector<std::size_t> condition;         ///< per run; those not used: condition_count
+  std::optional<Course> course;               ///< what replicates follow, if anything
+  double side_sign = 1;                       ///< -1: fy_n opposes the convention and was turned
+  std::vector<std::string> notes;
+};
+
+/// Groups replicates, measures the noise and condenses runs to conditions. Runs that the model
+/// cannot be trusted for (slip outside [-0.9, 0.95], slip angle beyond 60 deg, no forces at the
+/// prior means) are left out and noted. Where replicates differ by a course in time, time is a
+/// place: runs of different times are no replicates, and the noise is what the course leaves. A
+/// side force whose sign opposes the convention is turned and noted. \param fewest different
+/// conditions that are needed \throws InputError with fewer different conditions, no channel, or
+/// replicates that are all identical
+CondensedRecording condense(const Recording& recording, const DiagnosisSetup& setup,
+                            std::size_t fewest = 8);
+
+/// Means of one channel over the replicates, and their covariance: each run's own scatter, outliers
+/// weighted down, and what the runs of one day share.
+/// \param adjusted per run: the value moved to its condition's mean load, slip and slip angle
+ChannelData means_of(const Recording& recording, const std::vector<Condition>& conditions,
+                     const ChannelNoise& noise, const std::vector<double>& adjusted);
+
+}  // namespace regoplan

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/bed/wheel_bed.h"
+
+namespace regoplan {
+
+/// One column of the operating space: its value at each condition, in the file's unit.
+struct ConditionAxis {
+  std::string column;
+  std::vector<double> value;
+  std::vector<std::size_t> level;  ///< of each condition, 0 the lowest
+  std::size_t levels = 0;
+};
+
+/// The columns that vary: `slip_ratio`, `slip_angle_deg`, `abs_slip_angle_deg` (where both sides
+/// were tested), `load_n`, `speed_mps`, `pass`, `position_m`, `time_s`. Levels of slip and the like
+/// that lie close together count as one.
+std::vector<ConditionAxis> condition_axes(const TestBed& bed);
+
+}  // namespace regoplan

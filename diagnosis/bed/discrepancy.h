@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "diagnosis/bed/wheel_bed.h"
+
+namespace regoplan {
+
+/// Scales over which an unnamed smooth discrepancy changes.
+struct DiscrepancyScales {
+  double slip = 0.3;
+  double slip_angle_rad = 0.25;
+  double log_load = 0.8;
+};
+
+/// One setting of the discrepancy of a channel.
+struct DiscrepancySetting {
+  double amplitude = 0;    ///< standard deviation in units of one run's noise
+  std::size_t scales = 0;  ///< index into discrepancy_scales()
+};
+
+const std::vector<DiscrepancyScales>& discrepancy_scales();
+
+/// All settings: no discrepancy first, then every amplitude with every scale.
+const std::vector<DiscrepancySetting>& discrepancy_settings();
+
+/// Squared-exponential kernel of unit variance over slip, |slip angle|, log load, and pass, speed,
+/// position and time where they vary. The side force's part is odd in the slip angle.
+double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, const Condition& a,
+                          const Condition& b);
+
+/// Covariance of one channel under one setting, factored.
+struct ChannelCovariance {
+  Eigen::LLT<Eigen::MatrixXd> factor;
+  double log_determinant = 0;
+  Eigen::MatrixXd discrepancy;  ///< the part that is no noise; empty where there is none
+};
+
+/// Noise plus smooth discrepancy of all channels under all settings.
+class Discrepancy {
+ public:
+  explicit Discrepancy(const TestBed& bed);
+
+  const ChannelCovariance& at(std::size_t channel, std::size_t setting) const {
+    return channels_[channel][setting];
+  }
+
+ private:
+  std::vector<std::vector<ChannelCovariance>> channels_;
+};
+
+/// The Cholesky factor of each channel under its setting, as `whitened` takes it. What it is made
+/// of must outlive it.
+inline auto factors_under(const Discrepancy& discrepancy,
+                          const std::vector<std::size_t>& settings) {
+  return [&discrepancy, &settings](std::size_t channel) -> const Eigen::LLT<Eigen::MatrixXd>& {
+    return discrepancy.at(channel, settings[channel]).factor;
+  };
+}
+
+}  // namespace regoplan

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "diagnosis/recording/condition_groups.h"
+#include "diagnosis/recording/setup.h"
+
+namespace regoplan {
+
+/// All six channels of a model under one condition; nothing where the wheel has no forces.
+std::optional<std::array<double, kChannelCount>> channels_at(const WheelModel& model, double load_n,
+                                                             double slip_ratio,
+                                                             double slip_angle_rad,
+                                                             const WheelConditions& conditions);
+
+/// What a channel measured, one value a condition.
+struct ChannelData {
+  Channel channel = Channel::kFx;
+  std::vector<std::size_t> conditions;  ///< at which it was measured
+  Eigen::VectorXd mean;                 ///< of the replicates, at the condition's own load
+  Eigen::MatrixXd noise;                ///< covariance of the means, days included
+  double scale = 0;                     ///< standard deviation of one run, middle of all
+};
+
+/// The condensed recording: conditions, and per channel the means with their covariance. Vectors
+/// over all channels hold one channel after the other.
+struct TestBed {
+  DiagnosisSetup setup;
+  std::vector<Condition> conditions;
+  std::vector<ChannelData> channels;
+  WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise
+
+  Eigen::Index size() const;
+  Eigen::Index offset(std::size_t channel) const;  ///< where its values begin
+  Eigen::VectorXd measured() const;
+};
+
+/// Model values in the order of TestBed::measured(); nothing where a condition has no forces or
+/// the soil is not valid.
+std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
+                                       const std::vector<Mechanism>& mechanisms);
+
+/// How far a prediction lies from the means: squared residuals over the variance of each, summed.
+double variances_off(const TestBed& bed, const Eigen::VectorXd& prediction);
+
+/// The fast integration where every channel's noise is above 0.5 % of what the load makes of it.
+WheelAccuracy sufficient_accuracy(const TestBed& bed);
+
+}  // namespace regoplan

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/findings/findings.h"
+
+namespace regoplan {
+
+/// What a fit leaves, to be held against pure error.
+struct FitRemainder {
+  Eigen::VectorXd residual;  ///< measured - fitted
+  Eigen::VectorXd x;         ///< fitted numbers, standard normal beforehand
+  Eigen::MatrixXd jacobian;  ///< by x
+  double truth_spread = 1;   ///< standard deviation of the true x (1/3 where priors were widened)
+};
+
+/// Lack of fit against pure error. The misfit (priors counted as data) of all channels together and
+/// of each channel is compared with what noise alone makes of it in 2000 seeded draws, in which
+/// the noise is known no better than from its degrees of freedom and channels scatter together as
+/// replicates do. The worst of them counts; `critical` is at `significance` for all together.
+LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
+                      std::uint64_t seed, double significance = 0.005);
+
+/// One way in which a recording may differ from a model: what some effect would add.
+struct Direction {
+  Eigen::VectorXd values;
+  bool either_sign = false;  ///< the effect may also act the other way round
+};
+
+/// Probability that noise alone makes some of the directions stand out as far as the residual does
+/// after the fit: a sharper test than lack_of_fit() of what is looked for.
+double p_value_along(const CondensedRecording& recording, const FitRemainder& fit,
+                     const std::vector<Direction>& directions, std::uint64_t seed);
+
+/// Residuals that noise alone would leave after the fit, one column a draw, in the channels' units.
+Eigen::MatrixXd residuals_of_noise(const CondensedRecording& recording, const FitRemainder& fit,
+                                   std::uint64_t seed, int draws);
+
+}  // namespace regoplan

@@ -1,0 +1,201 @@
+#include "diagnosis/checks/location.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/bed/condition_axes.h"
+
+namespace regoplan {
+namespace {
+
+using Box = std::map<std::string, std::array<double, 2>>;
+
+struct Region {
+  std::size_t channel = 0;
+  Box box;
+  Eigen::VectorXd weight;  // sums residuals to their weighted mean
+  std::vector<bool> inside;
+};
+
+struct Interval {
+  std::size_t from, to;  // levels
+};
+
+std::vector<Interval> intervals(std::size_t levels, bool boxes) {
+  constexpr std::size_t kMostForBoxes = 12;
+  std::vector<Interval> all;
+  for (std::size_t from = 0; from < levels; ++from) {
+    for (std::size_t to = from; to < levels; ++to) {
+      const bool whole = from == 0 && to == levels - 1;
+      const bool half = from == 0 || to == levels - 1;
+      if (!whole && (half || (boxes && levels <= kMostForBoxes))) all.push_back({from, to});
+    }
+  }
+  return all;
+}
+
+std::vector<std::size_t> members(const ConditionAxis& axis, const Interval& interval) {
+  std::vector<std::size_t> inside;
+  for (std::size_t k = 0; k < axis.level.size(); ++k) {
+    if (axis.level[k] >= interval.from && axis.level[k] <= interval.to) inside.push_back(k);
+  }
+  return inside;
+}
+
+class Scan {
+ public:
+  explicit Scan(const TestBed& bed) : bed_(bed), axes_(condition_axes(bed)) {
+    std::vector<std::size_t> everywhere(bed.conditions.size());
+    for (std::size_t k = 0; k < everywhere.size(); ++k) everywhere[k] = k;
+    add({}, everywhere);
+    for (const ConditionAxis& axis : axes_) {
+      for (const Interval& interval : intervals(axis.levels, true)) {
+        add({&axis}, members(axis, interval));
+      }
+    }
+    for (std::size_t a = 0; a < axes_.size(); ++a) {
+      for (std::size_t b = a + 1; b < axes_.size(); ++b) corners(axes_[a], axes_[b]);
+    }
+  }
+
+  const std::vector<Region>& regions() const { return regions_; }
+
+ private:
+  void corners(const ConditionAxis& a, const ConditionAxis& b) {
+    constexpr std::size_t kMostLevels = 12;
+    if (a.levels > kMostLevels || b.levels > kMostLevels || b.column == "time_s") return;
+    for (const Interval& of_a : intervals(a.levels, false)) {
+      const std::vector<std::size_t> in_a = members(a, of_a);
+      for (const Interval& of_b : intervals(b.levels, false)) {
+        std::vector<std::size_t> both;
+        for (const std::size_t k : in_a) {
+          if (b.level[k] >= of_b.from && b.level[k] <= of_b.to) both.push_back(k);
+        }
+        add({&a, &b}, both);
+      }
+    }
+  }
+
+  void add(const std::vector<const ConditionAxis*>& axes, const std::vector<std::size_t>& inside) {
+    constexpr std::size_t kFewest = 2;
+    if (inside.size() < kFewest) return;
+    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
+      const ChannelData& data = bed_.channels[c];
+      Region region{.channel = c,
+                    .weight = Eigen::VectorXd::Zero(bed_.size()),
+                    .inside = std::vector<bool>(bed_.conditions.size())};
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < data.conditions.size(); ++i) {
+        if (!std::ranges::binary_search(inside, data.conditions[i])) continue;
+        const auto row = static_cast<Eigen::Index>(i);
+        region.weight[bed_.offset(c) + row] = 1 / data.noise(row, row);
+        region.inside[data.conditions[i]] = true;
+        ++count;
+      }
+      if (count < kFewest) continue;
+      region.weight /= region.weight.sum();
+      for (const ConditionAxis* axis : axes) {
+        double low = INFINITY, high = -INFINITY;
+        for (const std::size_t k : inside) {
+          low = std::min(low, axis->value[k]);
+          high = std::max(high, axis->value[k]);
+        }
+        region.box[axis->column] = {low, high};
+      }
+      regions_.push_back(std::move(region));
+    }
+  }
+
+  const TestBed& bed_;
+  std::vector<ConditionAxis> axes_;
+  std::vector<Region> regions_;
+};
+
+bool mostly_shared(const Region& a, const Region& b) {
+  if (a.channel != b.channel) return false;
+  int both = 0, of_a = 0, of_b = 0;
+  for (std::size_t k = 0; k < a.inside.size(); ++k) {
+    both += a.inside[k] && b.inside[k];
+    of_a += a.inside[k];
+    of_b += b.inside[k];
+  }
+  return 2 * both >= std::min(of_a, of_b);
+}
+
+}  // namespace
+
+std::vector<MismatchRegion> locate(const CondensedRecording& recording, const FitRemainder& fit,
+                                   std::uint64_t seed) {
+  constexpr int kDraws = 400;
+  constexpr double kSignificance = 0.05;
+  constexpr std::size_t kMostShown = 8;
+  const std::vector<Region> regions = Scan(recording.bed).regions();
+  const auto count = static_cast<Eigen::Index>(regions.size());
+  Eigen::MatrixXd weights(count, recording.bed.size());
+  for (Eigen::Index i = 0; i < count; ++i) {
+    weights.row(i) = regions[static_cast<std::size_t>(i)].weight.transpose();
+  }
+  const Eigen::VectorXd effect = weights * fit.residual;
+  const Eigen::MatrixXd by_chance = weights * residuals_of_noise(recording, fit, seed, kDraws);
+  const Eigen::VectorXd deviation =
+      (by_chance.array().square().rowwise().mean()).sqrt().max(1e-300);
+  std::vector<double> largest(kDraws);
+  for (int d = 0; d < kDraws; ++d) {
+    largest[static_cast<std::size_t>(d)] =
+        (by_chance.col(d).array() / deviation.array()).abs().maxCoeff();
+  }
+  std::ranges::sort(largest);
+  std::vector<Eigen::Index> order(regions.size());
+  for (Eigen::Index i = 0; i < count; ++i) order[static_cast<std::size_t>(i)] = i;
+  const auto score = [&](Eigen::Index i) { return std::abs(effect[i]) / deviation[i]; };
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return score(a) > score(b); });
+  std::vector<MismatchRegion> found;
+  std::vector<const Region*> kept;
+  for (const Eigen::Index i : order) {
+    const auto beyond = largest.end() - std::ranges::lower_bound(largest, score(i));
+    const double p = (1.0 + static_cast<double>(beyond)) / (kDraws + 1.0);
+    if (p > kSignificance || found.size() == kMostShown) break;
+    const Region& region = regions[static_cast<std::size_t>(i)];
+    if (std::ranges::any_of(kept, [&](const Region* k) { return mostly_shared(*k, region); })) {
+      continue;
+    }
+    kept.push_back(&region);
+    found.push_back({.channel = recording.bed.channels[region.channel].channel,
+                     .region = region.box,
+                     .effect = effect[i],
+                     .ci95 = {effect[i] - 1.96 * deviation[i], effect[i] + 1.96 * deviation[i]},
+                     .p_value = p});
+  }
+  return found;
+}
+
+std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording) {
+  if (!recording.course) return std::nullopt;
+  const Course& course = *recording.course;
+  const auto runs = static_cast<double>(course.value.size());
+  std::optional<MismatchRegion> clearest;
+  double most = 0;
+  for (std::size_t c = 0; c < recording.noise.size(); ++c) {
+    double early = 0, late = 0, earlies = 0, lates = 0;
+    for (std::size_t run = 0; run < course.value.size(); ++run) {
+      const double part = recording.noise[c].trend * course.trend[c][run];
+      if (course.value[run] < 1.0 / 3) early += part, ++earlies;
+      if (course.value[run] > 2.0 / 3) late += part, ++lates;
+    }
+    if (earlies == 0 || lates == 0) continue;
+    const double effect = late / lates - early / earlies;
+    const double deviation = recording.noise[c].constant * std::sqrt(4 / std::max(runs, 1.0));
+    if (std::abs(effect) / deviation <= most) continue;
+    most = std::abs(effect) / deviation;
+    clearest = MismatchRegion{
+        .channel = recording.bed.channels[c].channel,
+        .region = {{course.column,
+                    {course.low + 2.0 / 3 * (course.high - course.low), course.high}}},
+        .effect = effect,
+        .ci95 = {effect - 1.96 * deviation, effect + 1.96 * deviation},
+        .p_value = std::exp(-course.gain_nats)};
+  }
+  return clearest;
+}
+
+}  // namespace regoplan

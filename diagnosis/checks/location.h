@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "diagnosis/checks/detection.h"
+#include "diagnosis/findings/findings.h"
+
+namespace regoplan {
+
+/// Where measurement and fitted model differ: boxes and half-lines of every column that varies, and
+/// corners of slip with slip angle, are scanned in every channel for the mean residual. Its
+/// significance is judged against the largest such mean, over all channels and regions, that noise
+/// leaves in seeded draws, so that 5 % of recordings without mismatch show any region at all. Of
+/// regions that share most of their conditions only the strongest stays.
+std::vector<MismatchRegion> locate(const CondensedRecording& recording, const FitRemainder& fit,
+                                   std::uint64_t seed);
+
+/// The last third of a course that replicates follow, in its own column: by how much the channel in
+/// which it is clearest lies there off the first third, its noise at hand. Nothing without a
+/// course.
+std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording);
+
+}  // namespace regoplan

@@ -1,0 +1,254 @@
+#include "diagnosis/checks/shared_shortcomings.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/bed/discrepancy.h"
+#include "diagnosis/fit/calibration.h"
+#include "terramech/basics/input_error.h"
+
+namespace regoplan {
+namespace {
+
+/// One value that a reference gives of the base model's shortcoming in a channel.
+struct Points {
+  std::vector<const Condition*> at;
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd noise;
+  double scale = 0;
+};
+
+const ChannelData* channel_of(const TestBed& bed, Channel channel, std::size_t* index) {
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    if (bed.channels[c].channel != channel) continue;
+    *index = c;
+    return &bed.channels[c];
+  }
+  return nullptr;
+}
+
+/// \param predictions of the base model, one vector a reference
+Points points_of(const std::vector<CondensedRecording>& references,
+                 const std::vector<Eigen::VectorXd>& predictions, Channel channel) {
+  Points points;
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    const TestBed& bed = references[r].bed;
+    std::size_t c = 0;
+    const ChannelData* data = channel_of(bed, channel, &c);
+    if (data == nullptr) continue;
+    const Eigen::Index from = points.residual.size(), n = data->mean.size();
+    points.residual.conservativeResize(from + n);
+    points.residual.tail(n) = data->mean - predictions[r].segment(bed.offset(c), n);
+    Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(from + n, from + n);
+    noise.topLeftCorner(from, from) = points.noise;
+    noise.bottomRightCorner(n, n) = data->noise;
+    points.noise = std::move(noise);
+    for (const std::size_t k : data->conditions) points.at.push_back(&bed.conditions[k]);
+    points.scale = std::max(points.scale, data->scale);
+  }
+  return points;
+}
+
+struct Surface {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+Eigen::MatrixXd kernel_of(const DiscrepancyScales& scales, Channel channel,
+                          const std::vector<const Condition*>& a,
+                          const std::vector<const Condition*>& b) {
+  Eigen::MatrixXd kernel(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      kernel(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          discrepancy_kernel(scales, channel, *a[i], *b[k]);
+    }
+  }
+  return kernel;
+}
+
+/// Every setting of the discrepancy by its likelihood: the mean over them all, and their spread.
+Surface surface_through(const Points& points, Channel channel,
+                        const std::vector<const Condition*>& wanted) {
+  const auto n = static_cast<Eigen::Index>(wanted.size());
+  Surface sum{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+  if (points.at.empty()) {
+    return sum;
+  }
+  struct Member {
+    double log_likelihood;
+    Surface surface;
+  };
+  std::vector<Member> members;
+  for (const DiscrepancyScales& scales : discrepancy_scales()) {
+    const Eigen::MatrixXd kernel = kernel_of(scales, channel, points.at, points.at);
+    const Eigen::MatrixXd cross = kernel_of(scales, channel, wanted, points.at);
+    const Eigen::MatrixXd own = kernel_of(scales, channel, wanted, wanted);
+    for (const double amplitude : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+      const double variance = std::pow(amplitude * points.scale, 2);
+      const Eigen::LLT<Eigen::MatrixXd> factor(points.noise + variance * kernel);
+      const double fit = factor.matrixL().solve(points.residual).squaredNorm();
+      const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
+      const Eigen::MatrixXd half = factor.matrixL().solve(variance * cross.transpose());
+      members.push_back({-0.5 * (fit + log_det),
+                         {variance * cross * factor.solve(points.residual),
+                          variance * own - half.transpose() * half}});
+    }
+  }
+  double top = -INFINITY, whole = 0;
+  for (const Member& m : members) top = std::max(top, m.log_likelihood);
+  for (Member& m : members) {
+    m.log_likelihood = std::exp(m.log_likelihood - top);
+    whole += m.log_likelihood;
+  }
+  for (const Member& m : members) sum.mean += m.log_likelihood / whole * m.surface.mean;
+  for (const Member& m : members) {
+    const Eigen::VectorXd off = m.surface.mean - sum.mean;
+    sum.covariance += m.log_likelihood / whole * (m.surface.covariance + off * off.transpose());
+  }
+  return sum;
+}
+
+std::vector<const Condition*> conditions_of(const TestBed& bed) {
+  std::vector<const Condition*> all;
+  for (const Condition& at : bed.conditions) all.push_back(&at);
+  return all;
+}
+
+/// The soil that fits all references together: each in turn tells the next what it knows. On the
+/// way back to the prior means where the test has no forces on it.
+Soil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& references) {
+  UncertainSoil soil = references.front().bed.setup.soil;
+  for (const CondensedRecording& reference : references) {
+    const std::vector<SoilCoordinate> coordinates = soil_coordinates(soil);
+    TestBed bed = reference.bed;
+    bed.setup.soil = soil;
+    const Calibration calibration = calibrate(bed, coordinates);
+    soil.mean = soil_at(soil, coordinates, calibration.x);
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      soil.standard_deviation.*soil_parameters()[coordinates[i].parameter].member =
+          coordinates[i].coordinate.spread * std::sqrt(calibration.covariance(k, k));
+    }
+  }
+  const Soil& means = test.setup.soil.mean;
+  for (const double share : {1.0, 0.7, 0.4, 0.2}) {
+    Soil between = means;
+    for (const SoilParameter& p : soil_parameters()) {
+      between.*p.member += share * (soil.mean.*p.member - means.*p.member);
+    }
+    const bool everywhere =
+        predict(test, between, {}) && std::ranges::all_of(references, [&](const auto& reference) {
+          return predict(reference.bed, between, {}).has_value();
+        });
+    if (everywhere) return between;
+  }
+  return means;
+}
+
+/// Gives every condition the sinkage that the references measured, over the model's; where the
+/// surface through it would leave no sinkage or an axle in the ground, a tenth of the model's and
+/// four fifths of the radius.
+void impose_sinkage(TestBed& bed, const Soil& soil, const Points& sinkage) {
+  constexpr double kLeast = 0.1, kMost = 0.8;
+  const Surface surface = surface_through(sinkage, Channel::kSinkage, conditions_of(bed));
+  const WheelModel model({.variant = bed.setup.variant,
+                          .wheel = bed.setup.wheel,
+                          .soil = soil,
+                          .gravity_mps2 = bed.setup.gravity_mps2});
+  for (std::size_t k = 0; k < bed.conditions.size(); ++k) {
+    Condition& at = bed.conditions[k];
+    const auto base =
+        channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions);
+    const double h = base ? (*base)[static_cast<std::size_t>(Channel::kSinkage)] : 0;
+    double offset = std::clamp(h + surface.mean[static_cast<Eigen::Index>(k)], kLeast * h,
+                               kMost * bed.setup.wheel.radius_m) -
+                    h;
+    // where cohesion alone would carry the load at that depth, as near to it as there are forces
+    constexpr double kNone_m = 1e-6;
+    for (; std::abs(offset) > kNone_m; offset /= 2) {
+      at.conditions.sinkage_offset_m = offset;
+      if (channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions)) break;
+    }
+    if (std::abs(offset) <= kNone_m) at.conditions.sinkage_offset_m = 0;
+  }
+}
+
+/// A pass that the references did not drive is what differs, not a place of its own.
+void forget_passes(const std::vector<CondensedRecording>& references, std::vector<Condition>& at) {
+  int first = 0;
+  for (const CondensedRecording& reference : references) {
+    for (const Condition& known : reference.bed.conditions) {
+      if (first == 0) first = known.conditions.pass;
+      if (known.conditions.pass != first) return;
+    }
+  }
+  for (Condition& one : at) one.conditions.pass = first;
+}
+
+Eigen::VectorXd prediction_of(const TestBed& bed, const Soil& soil) {
+  const auto prediction = predict(bed, soil, {});
+  if (!prediction) {
+    throw InputError("the wheel has no forces under some condition of test or reference");
+  }
+  return *prediction;
+}
+
+}  // namespace
+
+std::string_view name(SharedBase base) {
+  constexpr std::array<std::string_view, 3> kNames{"prior means", "calibrated on the reference",
+                                                   "the reference's sinkage imposed"};
+  return kNames[static_cast<std::size_t>(base)];
+}
+
+DifferenceBed difference_bed(const CondensedRecording& test,
+                             const std::vector<CondensedRecording>& references, SharedBase base) {
+  DifferenceBed result{.base = base, .soil = test.bed.setup.soil.mean, .test = test};
+  if (base == SharedBase::kCalibrated) result.soil = calibrated_on(test.bed, references);
+  std::vector<CondensedRecording> told = references;
+  TestBed& bed = result.test.bed;
+  std::vector<Eigen::VectorXd> predictions;
+  for (const CondensedRecording& r : told) predictions.push_back(prediction_of(r.bed, result.soil));
+  if (base == SharedBase::kSinkageImposed) {
+    const Points sinkage = points_of(told, predictions, Channel::kSinkage);
+    if (!sinkage.at.empty()) {
+      impose_sinkage(bed, result.soil, sinkage);
+      predictions.clear();
+      for (CondensedRecording& r : told) {
+        impose_sinkage(r.bed, result.soil, sinkage);
+        predictions.push_back(prediction_of(r.bed, result.soil));
+      }
+    }
+  }
+  std::vector<Condition> places = bed.conditions;
+  forget_passes(references, places);
+  result.measured = bed.measured();
+  result.shared.setZero(bed.size());
+  result.noise_variance.resize(bed.size());
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    ChannelData& data = bed.channels[c];
+    std::vector<const Condition*> wanted;
+    for (const std::size_t k : data.conditions) wanted.push_back(&places[k]);
+    const Surface surface =
+        surface_through(points_of(told, predictions, data.channel), data.channel, wanted);
+    const Eigen::Index from = bed.offset(c), n = data.mean.size();
+    result.noise_variance.segment(from, n) = data.noise.diagonal();
+    result.shared.segment(from, n) = surface.mean;
+    data.mean -= surface.mean;
+    data.noise += surface.covariance;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (const std::size_t run :
+           bed.conditions[data.conditions[static_cast<std::size_t>(i)]].runs) {
+        result.test.adjusted[c][run] -= surface.mean[i];
+      }
+    }
+  }
+  UncertainSoil& known = bed.setup.soil;
+  known = {.mean = result.soil};
+  return result;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/bed/condensed_recording.h"
+
+namespace regoplan {
+
+/// How the base model is set before test and reference are compared. Names of a difference must
+/// hold under each: none of them is true, and each errs elsewhere.
+enum class SharedBase {
+  kPriorMeans,      ///< soil at the prior means
+  kCalibrated,      ///< soil fitted to the reference
+  kSinkageImposed,  ///< soil at the prior means, the sinkage as the reference measured it
+};
+
+/// `prior means`, `calibrated on the reference`, `the reference's sinkage imposed`.
+std::string_view name(SharedBase base);
+
+/// The test recording less what the base model lacks on the reference too: the mean of a Gaussian
+/// process through the reference's residuals is taken off each channel, its covariance joins the
+/// noise. What the two recordings differ in is left.
+struct DifferenceBed {
+  SharedBase base = SharedBase::kPriorMeans;
+  Soil soil;                       ///< fixed: a difference has no soil numbers of its own
+  CondensedRecording test;         ///< of its bed, means and noise as said above
+  Eigen::VectorXd measured;        ///< of the test, nothing taken off
+  Eigen::VectorXd shared;          ///< what was taken off
+  Eigen::VectorXd noise_variance;  ///< of the test's means alone
+};
+
+/// \throws InputError as condense(), naming the reference where it is at fault
+DifferenceBed difference_bed(const CondensedRecording& test,
+                             const std::vector<CondensedRecording>& references, SharedBase base);
+
+}  // namespace regoplan

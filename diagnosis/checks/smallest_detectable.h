@@ -1,0 +1,17 @@
+#pragma once
+
+#include "diagnosis/findings/findings.h"
+#include "diagnosis/fit/candidate_fit.h"
+
+namespace regoplan {
+
+/// Per mechanism the amplitude of its first parameter that the test for lack of fit would have
+/// found with 80 % power, to first order: the effect at the typical value, less what soil numbers
+/// can imitate, scaled. Mechanisms without parameters: the `share` of the whole effect.
+/// \param jacobian by the soil numbers at the fit \param critical of the test (LackOfFit)
+std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
+                                                    const CandidateFit& base,
+                                                    const std::vector<Effect>& effects,
+                                                    double critical);
+
+}  // namespace regoplan

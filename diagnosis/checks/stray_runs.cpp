@@ -1,0 +1,143 @@
+#include "diagnosis/checks/stray_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/bed/discrepancy.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kStray = 4;       // standard deviations of the prediction from the others
+constexpr double kDoubtful = 2.5;  // the same, for a condition whose own runs are at odds
+
+/// What all other conditions predict of each one's residual.
+struct LeftOut {
+  Eigen::VectorXd error;      // residual - prediction
+  Eigen::VectorXd deviation;  // of the error
+};
+
+/// Under the smooth discrepancy that the residuals make likeliest.
+LeftOut left_out(const Discrepancy& discrepancy, std::size_t channel, const ChannelData& data,
+                 const Eigen::VectorXd& residual) {
+  const Eigen::Index n = residual.size();
+  Eigen::LLT<Eigen::MatrixXd> best;
+  double top = -INFINITY;
+  for (std::size_t k = 0; k < discrepancy_settings().size(); ++k) {
+    Eigen::MatrixXd whole = data.noise;
+    const Eigen::MatrixXd& smooth = discrepancy.at(channel, k).discrepancy;
+    if (smooth.size() > 0) whole += smooth;
+    const Eigen::LLT<Eigen::MatrixXd> factor(whole);
+    const double score = -0.5 * factor.matrixL().solve(residual).squaredNorm() -
+                         factor.matrixLLT().diagonal().array().log().sum();
+    if (!(score > top)) continue;
+    top = score;
+    best = factor;
+  }
+  const Eigen::VectorXd precision = best.solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
+  return {best.solve(residual).cwiseQuotient(precision), precision.cwiseSqrt().cwiseInverse()};
+}
+
+std::vector<std::size_t> measured_runs(const Condition& condition,
+                                       const std::vector<double>& adjusted) {
+  std::vector<std::size_t> runs;
+  for (const std::size_t run : condition.runs) {
+    if (std::isfinite(adjusted[run])) runs.push_back(run);
+  }
+  return runs;
+}
+
+double scatter_of(const ChannelNoise& noise, double y) {
+  return std::hypot(run_deviation(noise, y), noise.day_offset, noise.day_gain * y);
+}
+
+/// Whether more than two runs of a condition differ so much that some of them must stray.
+bool at_odds(const ChannelNoise& noise, const std::vector<std::size_t>& runs,
+             const std::vector<double>& adjusted) {
+  if (runs.size() <= 2) return false;
+  const auto [low, high] =
+      std::ranges::minmax(runs, {}, [&](std::size_t run) { return adjusted[run]; });
+  const double middle = (adjusted[low] + adjusted[high]) / 2;
+  return adjusted[high] - adjusted[low] > kStray * std::sqrt(2.0) * scatter_of(noise, middle);
+}
+
+/// Weights of a condition's runs once its neighbours are heard. Of two the one farther from what
+/// they tell strays; of more that are at odds those are right that agree with them, however few.
+/// \param z of the condition's mean, in standard deviations
+std::vector<double> weights_by_neighbours(const ChannelNoise& noise,
+                                          const std::vector<std::size_t>& runs,
+                                          const std::vector<double>& adjusted, double expected,
+                                          double z) {
+  const auto stray_weight = [](double far) { return std::min(0.1, std::pow(2 / far, 4)); };
+  const auto away = [&](std::size_t run) { return std::abs(adjusted[run] - expected); };
+  std::vector<double> weights;
+  for (const std::size_t run : runs) weights.push_back(noise.weight[run]);
+  if (runs.size() <= 2) {
+    const auto farthest = std::ranges::max_element(runs, {}, away) - runs.begin();
+    double& weight = weights[static_cast<std::size_t>(farthest)];
+    weight = std::min(weight, stray_weight(z));
+    return weights;
+  }
+  std::vector<double> sided;
+  for (const std::size_t run : runs) {
+    const double far = away(run) / scatter_of(noise, expected);
+    sided.push_back(far < kStray ? 1 : stray_weight(far));
+  }
+  return std::ranges::count(sided, 1.0) > 0 ? sided : weights;
+}
+
+}  // namespace
+
+CondensedRecording strays_weighed_down(const Recording& recording, CondensedRecording condensed,
+                                       const Eigen::VectorXd& prediction) {
+  constexpr Eigen::Index kShare = 12;
+  TestBed& bed = condensed.bed;
+  const Discrepancy discrepancy(bed);
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    ChannelNoise& noise = condensed.noise[c];
+    const std::vector<double>& adjusted = condensed.adjusted[c];
+    const Eigen::VectorXd model = prediction.segment(bed.offset(c), bed.channels[c].mean.size());
+    std::string strays;
+    std::set<std::size_t> settled;  // conditions whose neighbours have been heard
+    for (Eigen::Index done = 0; done < model.size() / kShare; ++done) {
+      const ChannelData& data = bed.channels[c];
+      const LeftOut left = left_out(discrepancy, c, data, data.mean - model);
+      Eigen::Index worst = -1;
+      double most = 0;
+      for (Eigen::Index i = 0; i < model.size(); ++i) {
+        const std::size_t at = data.conditions[static_cast<std::size_t>(i)];
+        const double z = std::abs(left.error[i]) / left.deviation[i];
+        if (z <= std::max(most, kDoubtful) || settled.contains(at)) continue;
+        const std::vector<std::size_t> runs = measured_runs(bed.conditions[at], adjusted);
+        if (runs.size() <= 2 ? z <= kStray : !at_odds(noise, runs, adjusted)) continue;
+        most = z;
+        worst = i;
+      }
+      if (worst < 0) break;
+      const double expected = data.mean[worst] - left.error[worst];
+      const std::size_t at = data.conditions[static_cast<std::size_t>(worst)];
+      settled.insert(at);
+      const std::vector<std::size_t> runs = measured_runs(bed.conditions[at], adjusted);
+      const auto weights = weights_by_neighbours(noise, runs, adjusted, expected, most);
+      for (std::size_t i = 0; i < runs.size(); ++i) {
+        noise.weight[runs[i]] = weights[i];
+        const bool was_out = std::erase(noise.outliers, runs[i]) > 0;
+        if (weights[i] > 0.5) continue;
+        noise.outliers.push_back(runs[i]);
+        if (!was_out) strays += " " + recording.runs[runs[i]].run_id;
+      }
+      bed.channels[c] = means_of(recording, bed.conditions, noise, adjusted);
+    }
+    if (!strays.empty()) {
+      condensed.notes.push_back(
+          fmt::format("{}: weighed down, far from what neighbouring conditions tell:{}",
+                      name(noise.channel), strays));
+    }
+  }
+  return condensed;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnosis/recording/recording.h"
+#include "terramech/mechanisms/generic_correction.h"
+#include "terramech/wheel/wheel_model.h"
+
+namespace regoplan {
+
+enum class Verdict {
+  kConsistent,   ///< no lack of fit at the prior means
+  kParameters,   ///< none after calibration, every pull within 4.5 prior standard deviations
+  kNamed,        ///< by one name for each effect
+  kClass,        ///< by names that these data cannot tell apart
+  kUnexplained,  ///< a real mismatch that no name fits
+  kPartly,       ///< by names, or a class, that stand beside an unnamed remainder
+};
+
+/// `consistent`, `parameters`, `named`, `class`, `unexplained`, `partly`.
+std::string_view name(Verdict verdict);
+
+struct Estimate {
+  double value = 0;
+  double standard_deviation = 0;
+};
+
+/// Part of the excess misfit on held-out conditions, and its range over ways to hold out.
+struct Share {
+  double explained = 0;
+  double low = 0, high = 0;
+};
+
+/// One effect that the diagnosis claims.
+struct Claim {
+  std::string id;
+  std::string form;        ///< the one that fits best; empty for instruments
+  double probability = 0;  ///< of the class
+  std::map<std::string, Estimate> parameters;
+  std::vector<std::string> equivalent;         ///< further ids that these data cannot tell apart
+  std::vector<Channel> channels;               ///< in which it shows
+  double evidence_nats = 0;                    ///< over the best score without it
+  Share share;                                 ///< that it adds to those before it
+  std::map<std::string, Share> member_shares;  ///< of a class: what each id explains in its place
+};
+
+struct ScoredCandidate {
+  std::string id;  ///< of a mechanism, an instrument fault, `a+b`, `none`, `parameters`, ...
+  double probability = 0;
+  double evidence_nats = 0;  ///< log marginal likelihood over that of `parameters`
+};
+
+/// A part of the operating space in which measurement and calibrated model differ.
+struct MismatchRegion {
+  Channel channel = Channel::kFx;
+  std::map<std::string, std::array<double, 2>> region;  ///< column: from, to, in the file's unit
+  double effect = 0;                                    ///< measured - model, the channel's unit
+  std::array<double, 2> ci95{};
+  double p_value = 1;
+};
+
+/// How well one channel fits on conditions held out of the fit.
+struct ChannelFit {
+  Channel channel = Channel::kFx;
+  double noise_floor = 0;      ///< replicate scatter of those rows
+  double baseline_rmse = 0;    ///< model at the prior means
+  double calibrated_rmse = 0;  ///< soil numbers fitted
+  double corrected_rmse = 0;   ///< and the claim's mechanisms, or the generic correction
+};
+
+/// Names added one by one, no remainder: what each further one makes of held-out conditions.
+struct NameStep {
+  std::string id;  ///< of the name that this step adds
+  std::vector<ChannelFit> fit;
+  double share_explained = 0;  ///< by the names so far
+};
+
+struct LackOfFit {
+  double f = 0;
+  double critical = 0;
+  double p_value = 1;
+  int degrees_of_freedom = 0;
+  int pure_error_degrees_of_freedom = 0;
+};
+
+struct SoilPull {
+  std::string parameter;  ///< key of the soil file
+  Estimate prior;
+  Estimate calibrated;  ///< without any mechanism
+  Estimate corrected;   ///< with the claim; as calibrated where there is none
+  double pull = 0;      ///< (calibrated - prior mean)/prior standard deviation
+  double corrected_pull = 0;
+};
+
+struct Experiment {
+  std::map<std::string, double> conditions;  ///< column: value in the file's unit
+  std::optional<Channel> further_sensor;     ///< a channel that this recording lacks
+  std::vector<std::string> separates;        ///< ids
+  double expected_gain_nats = 0;
+};
+
+struct SmallestDetectable {
+  std::string id;
+  std::string parameter;
+  double value = 0;          ///< amplitude that these data would have shown with 80 % power
+  double low = 0, high = 0;  ///< usual range
+};
+
+/// One row of the recording against the models, for pictures.
+struct RunResidual {
+  std::size_t run = 0;
+  Channel channel = Channel::kFx;
+  double measured = 0;
+  double noise = 0;     ///< standard deviation
+  double baseline = 0;  ///< model at the prior means
+  double calibrated = 0;
+  double corrected = 0;
+  double held_out = 0;  ///< corrected model fitted without this row's family
+  double held_out_standard_deviation = 0;
+};
+
+/// Everything that a diagnosis finds.
+struct Diagnosis {
+  Verdict verdict = Verdict::kConsistent;
+  std::string sentence;            ///< the finding, for a person
+  std::vector<std::string> notes;  ///< signs, units, outliers, what was assumed
+  std::vector<Claim> claims;
+  std::vector<ScoredCandidate> ranking;  ///< sums to 1
+  std::vector<MismatchRegion> where;     ///< strongest first
+  std::vector<ChannelFit> fit;
+  std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
+  double share_explained = 0;
+  LackOfFit before, after;
+  std::vector<SoilPull> soil;
+  std::vector<Experiment> next_experiments;
+  std::vector<SmallestDetectable> smallest_detectable;
+  std::vector<RunResidual> residuals;
+  WheelModelSpec corrected_model;  ///< calibrated soil, the claim's mechanisms, or `generic`
+  UncertainSoil corrected_soil;
+  std::vector<NameStep> names_added;    ///< of the claims, first to last
+  std::vector<std::string> suspects;    ///< physics that would do instead of a soil number
+  double remainder_share = 0;           ///< of the excess misfit, which the claims leave
+  double chance_nats = 0;               ///< gain that one nameless world in forty reaches; 0: none
+  std::vector<std::string> references;  ///< what the recording was compared with
+  bool interrupted = false;
+};
+
+}  // namespace regoplan

@@ -1,0 +1,200 @@
+#include "diagnosis/findings/sentence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+
+namespace regoplan {
+namespace {
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
+struct Quantity {
+  std::string words;
+  std::string unit;
+  double per_file_unit = 1;
+};
+
+Quantity quantity_of(Channel channel) {
+  switch (channel) {
+    case Channel::kFx:
+      return {"drawbar pull", "N"};
+    case Channel::kFy:
+      return {"side force", "N"};
+    case Channel::kTorque:
+      return {"torque", "N m"};
+    case Channel::kSinkage:
+      return {"sinkage", "mm", 1000};
+    case Channel::kRutLeft:
+      return {"left rut depth", "mm", 1000};
+    case Channel::kRutRight:
+      return {"right rut depth", "mm", 1000};
+  }
+  return {};
+}
+
+/// What columns of conditions are called; others go by their own names.
+Quantity quantity_of(const std::string& column) {
+  static const std::map<std::string, Quantity> kWords{
+      {"slip_ratio", {"slip ratio", ""}},
+      {"slip_angle_deg", {"slip angle", "deg"}},
+      {"abs_slip_angle_deg", {"slip angle to either side", "deg"}},
+      {"load_n", {"load", "N"}},
+      {"speed_mps", {"speed", "m/s"}},
+      {"position_m", {"position", "m"}},
+      {"time_s", {"time", "s"}},
+      {"day", {"time since the first day", "s"}},
+      {"run_order", {"run", ""}}};
+  const auto known = kWords.find(column);
+  return known == kWords.end() ? Quantity{column, ""} : known->second;
+}
+
+/// "slip ratio 0.3 to 0.8".
+std::string range_words(const std::string& column, double from, double to) {
+  const Quantity quantity = quantity_of(column);
+  std::string text = fmt::format("{} {:.3g}", quantity.words, from);
+  if (to != from) text += fmt::format(" to {:.3g}", to);
+  return quantity.unit.empty() ? text : fmt::format("{} {}", text, quantity.unit);
+}
+
+std::string region_words(const MismatchRegion& region) {
+  std::string text;
+  for (const auto& [column, range] : region.region) {
+    text +=
+        fmt::format("{}{}", text.empty() ? " at " : ", ", range_words(column, range[0], range[1]));
+  }
+  return text;
+}
+
+/// "Sinkage lies 6.05 mm (95 %: 5.79 to 6.3) above the calibrated model at slip ratio 0.65".
+std::string mismatch_words(const MismatchRegion& region) {
+  Quantity quantity = quantity_of(region.channel);
+  quantity.words.front() = static_cast<char>(std::toupper(quantity.words.front()));
+  const double up = region.effect < 0 ? -quantity.per_file_unit : quantity.per_file_unit;
+  const auto [least, most] = std::minmax({up * region.ci95[0], up * region.ci95[1]});
+  return fmt::format("{} lies {:.3g} {} (95 %: {:.3g} to {:.3g}) {} the calibrated model{}",
+                     quantity.words, up * region.effect, quantity.unit, least, most,
+                     region.effect < 0 ? "below" : "above", region_words(region));
+}
+
+std::string experiment_words(const Diagnosis& diagnosis) {
+  if (diagnosis.next_experiments.empty()) return "";
+  const Experiment& best = diagnosis.next_experiments.front();
+  if (best.further_sensor) {
+    return fmt::format(" Measure {} to decide.", quantity_of(*best.further_sensor).words);
+  }
+  std::string at;
+  for (const auto& [column, value] : best.conditions) {
+    at += fmt::format("{}{}", at.empty() ? "" : ", ", range_words(column, value, value));
+  }
+  return fmt::format(" To decide, measure at {}.", at);
+}
+
+/// No more certain than it can be told apart from certainty.
+std::string percent(double probability) {
+  return probability > 0.99 ? "over 99 %" : fmt::format("{:.0f} %", 100 * probability);
+}
+
+std::string share_words(const Share& share) {
+  std::string text = fmt::format("{:.0f} %", 100 * share.explained);
+  if (share.high - share.low > 0.02) {
+    text += fmt::format(" ({:.0f} to {:.0f} % over ways to hold out)", 100 * share.low,
+                        100 * share.high);
+  }
+  return text;
+}
+
+/// "slip_sinkage explains 45 %; max_stress_angle or rear_contact explains 30 %".
+std::string partial_words(const Diagnosis& diagnosis) {
+  std::string what;
+  for (const Claim& claim : diagnosis.claims) {
+    std::vector<std::string> names{claim.id};
+    names.insert(names.end(), claim.equivalent.begin(), claim.equivalent.end());
+    what += fmt::format("{}{} explains {} of it", what.empty() ? "" : "; ", list_of(names),
+                        share_words(claim.share));
+  }
+  return what + fmt::format("; {:.0f} % has no name.", 100 * diagnosis.remainder_share);
+}
+
+/// What the mismatch is to the measured: one of the model, or one between two recordings.
+std::string against(const Diagnosis& diagnosis) {
+  return diagnosis.references.empty() ? "mismatch" : "difference from the reference";
+}
+
+}  // namespace
+
+std::string sentence_of(const Diagnosis& diagnosis) {
+  std::string where;
+  if (!diagnosis.where.empty()) where = mismatch_words(diagnosis.where.front()) + "; ";
+  switch (diagnosis.verdict) {
+    case Verdict::kConsistent:
+      if (!diagnosis.references.empty()) {
+        return "The recording and its reference do not differ beyond their noise.";
+      }
+      return "The recording agrees with the model at the prior soil numbers: nothing beyond noise.";
+    case Verdict::kParameters: {
+      const auto worst = std::ranges::max_element(diagnosis.soil, [](const auto& a, const auto& b) {
+        return std::abs(a.pull) < std::abs(b.pull);
+      });
+      std::string most;
+      if (worst != diagnosis.soil.end()) {
+        most =
+            fmt::format(" (most: {} {:.4g} instead of {:.4g}, {:+.1f} prior standard deviations)",
+                        worst->parameter, worst->calibrated.value, worst->prior.value, worst->pull);
+      }
+      if (!diagnosis.suspects.empty()) {
+        return "Other soil numbers explain the recording to within its noise" + most +
+               "; a number that far from its tests is no clean bill: " +
+               list_of(diagnosis.suspects) + " would do instead.";
+      }
+      return "Other soil numbers explain the recording to within its noise" + most +
+             "; no physics is missing that these data could show.";
+    }
+    case Verdict::kNamed:
+    case Verdict::kClass: {
+      std::string what;
+      for (const Claim& claim : diagnosis.claims) {
+        std::vector<std::string> names{claim.id};
+        names.insert(names.end(), claim.equivalent.begin(), claim.equivalent.end());
+        what += fmt::format("{}{}, {}", what.empty() ? "" : "; and ", list_of(names),
+                            percent(claim.probability));
+      }
+      std::string text = where + "the data say " + what + ".";
+      const double left = 1 - diagnosis.share_explained;
+      if (left > 0.1) {
+        text += fmt::format(" Named, but {:.0f} % of the excess misfit remains.",
+                            100 * std::min(left, 1.0));
+      }
+      if (diagnosis.verdict == Verdict::kClass) {
+        text += " These data cannot tell the names apart." + experiment_words(diagnosis);
+      }
+      return text;
+    }
+    case Verdict::kPartly: {
+      const bool apart = std::ranges::all_of(
+          diagnosis.claims, [](const Claim& claim) { return claim.equivalent.empty(); });
+      return where + "part of the " + against(diagnosis) +
+             " has a name: " + partial_words(diagnosis) +
+             (apart ? ""
+                    : " These data cannot tell the names apart." + experiment_words(diagnosis));
+    }
+    case Verdict::kUnexplained:
+      return where + "the " + against(diagnosis) +
+             " is real and no known name explains it; it is modelled without a "
+             "name, within the conditions measured only." +
+             experiment_words(diagnosis);
+  }
+  return "";
+}
+
+}  // namespace regoplan

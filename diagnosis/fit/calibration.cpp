@@ -1,0 +1,91 @@
+#include "diagnosis/fit/calibration.h"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Cholesky>
+
+#include "diagnosis/bed/whitening.h"
+#include "diagnosis/fit/candidate_fit.h"
+#include "terramech/basics/input_error.h"
+
+namespace regoplan {
+namespace {
+
+/// Whitened residuals of all channels, then x itself (the priors).
+class SoilResiduals : public ceres::CostFunction {
+ public:
+  SoilResiduals(const TestBed& bed, const std::vector<SoilCoordinate>& soil)
+      : bed_(bed), soil_(soil), measured_(bed.measured()), factor_(bed) {
+    set_num_residuals(static_cast<int>(bed.size()) + static_cast<int>(soil.size()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(soil.size()));
+  }
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const auto p = static_cast<Eigen::Index>(soil_.size());
+    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], p);
+    const auto prediction = predict(bed_, soil_, {}, x);
+    if (!prediction) return false;
+    Eigen::Map<Eigen::VectorXd> r(residuals, bed_.size() + p);
+    r.head(bed_.size()) = whitened(bed_, factor_, Eigen::VectorXd(*prediction - measured_));
+    r.tail(p) = x;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    const auto columns = jacobian_of(bed_, soil_, {}, x, *prediction, 0, true);
+    if (!columns) return false;
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<RowMajor> j(jacobians[0], bed_.size() + p, p);
+    j.topRows(bed_.size()) = whitened(bed_, factor_, *columns);
+    j.bottomRows(p).setIdentity();
+    return true;
+  }
+
+ private:
+  const TestBed& bed_;
+  const std::vector<SoilCoordinate>& soil_;
+  Eigen::VectorXd measured_;
+  NoiseFactors factor_;
+};
+
+}  // namespace
+
+Calibration calibrate(const TestBed& bed, const std::vector<SoilCoordinate>& soil) {
+  const auto p = static_cast<Eigen::Index>(soil.size());
+  Calibration result{.x = Eigen::VectorXd::Zero(p)};
+  if (!predict(bed, soil, {}, result.x)) {
+    throw InputError("soil: at the prior means the wheel has no forces under some condition");
+  }
+  if (p > 0) {
+    SoilResiduals residuals(bed, soil);
+    ceres::Problem::Options ownership;
+    ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem problem(ownership);
+    problem.AddResidualBlock(&residuals, nullptr, result.x.data());
+    for (std::size_t i = 0; i < soil.size(); ++i) {
+      const Coordinate& c = soil[i].coordinate;
+      problem.SetParameterLowerBound(result.x.data(), static_cast<int>(i), c.at(c.min));
+      problem.SetParameterUpperBound(result.x.data(), static_cast<int>(i), c.at(c.max));
+    }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = 40;
+    options.function_tolerance = 1e-8;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+  }
+  result.prediction = *predict(bed, soil, {}, result.x);
+  result.jacobian.resize(bed.size(), p);
+  if (const auto j = jacobian_of(bed, soil, {}, result.x, result.prediction, 0, true)) {
+    result.jacobian = *j;
+  } else {
+    result.jacobian.setZero();
+  }
+  Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(p, p);
+  const Eigen::MatrixXd columns = whitened(bed, NoiseFactors(bed), result.jacobian);
+  precision += columns.transpose() * columns;
+  result.covariance = precision.llt().solve(Eigen::MatrixXd::Identity(p, p));
+  return result;
+}
+
+}  // namespace regoplan

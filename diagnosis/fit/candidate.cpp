@@ -1,0 +1,344 @@
+#include "diagnosis/fit/candidate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnosis/bed/span.h"
+
+namespace regoplan {
+namespace {
+
+/// Spread of conditions along one column.
+Span span_of(const TestBed& bed, const auto& column) {
+  Span span;
+  for (const Condition& at : bed.conditions) {
+    span.take(static_cast<double>(column(at)));
+  }
+  return span;
+}
+
+Coordinate positive(std::string name, double low, double high) {
+  return {.name = std::move(name),
+          .logarithmic = true,
+          .centre = std::log(low * high) / 2,
+          .spread = std::max(std::log(high / low) / 2, 0.3)};
+}
+
+/// Prior of a mechanism's parameter: lognormal, one standard deviation either way covering the
+/// usual range; normal about 0 where the range is symmetric.
+Coordinate coordinate_of(const MechanismParameter& parameter) {
+  const std::string name(parameter.name);
+  if (parameter.low < 0) return {.name = name, .spread = parameter.high / 1.5};
+  constexpr double kSmallShare = 30;  // of a range that begins at 0
+  const double low = parameter.low > 0 ? parameter.low : parameter.high / kSmallShare;
+  return positive(name, low, parameter.high);
+}
+
+struct Columns {
+  bool pass = false, speed = false, position = false, time = false, skid = false, driving = false,
+       angle = false, lugs = true, part = false, difference = false;
+};
+
+bool can_bear(std::string_view id, const Columns& columns) {
+  if (id == "multi_pass") return columns.pass;
+  if (id == "rate_dependence") return columns.speed;
+  if (id == "soil_zone") return columns.position;
+  if (id == "cohesion_drift") return columns.time;
+  if (id == "skid_branch") return columns.skid;
+  if (id == "slip_sinkage") return columns.driving;
+  if (id == "soil_change") return columns.difference;
+  const std::set<std::string_view> kLater{"sliding_sinkage", "flank_friction", "side_surcharge",
+                                          "rim_friction"};
+  if (kLater.contains(id) && !columns.part) return false;
+  if (id == "grousers") return columns.lugs;
+  const std::set<std::string_view> kSideways{
+      "lateral_digging", "rut_asymmetry",    "shear_modulus_slip_angle", "coupled_shear",
+      "side_pileup",     "max_stress_angle", "flank_friction",           "side_surcharge"};
+  return columns.angle || !kSideways.contains(id);
+}
+
+/// Zones of position: everything beyond a boundary, and the middle between two.
+std::vector<std::array<double, 2>> zones(const TestBed& bed) {
+  std::vector<double> positions;
+  for (const Condition& at : bed.conditions) positions.push_back(at.conditions.position_m);
+  std::ranges::sort(positions);
+  std::vector<double> edges;
+  for (int k = 1; k < 8; ++k) {
+    const std::size_t i = positions.size() * static_cast<std::size_t>(k) / 8;
+    if (i == 0 || positions[i] == positions[i - 1]) continue;
+    edges.push_back((positions[i] + positions[i - 1]) / 2);
+  }
+  std::vector<std::array<double, 2>> all;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    all.push_back({edges[i], positions.back() + 1});
+    for (std::size_t k = i + 2; k < edges.size(); ++k) all.push_back({edges[i], edges[k]});
+  }
+  return all;
+}
+
+class EffectList {
+ public:
+  EffectList(const TestBed& bed, const Columns& columns) : bed_(bed), columns_(columns) {}
+
+  void add_mechanism(const MechanismForm& form) {
+    Effect effect{.id = std::string(form.id), .form = std::string(form.form)};
+    effect.slow = form.id == "coupled_shear" || form.id == "shear_hump" ||
+                  form.id == "layered_soil" || form.id == "rut_asymmetry";
+    for (const MechanismParameter& parameter : form.parameters) {
+      const std::string name(parameter.name);
+      if (const auto told = told_by_setup(name)) {
+        effect.fixed[name] = *told;
+      } else if (name == "lugs" || name == "v0_mps" || name == "ripple" || name == "from_m" ||
+                 name == "to_m" || name == "direction_rad" ||
+                 (name == "t2_nms" && !columns_.speed)) {
+        effect.fixed[name] = name == "ripple" || name == "t2_nms" ? 0 : parameter.typical;
+      } else {
+        effect.coordinates.push_back(coordinate_of(parameter));
+      }
+    }
+    if (form.id == "shear_hump") {
+      // the hump's modulus is where the peak lies, some times the exponential's
+      effect.own_modulus = true;
+      effect.coordinates.push_back(
+          {.name = "modulus_factor", .logarithmic = true, .centre = std::log(2.5), .spread = 0.5});
+    }
+    if (form.id == "soil_zone") {
+      for (Coordinate& c : effect.coordinates) c.centre = 0;
+      for (const auto& [from, to] : zones(bed_)) {
+        effect.fixed["from_m"] = from;
+        effect.fixed["to_m"] = to;
+        push(effect);
+      }
+    } else if (form.id == "slope_tilt") {
+      // along x and y apart: the heading of a test bed's wheel is not recorded
+      effect.coordinates = {Coordinate{.name = "tilt_rad", .spread = 0.03}};
+      for (const double direction : {0.0, 1.5707963267948966}) {
+        effect.fixed["direction_rad"] = direction;
+        push(effect);
+      }
+    } else if (form.id == "cohesion_drift") {
+      const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
+      effect.coordinates = form.form == "linear"
+                               ? std::vector{Coordinate{.name = "per_s", .spread = 0.5 / time.high}}
+                               : std::vector{effect.coordinates.front(),
+                                             positive("tau_s", 0.1 * time.high, 2 * time.high)};
+      push(effect);
+    } else if (form.id == "flexible_wheel") {
+      const Span load = span_of(bed_, [](const auto& at) { return at.load_n; });
+      effect.coordinates = {positive("per_n", 0.02 / load.high, 0.3 / load.high)};
+      push(effect);
+    } else if (form.form == "offset") {
+      const Span load = span_of(bed_, [](const auto& at) { return at.load_n; });
+      effect.coordinates.front().spread = 0.1 * load.high;
+      push(effect);
+    } else {
+      push(effect);
+    }
+  }
+
+  void add_instruments() {
+    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
+      const double rms = signal(c);
+      push({.id = "sensor_bias",
+            .form = std::string(name(bed_.channels[c].channel)),
+            .kind = EffectKind::kBias,
+            .coordinates = {{.name = "bias",
+                             .spread = std::max(0.1 * rms, 3 * bed_.channels[c].scale)}},
+            .to = c});
+      push({.id = "sensor_gain",
+            .form = std::string(name(bed_.channels[c].channel)),
+            .kind = EffectKind::kGain,
+            .coordinates = {{.name = "gain", .spread = 0.1}},
+            .to = c});
+      for (std::size_t k = 0; k < bed_.channels.size(); ++k) {
+        if (k == c || !crosses(bed_.channels[c].channel) || !crosses(bed_.channels[k].channel)) {
+          continue;
+        }
+        push({.id = "sensor_crosstalk",
+              .form = std::string(name(bed_.channels[k].channel)) + " into " +
+                      std::string(name(bed_.channels[c].channel)),
+              .kind = EffectKind::kCrosstalk,
+              .coordinates = {{.name = "share",
+                               .spread =
+                                   0.08 * std::min(1.0, rms / signal(k)) + 0.02 * rms / signal(k)}},
+              .to = c,
+              .from = k});
+      }
+    }
+  }
+
+  std::vector<Effect> take() { return std::move(effects_); }
+
+ private:
+  static bool crosses(Channel channel) {
+    return channel == Channel::kFx || channel == Channel::kFy || channel == Channel::kTorque;
+  }
+
+  std::optional<double> told_by_setup(const std::string& parameter) const {
+    const DiagnosisSetup& setup = bed_.setup;
+    if (parameter == "lug_height_m") return setup.lug_height_m;
+    if (parameter == "lugs" && setup.lug_count) return *setup.lug_count;
+    return std::nullopt;
+  }
+
+  double signal(std::size_t c) const {
+    const Eigen::VectorXd& y = bed_.channels[c].mean;
+    return std::sqrt(y.squaredNorm() / static_cast<double>(y.size())) + bed_.channels[c].scale;
+  }
+
+  void push(Effect effect) {
+    effect.start.assign(effect.coordinates.size(), 0.0);
+    effects_.push_back(std::move(effect));
+  }
+
+  const TestBed& bed_;
+  Columns columns_;
+  std::vector<Effect> effects_;
+};
+
+}  // namespace
+
+double Coordinate::value(double x) const {
+  const double inner = centre + spread * x;
+  return std::clamp(logarithmic ? std::exp(inner) : inner, min, max);
+}
+
+double Coordinate::at(double value) const {
+  return ((logarithmic ? std::log(value) : value) - centre) / spread;
+}
+
+double Coordinate::slope(double x) const {
+  return logarithmic ? spread * value(x) : spread;
+}
+
+std::vector<SoilCoordinate> soil_coordinates(const UncertainSoil& soil, double widen) {
+  std::vector<SoilCoordinate> all;
+  for (std::size_t i = 0; i < soil_parameters().size(); ++i) {
+    const SoilParameter& p = soil_parameters()[i];
+    const double deviation = soil.standard_deviation.*p.member;
+    if (!(deviation > 0)) continue;
+    const double tiny = 1e-4 * (p.max - p.min > 1e5 ? std::abs(soil.mean.*p.member) : 1.0);
+    all.push_back({i,
+                   {.name = std::string(p.name),
+                    .centre = soil.mean.*p.member,
+                    .spread = widen * deviation,
+                    .min = p.min * p.file_unit + (p.min_excluded ? tiny * p.file_unit : 0),
+                    .max = p.max * p.file_unit}});
+  }
+  return all;
+}
+
+Soil soil_at(const UncertainSoil& soil, const std::vector<SoilCoordinate>& coordinates,
+             const Eigen::VectorXd& x) {
+  Soil at = soil.mean;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    at.*soil_parameters()[coordinates[i].parameter].member =
+        coordinates[i].coordinate.value(x[static_cast<Eigen::Index>(i)]);
+  }
+  return at;
+}
+
+bool is_instrument(const std::string& id) {
+  return id.starts_with("sensor_") || id == "slip_scale" || id == "load_transfer";
+}
+
+bool has_one_form(const std::string& id) {
+  return id.starts_with("sensor_") || id == "slip_scale" || id == "slope_tilt";
+}
+
+std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, EffectsOf of) {
+  const auto varied = [&](const auto& column) { return span_of(bed, column).width() > 0; };
+  const Span slip = span_of(bed, [](const Condition& at) { return at.slip_ratio; });
+  const Span angle = span_of(bed, [](const Condition& at) { return std::abs(at.slip_angle_rad); });
+  const Columns columns{
+      .pass = recording.columns.pass && varied([](const auto& at) { return at.conditions.pass; }),
+      .speed =
+          recording.columns.speed && varied([](const auto& at) { return at.conditions.speed_mps; }),
+      .position = recording.columns.position &&
+                  varied([](const auto& at) { return at.conditions.position_m; }),
+      .time = varied([](const auto& at) { return at.conditions.time_s; }),
+      .skid = slip.low<-0.03, .driving = slip.high> 0.03,
+      .angle = angle.high > 0.03,
+      .lugs = bed.setup.lug_height_m.value_or(1) > 0,
+      .part = of != EffectsOf::kRecording,
+      .difference = of == EffectsOf::kDifference};
+  EffectList list(bed, columns);
+  for (const MechanismForm& form : mechanism_forms()) {
+    if (form.form == "carried_soil" && !columns.part) continue;
+    if (can_bear(form.id, columns)) list.add_mechanism(form);
+  }
+  list.add_instruments();
+  return list.take();
+}
+
+std::string id_of(const Hypothesis& candidate) {
+  std::string id;
+  for (const Effect& effect : candidate.effects) id += (id.empty() ? "" : "+") + effect.id;
+  return id;
+}
+
+Soil soil_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
+             const Hypothesis& candidate, const Eigen::VectorXd& x) {
+  Soil at = soil_at(bed.setup.soil, soil, x);
+  auto next = static_cast<Eigen::Index>(soil.size());
+  for (const Effect& effect : candidate.effects) {
+    next += static_cast<Eigen::Index>(effect.coordinates.size());
+    if (!effect.own_modulus) continue;
+    const double factor = effect.coordinates.back().value(x[next - 1]);
+    for (double* modulus : {&at.kx0_m, &at.kx1_m, &at.ky0_m, &at.ky1_m}) *modulus *= factor;
+  }
+  return at;
+}
+
+Mechanism mechanism_at(const Effect& effect, const Eigen::VectorXd& x) {
+  Mechanism mechanism{.id = effect.id, .form = effect.form, .parameters = effect.fixed};
+  for (std::size_t i = 0; i + (effect.own_modulus ? 1 : 0) < effect.coordinates.size(); ++i) {
+    mechanism.parameters[effect.coordinates[i].name] =
+        effect.coordinates[i].value(x[static_cast<Eigen::Index>(i)]);
+  }
+  return mechanism;
+}
+
+std::optional<Eigen::VectorXd> predict(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
+                                       const Hypothesis& candidate, const Eigen::VectorXd& x) {
+  std::vector<Mechanism> mechanisms;
+  auto next = static_cast<Eigen::Index>(soil.size());
+  std::vector<double> faults;
+  for (const Effect& effect : candidate.effects) {
+    const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
+    if (effect.kind == EffectKind::kMechanism) {
+      mechanisms.push_back(mechanism_at(effect, x.segment(next, size)));
+    }
+    next += size;
+  }
+  auto values = predict(bed, soil_of(bed, soil, candidate, x), mechanisms);
+  if (!values) return values;
+  next = static_cast<Eigen::Index>(soil.size());
+  for (const Effect& effect : candidate.effects) {
+    const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
+    if (effect.kind != EffectKind::kMechanism) {
+      const double amount = effect.coordinates.front().value(x[next]);
+      auto to = values->segment(bed.offset(effect.to), bed.channels[effect.to].mean.size());
+      if (effect.kind == EffectKind::kBias) to.array() += amount;
+      if (effect.kind == EffectKind::kGain) to *= 1 + amount;
+      if (effect.kind == EffectKind::kCrosstalk) {
+        // both channels stand at their conditions; one that lacks the other's value stays as it is
+        const ChannelData& source = bed.channels[effect.from];
+        const Eigen::VectorXd from = values->segment(bed.offset(effect.from), source.mean.size());
+        Eigen::Index k = 0;
+        for (Eigen::Index i = 0; i < to.size(); ++i) {
+          const std::size_t at = bed.channels[effect.to].conditions[static_cast<std::size_t>(i)];
+          while (k < from.size() && source.conditions[static_cast<std::size_t>(k)] < at) ++k;
+          if (k < from.size() && source.conditions[static_cast<std::size_t>(k)] == at) {
+            to[i] += amount * from[k];
+          }
+        }
+      }
+    }
+    next += size;
+  }
+  return values;
+}
+
+}  // namespace regoplan

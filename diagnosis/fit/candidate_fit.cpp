@@ -1,0 +1,291 @@
+#include "diagnosis/fit/candidate_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "diagnosis/bed/whitening.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kFarthest = 6;  // prior standard deviations
+
+bool is_slow(const Hypothesis& candidate) {
+  return std::ranges::any_of(candidate.effects, &Effect::slow);
+}
+
+/// The fit's own coordinates and the shape's factors as one linear model.
+Linearised linearised(const TestBed& bed, const CandidateFit& fit) {
+  Linearised model{.residual = bed.measured() - fit.prediction + fit.jacobian * fit.x};
+  model.jacobian.resize(bed.size(), fit.jacobian.cols() + fit.shape.cols());
+  model.jacobian << fit.jacobian, fit.shape;
+  return model;
+}
+
+/// Misfit under given settings, the shape's factors marginalised.
+class ShapedMisfit {
+ public:
+  ShapedMisfit(const FitProblem& problem, const std::vector<std::size_t>& settings,
+               Eigen::MatrixXd shape)
+      : problem_(problem), settings_(settings), shape_(white(std::move(shape))) {
+    const Eigen::Index p = shape_.cols();
+    if (p == 0) return;
+    precision_.compute(shape_.transpose() * shape_ + Eigen::MatrixXd::Identity(p, p));
+  }
+
+  double of(const Eigen::VectorXd& residual) const {
+    const Eigen::VectorXd r = white(residual);
+    if (shape_.cols() == 0) return r.squaredNorm();
+    const Eigen::VectorXd b = shape_.transpose() * r;
+    return r.squaredNorm() - b.dot(precision_.solve(b));
+  }
+
+ private:
+  template <class Values>
+  Values white(Values values) const {
+    return whitened(problem_.bed, factors_under(problem_.discrepancy, settings_),
+                    std::move(values));
+  }
+
+  const FitProblem& problem_;
+  const std::vector<std::size_t>& settings_;
+  Eigen::MatrixXd shape_;
+  Eigen::LLT<Eigen::MatrixXd> precision_;
+};
+
+/// One damped step; false where nothing better was found.
+bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, CandidateFit& fit) {
+  const TestBed& bed = problem.bed;
+  const Eigen::VectorXd measured = bed.measured();
+  const ShapedMisfit misfit(problem, settings, fit.shape);
+  const auto cost = [&](const Eigen::VectorXd& prediction, const Eigen::VectorXd& x) {
+    return misfit.of(measured - prediction) + x.squaredNorm();
+  };
+  const Posterior posterior =
+      posterior_of(bed, problem.discrepancy, linearised(bed, fit), settings);
+  const Eigen::VectorXd goal = posterior.x.head(fit.x.size());
+  const double before = cost(fit.prediction, fit.x);
+  for (const double share : {1.0, 0.4, 0.16, 0.064, 0.0256}) {
+    const Eigen::VectorXd x =
+        (fit.x + share * (goal - fit.x)).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+    const auto prediction = predict(bed, problem.soil, fit.candidate, x);
+    if (!prediction) continue;
+    const double after = cost(*prediction, x);
+    if (!(after < before)) continue;
+    fit.x = x;
+    fit.prediction = *prediction;
+    return before - after > 1e-3 * (1 + 1e-3 * before);
+  }
+  return false;
+}
+
+/// Soil columns of slow candidates are those of the rest of the candidate.
+std::optional<Eigen::MatrixXd> soil_columns(const FitProblem& problem, const CandidateFit& fit) {
+  Hypothesis quick;
+  const auto soil = static_cast<Eigen::Index>(problem.soil.size());
+  std::vector<double> kept(fit.x.data(), fit.x.data() + soil);
+  for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
+    const Effect& effect = fit.candidate.effects[e];
+    if (effect.slow) continue;
+    const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
+    quick.effects.push_back(effect);
+    for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
+      kept.push_back(fit.x[first + static_cast<Eigen::Index>(i)]);
+    }
+  }
+  const Eigen::VectorXd x =
+      Eigen::Map<Eigen::VectorXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));
+  const auto prediction = predict(problem.bed, problem.soil, quick, x);
+  if (!prediction) return std::nullopt;
+  const auto columns = jacobian_of(problem.bed, problem.soil, quick, x, *prediction);
+  if (!columns) return std::nullopt;
+  return columns->leftCols(soil);
+}
+
+bool renew_jacobian(const FitProblem& problem, CandidateFit& fit) {
+  const bool slow = is_slow(fit.candidate);
+  const auto soil = static_cast<Eigen::Index>(problem.soil.size());
+  if (slow) {
+    const auto columns = soil_columns(problem, fit);
+    if (!columns) return false;
+    fit.jacobian.leftCols(soil) = *columns;
+  }
+  const auto columns =
+      jacobian_of(problem.bed, problem.soil, fit.candidate, fit.x, fit.prediction, slow ? soil : 0);
+  if (!columns) return false;
+  fit.jacobian.rightCols(columns->cols()) = *columns;
+  return true;
+}
+
+/// Appends columns to the shape: a smooth function of the conditions times a weight, per channel.
+void append_shape(const TestBed& bed, const Eigen::MatrixXd& functions, const auto& weight,
+                  CandidateFit& fit) {
+  const Eigen::Index from = fit.shape.cols(), count = functions.cols();
+  fit.shape.conservativeResize(Eigen::NoChange, from + count);
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
+      const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
+      const std::size_t at = bed.channels[c].conditions[i];
+      fit.shape.row(row).tail(count) =
+          weight(c, row, bed.conditions[at]) * functions.row(static_cast<Eigen::Index>(at));
+    }
+  }
+}
+
+void renew_shape(const FitProblem& problem, const Eigen::MatrixXd& functions, CandidateFit& fit) {
+  const TestBed& bed = problem.bed;
+  fit.shape.resize(bed.size(), 0);
+  if (fit.shape_spread == 0) return;
+  for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
+    const Effect& effect = fit.candidate.effects[e];
+    if (effect.kind != EffectKind::kMechanism || is_instrument(effect.id)) continue;
+    const auto part = part_of(bed, problem.soil, fit, e);
+    if (!part) continue;
+    append_shape(
+        bed, functions,
+        [&](std::size_t, Eigen::Index row, const Condition&) {
+          return fit.shape_spread * (*part)[row];
+        },
+        fit);
+    if (effect.id != "skid_branch") continue;
+    // named by where it is, whatever it does there: each channel for itself, growing with skid
+    constexpr double kSkidAmplitude = 10;  // of a run's noise, per shape_spread and unit of skid
+    const Eigen::MatrixXd coarse = functions.rightCols(std::min<Eigen::Index>(4, functions.cols()));
+    for (std::size_t own = 0; own < bed.channels.size(); ++own) {
+      append_shape(
+          bed, coarse,
+          [&](std::size_t c, Eigen::Index, const Condition& at) {
+            const double side =
+                bed.channels[c].channel == Channel::kFy ? std::sin(at.slip_angle_rad) * 4 : 1;
+            return c == own ? fit.shape_spread * kSkidAmplitude * bed.channels[c].scale * side * 4 *
+                                  std::max(-at.slip_ratio, 0.0)
+                            : 0.0;
+          },
+          fit);
+    }
+  }
+}
+
+/// \return whether the start could be evaluated
+bool begin(const FitProblem& problem, CandidateFit& fit) {
+  const auto prediction = predict(problem.bed, problem.soil, fit.candidate, fit.x);
+  if (!prediction) return false;
+  fit.prediction = *prediction;
+  fit.jacobian.resize(problem.bed.size(), fit.x.size());
+  return renew_jacobian(problem, fit);
+}
+
+void descend(const FitProblem& problem, const std::vector<std::size_t>& settings, int steps,
+             const Eigen::MatrixXd& functions, CandidateFit& fit) {
+  for (int i = 0; i < steps; ++i) {
+    renew_shape(problem, functions, fit);
+    const bool better = step(problem, settings, fit);
+    if (!renew_jacobian(problem, fit) || !better) break;
+  }
+  renew_shape(problem, functions, fit);
+}
+
+}  // namespace
+
+std::optional<Eigen::MatrixXd> jacobian_of(const TestBed& bed,
+                                           const std::vector<SoilCoordinate>& soil,
+                                           const Hypothesis& candidate, const Eigen::VectorXd& x,
+                                           const Eigen::VectorXd& prediction, Eigen::Index from,
+                                           bool central, double step) {
+  Eigen::MatrixXd columns(prediction.size(), x.size() - from);
+  for (Eigen::Index i = from; i < x.size(); ++i) {
+    const auto moved = [&](double by) {
+      Eigen::VectorXd at = x;
+      at[i] += by;
+      return predict(bed, soil, candidate, at);
+    };
+    const auto up = moved(step);
+    const auto down = central || !up ? moved(-step) : std::nullopt;
+    if (up && down) {
+      columns.col(i - from) = (*up - *down) / (2 * step);
+    } else if (up) {
+      columns.col(i - from) = (*up - prediction) / step;
+    } else if (down) {
+      columns.col(i - from) = (prediction - *down) / step;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return columns;
+}
+
+std::optional<Eigen::VectorXd> part_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
+                                       const CandidateFit& fit, std::size_t effect) {
+  Hypothesis others = fit.candidate;
+  others.effects.erase(others.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  const Eigen::Index first = first_of(soil, fit.candidate, effect);
+  const auto size = static_cast<Eigen::Index>(fit.candidate.effects[effect].coordinates.size());
+  Eigen::VectorXd x(fit.x.size() - size);
+  x << fit.x.head(first), fit.x.tail(fit.x.size() - first - size);
+  const auto rest = predict(bed, soil, others, x);
+  if (!rest) return std::nullopt;
+  return fit.prediction - *rest;
+}
+
+Eigen::Index first_of(const std::vector<SoilCoordinate>& soil, const Hypothesis& candidate,
+                      std::size_t effect) {
+  auto first = static_cast<Eigen::Index>(soil.size());
+  for (std::size_t i = 0; i < effect; ++i) {
+    first += static_cast<Eigen::Index>(candidate.effects[i].coordinates.size());
+  }
+  return first;
+}
+
+std::optional<CandidateFit> fit_under(const FitProblem& problem, const Hypothesis& candidate,
+                                      const std::vector<std::size_t>& settings,
+                                      const Eigen::VectorXd& start, int steps,
+                                      double shape_spread) {
+  CandidateFit fit{.candidate = candidate, .x = start, .shape_spread = shape_spread};
+  if (!begin(problem, fit)) return std::nullopt;
+  descend(problem, settings, steps, smooth_functions(problem.bed), fit);
+  fit.evidence.settings = settings;
+  return fit;
+}
+
+std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Hypothesis& candidate,
+                                          const SettingWeights& weights,
+                                          const Eigen::VectorXd& start) {
+  const Eigen::MatrixXd functions = smooth_functions(problem.bed);
+  CandidateFit fit{.candidate = candidate, .x = start, .shape_spread = kShapeSpreads.back()};
+  if (!begin(problem, fit)) return std::nullopt;
+  // begin under a discrepancy of twice a run's noise over middling scales
+  std::size_t middling = 0;
+  for (std::size_t k = 0; k < discrepancy_settings().size(); ++k) {
+    const DiscrepancySetting& setting = discrepancy_settings()[k];
+    if (setting.amplitude == 2 && setting.scales == 1) middling = k;
+  }
+  std::vector<std::size_t> settings(problem.bed.channels.size(), middling);
+  constexpr int kRounds = 3;
+  const auto weigh = [&] {
+    return evidence_of(problem.bed, problem.discrepancy, linearised(problem.bed, fit),
+                       problem.soil_free, weights);
+  };
+  for (int round = 0; round < kRounds; ++round) {
+    descend(problem, settings, round == 0 ? 5 : 3, functions, fit);
+    fit.evidence = weigh();
+    if (fit.evidence.settings == settings) break;
+    settings = fit.evidence.settings;
+  }
+  if (fit.shape.cols() == 0) return fit;
+  // forms that hold closely deserve to be told from forms that hold roughly
+  const CandidateFit rough = fit;
+  fit.shape_spread = kShapeSpreads.front();
+  renew_shape(problem, functions, fit);
+  if (candidate.effects.size() == 1) descend(problem, settings, 2, functions, fit);
+  fit.evidence = weigh();
+  const double a = fit.evidence.log_marginal, b = rough.evidence.log_marginal;
+  if (b > a) fit = rough;
+  fit.evidence.log_marginal =
+      std::max(a, b) + std::log1p(std::exp(-std::abs(a - b))) - std::log(2.0);
+  return fit;
+}
+
+}  // namespace regoplan

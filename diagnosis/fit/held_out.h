@@ -1,0 +1,72 @@
+#pragma once
+
+#include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/findings/findings.h"
+#include "diagnosis/fit/candidate_fit.h"
+
+namespace regoplan {
+
+/// Conditions that are left out together, one family after the other.
+struct Families {
+  std::string by;  ///< `slip_angle`, `slip band`, `load`, `day`
+  std::vector<std::size_t> of_condition;
+  std::size_t count = 0;
+};
+
+/// The kind of families of which there are most (slip angles where they are at least 4; never fewer
+/// than 3 unless nothing else is there; slips in at most 6 bands).
+Families families_of(const TestBed& bed);
+
+/// Every kind of families of which there are at least 3, days too where no condition was run on two
+/// of them; families_of() where there is none.
+std::vector<Families> all_families(const TestBed& bed);
+
+/// The model that is to prove itself.
+struct CorrectedModel {
+  const CandidateFit* fit = nullptr;  ///< with the claim's effects; null: the calibrated base
+  /// Settings of the discrepancy whose mean is added to the model, per channel; empty: none.
+  std::vector<std::size_t> remainder;
+};
+
+/// Share of the excess misfit on held-out conditions below which a correction is worth nothing: no
+/// name is claimed for it, and a doubtful lack of fit is taken for chance.
+inline constexpr double kWorthCorrecting = 1.0 / 3.0;
+
+/// How models do on conditions that they were not fitted to.
+struct HeldOut {
+  Families families;
+  std::vector<ChannelFit> fit;
+  Eigen::VectorXd calibrated;  ///< predictions without the condition's own family
+  Eigen::VectorXd corrected;
+  Eigen::VectorXd corrected_deviation;
+  double share_explained = 0;
+  double excess = 0;                    ///< of the calibrated misfit over the degrees of freedom
+  std::vector<double> remainder_share;  ///< per channel: of the remainder that proves itself
+};
+
+/// \param base soil calibrated without any effect, its problem and settings without discrepancy
+HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
+                 const CandidateFit& base, const CorrectedModel& corrected,
+                 const Families& families, int threads);
+
+/// Standard errors by which one prediction's misfit falls below another's: the sum of the falls
+/// over what noise makes of it, 2 sqrt(sum of (difference/noise)^2). \param prior_gain fall of the
+/// misfit to the soil tests, which counts as data
+double gain_in_errors(const TestBed& bed, const Eigen::VectorXd& better,
+                      const Eigen::VectorXd& worse, double prior_gain = 0);
+
+/// The rows of one channel alone.
+double gain_in_errors(const TestBed& bed, std::size_t channel, const Eigen::VectorXd& better,
+                      const Eigen::VectorXd& worse);
+
+/// Why a corrected model is not handed out in place of the calibrated one; empty where it is: on
+/// held-out conditions it is not better by more than two standard errors, or worse by more than
+/// two in some channel.
+std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof);
+
+/// Held out by the kind of families in which the correction does best: a form that holds between
+/// conditions need not hold beyond them.
+HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
+                      const CandidateFit& base, const CorrectedModel& corrected, int threads);
+
+}  // namespace regoplan

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "diagnosis/fit/candidate_fit.h"
+
+namespace regoplan {
+
+/// Everything of one id that was scored.
+struct ScoredId {
+  std::string id;
+  double score = 0;  ///< log marginal likelihood, forms marginalised
+  double probability = 0;
+  CandidateFit fit;       ///< of the likeliest form
+  bool given_up = false;  ///< held-out conditions or its own numbers speak against it
+};
+
+struct ScoringOptions {
+  int threads = 2;
+  std::stop_token stop = {};
+  std::function<void(double)> progress = {};
+};
+
+/// Scores `none`, `parameters`, `unexplained`, every effect alone and promising pairs of them.
+/// \param wide soil with priors widened, for `parameters`
+std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProblem& wide,
+                                       const std::vector<Effect>& effects,
+                                       const ScoringOptions& options);
+
+/// What the tests say of the calibrated model without any effect.
+enum class PlainModel {
+  kHolds,    ///< nothing speaks against it
+  kDoubted,  ///< no lack of fit, but the misfit lies along some effect
+  kRefuted,  ///< lack of fit, or soil numbers farther from their tests than can be
+};
+
+/// Fills in the probabilities, the likeliest first; 0 for what is given up and for what the tests
+/// refute.
+void weigh(std::vector<ScoredId>& scored, PlainModel plain);
+
+}  // namespace regoplan

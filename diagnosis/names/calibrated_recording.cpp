@@ -1,0 +1,78 @@
+#include "diagnosis/names/calibrated_recording.h"
+
+#include <cmath>
+#include <utility>
+
+#include "diagnosis/checks/stray_runs.h"
+#include "diagnosis/fit/calibration.h"
+
+namespace regoplan {
+namespace {
+
+/// The recording condensed, strays weighed down.
+CondensedRecording prepared(const Recording& recording, const DiagnosisSetup& setup) {
+  CondensedRecording condensed = condense(recording, setup);
+  const Calibration first = calibrate(condensed.bed, soil_coordinates(setup.soil));
+  return strays_weighed_down(recording, std::move(condensed), first.prediction);
+}
+
+}  // namespace
+
+CalibratedRecording::CalibratedRecording(const Recording& recording, const DiagnosisSetup& setup)
+    : CalibratedRecording(prepared(recording, setup)) {}
+
+CalibratedRecording::CalibratedRecording(CondensedRecording condensed)
+    : recording_(std::move(condensed)),
+      soil_(soil_coordinates(bed().setup.soil)),
+      wide_soil_(soil_coordinates(bed().setup.soil, kWideSoil)),
+      discrepancy_(bed()) {
+  const Calibration calibration = calibrate(bed(), soil_);
+  base_.x = calibration.x;
+  base_.prediction = calibration.prediction;
+  base_.jacobian = calibration.jacobian;
+  base_.evidence.covariance = calibration.covariance;
+  base_.evidence.settings.assign(bed().channels.size(), 0);
+  soil_free_ = soil_directions(bed(), base_.jacobian);
+}
+
+Eigen::VectorXd CalibratedRecording::prediction_at_prior_means() const {
+  return *predict(bed(), soil_, {}, Eigen::VectorXd::Zero(base_.x.size()));
+}
+
+FitRemainder CalibratedRecording::remainder_of(const CandidateFit& fit) const {
+  return {.residual = bed().measured() - fit.prediction, .x = fit.x, .jacobian = fit.jacobian};
+}
+
+Estimate CalibratedRecording::soil_estimate(const CandidateFit& fit, std::size_t number) const {
+  const auto k = static_cast<Eigen::Index>(number);
+  const Coordinate& c = soil_[number].coordinate;
+  const double unit = soil_parameters()[soil_[number].parameter].file_unit;
+  return {c.value(fit.x[k]) / unit, c.spread * std::sqrt(fit.evidence.covariance(k, k)) / unit};
+}
+
+std::vector<SoilPull> CalibratedRecording::soil_pulls() const {
+  std::vector<SoilPull> pulls;
+  for (std::size_t i = 0; i < soil_.size(); ++i) {
+    const double unit = soil_parameters()[soil_[i].parameter].file_unit;
+    const Coordinate& c = soil_[i].coordinate;
+    SoilPull pull{.parameter = c.name,
+                  .prior = {c.centre / unit, c.spread / unit},
+                  .pull = base_.x[static_cast<Eigen::Index>(i)]};
+    pull.calibrated = soil_estimate(base_, i);
+    pull.corrected = pull.calibrated;
+    pull.corrected_pull = pull.pull;
+    pulls.push_back(pull);
+  }
+  return pulls;
+}
+
+HeldOut CalibratedRecording::held_out(const CorrectedModel& corrected, int threads) const {
+  return held_out(corrected, families_of(bed()), threads);
+}
+
+HeldOut CalibratedRecording::held_out(const CorrectedModel& corrected, const Families& families,
+                                      int threads) const {
+  return hold_out(recording_, soil_, base_, corrected, families, threads);
+}
+
+}  // namespace regoplan

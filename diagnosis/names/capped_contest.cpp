@@ -1,0 +1,153 @@
+#include "diagnosis/names/capped_contest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "diagnosis/bed/whitening.h"
+#include "terramech/basics/parallel_for.h"
+
+namespace regoplan {
+namespace {
+
+Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate,
+                         const CandidateFit* beside) {
+  std::vector<double> x;
+  if (beside != nullptr) {
+    x.assign(beside->x.data(), beside->x.data() + beside->x.size());
+  } else {
+    x.assign(problem.soil.size(), 0.0);
+  }
+  const std::size_t known = beside == nullptr ? 0 : beside->candidate.effects.size();
+  for (std::size_t e = known; e < candidate.effects.size(); ++e) {
+    const Effect& effect = candidate.effects[e];
+    x.insert(x.end(), effect.start.begin(), effect.start.end());
+  }
+  return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+/// Forms of one id, marginalised.
+CappedName marginal(const std::string& id, const std::vector<CandidateFit>& forms,
+                    std::size_t tried, double alone) {
+  const auto best = std::ranges::max_element(
+      forms, {}, [](const CandidateFit& fit) { return fit.evidence.log_marginal; });
+  double sum = 0;
+  for (const CandidateFit& fit : forms) {
+    sum += std::exp(fit.evidence.log_marginal - best->evidence.log_marginal);
+  }
+  return {
+      .id = id,
+      .gain_nats = best->evidence.log_marginal - alone + std::log(sum / static_cast<double>(tried)),
+      .fit = *best};
+}
+
+}  // namespace
+
+CappedContest::CappedContest(const CalibratedRecording& calibrated) : calibrated_(calibrated) {
+  const FitProblem problem = calibrated.problem();
+  const Cap cap = cap_for(problem.bed.measured() - calibrated.base().prediction);
+  alone_settings_ = cap.settings;
+  weights_ = cap.weights;
+  const auto alone = fit_candidate(
+      problem, {}, weights_, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.soil.size())));
+  alone_nats_ = alone->evidence.log_marginal;
+}
+
+CappedContest::Cap CappedContest::cap_for(const Eigen::VectorXd& residual) const {
+  const FitProblem problem = calibrated_.problem();
+  const Evidence free =
+      evidence_of(problem.bed, problem.discrepancy,
+                  {.residual = residual + calibrated_.base().jacobian * calibrated_.base().x,
+                   .jacobian = calibrated_.base().jacobian},
+                  Eigen::MatrixXd(problem.bed.size(), 0), SettingWeights::of_unexplained());
+  std::vector<double> most;
+  for (const std::size_t k : free.settings) {
+    most.push_back(kCapShare * discrepancy_settings()[k].amplitude);
+  }
+  return {free.settings, SettingWeights::up_to(std::move(most))};
+}
+
+std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
+                                             const CandidateFit* beside, int threads,
+                                             std::stop_token stop) const {
+  const FitProblem problem = calibrated_.problem();
+  std::vector<std::optional<CandidateFit>> fits(effects.size());
+  parallel_for(effects.size(), threads, [&](std::size_t i) {
+    if (stop.stop_requested()) return;
+    Hypothesis candidate = beside == nullptr ? Hypothesis{} : beside->candidate;
+    candidate.effects.push_back(effects[i]);
+    fits[i] = fit_candidate(problem, candidate, weights_, start_of(problem, candidate, beside));
+  });
+  std::map<std::string, std::vector<CandidateFit>> forms;
+  std::map<std::string, std::size_t> tried;
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    ++tried[effects[i].id];
+    if (fits[i]) forms[effects[i].id].push_back(std::move(*fits[i]));
+  }
+  std::vector<CappedName> names;
+  for (const auto& [id, of_id] : forms) {
+    names.push_back(marginal(id, of_id, tried[id], alone_nats_));
+  }
+  std::ranges::stable_sort(names, std::greater{}, &CappedName::gain_nats);
+  return names;
+}
+
+ByChance CappedContest::best_in_world(const std::vector<CappedName>& names,
+                                      const Eigen::VectorXd& world) const {
+  const FitProblem problem = calibrated_.problem();
+  const CandidateFit& base = calibrated_.base();
+  const Eigen::VectorXd at_base = world + base.jacobian * base.x;
+  const double alone =
+      evidence_of(problem.bed, problem.discrepancy,
+                  {.residual = at_base, .jacobian = base.jacobian}, problem.soil_free, weights_)
+          .log_marginal;
+  const NoiseFactors noise(problem.bed);
+  const double misfit = whitened(problem.bed, noise, world).squaredNorm();
+  ByChance best;
+  for (const CappedName& name : names) {
+    // what it adds, from nothing to twice its size, then the shapes in which it may err
+    const Eigen::VectorXd part = name.fit.prediction - base.prediction;
+    const Eigen::Index soil = base.jacobian.cols(), shape = name.fit.shape.cols();
+    const Eigen::Index own = name.fit.jacobian.cols() - soil;
+    Linearised model{.residual = at_base};
+    model.jacobian.resize(problem.bed.size(), soil + 1 + own + shape);
+    model.jacobian << base.jacobian, part, name.fit.jacobian.rightCols(own), name.fit.shape;
+    const Evidence evidence =
+        evidence_of(problem.bed, problem.discrepancy, model, problem.soil_free, weights_);
+    if (evidence.x[soil] < 0 && !is_instrument(name.id)) continue;  // the wrong way round
+    if (evidence.log_marginal - alone <= best.gain_nats) continue;
+    const Eigen::VectorXd left =
+        at_base - model.jacobian.leftCols(soil + 1 + own) * evidence.x.head(soil + 1 + own);
+    best = {evidence.log_marginal - alone,
+            1 - whitened(problem.bed, noise, left).squaredNorm() / misfit};
+  }
+  return best;
+}
+
+std::vector<ByChance> CappedContest::by_chance(const std::vector<CappedName>& names, int worlds,
+                                               std::uint64_t seed, int threads) const {
+  const FitProblem problem = calibrated_.problem();
+  const TestBed& bed = problem.bed;
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::VectorXd> drawn;
+  for (int w = 0; w < worlds; ++w) {
+    Eigen::VectorXd world(bed.size());
+    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+      const Eigen::Index n = bed.channels[c].mean.size();
+      Eigen::VectorXd z(n);
+      for (double& value : z) value = normal(random);
+      world.segment(bed.offset(c), n) =
+          problem.discrepancy.at(c, alone_settings_[c]).factor.matrixL() * z;
+    }
+    drawn.push_back(std::move(world));
+  }
+  std::vector<ByChance> reached(drawn.size());
+  parallel_for(drawn.size(), threads,
+               [&](std::size_t w) { reached[w] = best_in_world(names, drawn[w]); });
+  std::ranges::sort(reached, {}, &ByChance::gain_nats);
+  return reached;
+}
+
+}  // namespace regoplan

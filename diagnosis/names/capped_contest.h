@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "diagnosis/names/calibrated_recording.h"
+
+namespace regoplan {
+
+/// An id scored beside an unnamed remainder.
+struct CappedName {
+  std::string id;
+  double gain_nats = 0;  ///< over the remainder alone, forms marginalised
+  CandidateFit fit;      ///< of the likeliest form
+};
+
+/// What the best name makes of a world whose misfit has no name.
+struct ByChance {
+  double gain_nats = 0;
+  double share = 0;  ///< of the misfit that the name alone explains, in sample
+};
+
+/// Every name against an unnamed remainder, a smooth Gaussian process on each channel. Without a
+/// cap the remainder swallows every name; up to kCapShare of the amplitude that the base model
+/// alone needs, names compete fairly.
+class CappedContest {
+ public:
+  static constexpr double kCapShare = 1.0 / 3.0;
+
+  explicit CappedContest(const CalibratedRecording& calibrated);
+  CappedContest(const CappedContest&) = delete;
+  CappedContest& operator=(const CappedContest&) = delete;
+
+  /// Best first. \param beside effects that stand already; start from their fit
+  std::vector<CappedName> score(const std::vector<Effect>& effects, const CandidateFit* beside,
+                                int threads, std::stop_token stop) const;
+
+  /// What the best of the names reaches in worlds whose misfit has no name: draws of the remainder
+  /// that the base model alone needs, with noise, under the same cap. Names are linear in their
+  /// numbers there. Sorted by gain.
+  std::vector<ByChance> by_chance(const std::vector<CappedName>& names, int worlds,
+                                  std::uint64_t seed, int threads) const;
+
+  /// Of the remainder alone.
+  double alone_nats() const { return alone_nats_; }
+  const std::vector<std::size_t>& alone_settings() const { return alone_settings_; }
+  const SettingWeights& weights() const { return weights_; }
+
+ private:
+  /// The cap that a residual calls for.
+  struct Cap {
+    std::vector<std::size_t> settings;  // uncapped, likeliest per channel
+    SettingWeights weights;
+  };
+  Cap cap_for(const Eigen::VectorXd& residual) const;
+  ByChance best_in_world(const std::vector<CappedName>& names, const Eigen::VectorXd& world) const;
+
+  const CalibratedRecording& calibrated_;
+  std::vector<std::size_t> alone_settings_;
+  SettingWeights weights_;
+  double alone_nats_ = 0;
+};
+
+}  // namespace regoplan

@@ -1,0 +1,188 @@
+#include "diagnosis/names/claim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace regoplan {
+namespace {
+
+constexpr double kSure = 0.9;
+
+std::set<std::string> parts_of(const std::string& id) {
+  const std::size_t plus = id.find('+');
+  if (id == "none" || id == "parameters" || id == "unexplained") return {};
+  if (plus == std::string::npos) return {id};
+  return {id.substr(0, plus), id.substr(plus + 1)};
+}
+
+struct Weighted {
+  std::set<std::string> ids;
+  double probability = 0;
+};
+
+/// The smallest greedy set of ids such that a candidate contains one of them with probability 0.9.
+NameClass cover(const std::vector<Weighted>& candidates) {
+  NameClass chosen;
+  const auto hit = [&](const Weighted& w) {
+    return std::ranges::any_of(chosen.ids, [&](const auto& id) { return w.ids.contains(id); });
+  };
+  while (chosen.probability < kSure && chosen.ids.size() < kLargestClass) {
+    std::map<std::string, double> gain;
+    for (const Weighted& w : candidates) {
+      if (hit(w)) continue;
+      for (const std::string& id : w.ids) gain[id] += w.probability;
+    }
+    if (gain.empty()) break;
+    const auto best = std::ranges::max_element(
+        gain, [](const auto& a, const auto& b) { return a.second < b.second; });
+    chosen.ids.push_back(best->first);
+    chosen.probability += best->second;
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
+  std::vector<Weighted> all;
+  for (const ScoredId& s : scored) all.push_back({parts_of(s.id), s.probability});
+  const NameClass first = cover(all);
+  if (first.probability < kSure) return {};
+  std::vector<NameClass> claimed{first};
+  // given the first effect: is there a second?
+  std::vector<Weighted> partners;
+  double whole = 0;
+  for (const Weighted& w : all) {
+    Weighted partner = w;
+    bool hit = false;
+    for (const std::string& id : first.ids) hit = partner.ids.erase(id) > 0 || hit;
+    if (!hit) continue;
+    whole += w.probability;
+    partners.push_back(partner);
+  }
+  for (Weighted& w : partners) w.probability /= whole;
+  const NameClass second = cover(partners);
+  if (second.probability >= kSure) claimed.push_back(second);
+  return claimed;
+}
+
+bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed) {
+  const std::set<std::string> ids = parts_of(scored.id);
+  return ids.size() == claimed.size() && std::ranges::all_of(claimed, [&](const NameClass& names) {
+           return std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });
+         });
+}
+
+const ScoredId* best_of(const std::vector<ScoredId>& scored,
+                        const std::vector<NameClass>& claimed) {
+  const ScoredId* best = nullptr;
+  for (const ScoredId& s : scored) {
+    if (s.given_up || !is_of(s, claimed)) continue;
+    if (best == nullptr || s.probability > best->probability) best = &s;
+  }
+  return best;
+}
+
+std::string objection(const FitProblem& problem, const CandidateFit& fit) {
+  constexpr double kSoilBack = 4.0, kPlausible = 3.5, kWrongWay = 2;
+  for (std::size_t i = 0; i < problem.soil.size(); ++i) {
+    const double pull = fit.x[static_cast<Eigen::Index>(i)];
+    if (std::abs(pull) > kSoilBack) {
+      return fmt::format("{} would still lie {:.1f} prior standard deviations from its soil tests",
+                         problem.soil[i].coordinate.name, std::abs(pull));
+    }
+  }
+  for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
+    const Effect& effect = fit.candidate.effects[e];
+    const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
+    for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
+      const double x = fit.x[first + static_cast<Eigen::Index>(i)];
+      if (std::abs(x) < kPlausible) continue;
+      return fmt::format("{} would need {} = {:.3g}, far from what is usual", effect.id,
+                         effect.coordinates[i].name, effect.coordinates[i].value(x));
+    }
+    if (effect.id == "skid_branch") continue;  // named by where it is, whatever it does there
+    const auto part = part_of(problem.bed, problem.soil, fit, e);
+    if (!part) continue;
+    for (const Channel channel : channels_of(problem, fit, e)) {
+      for (std::size_t c = 0; c < problem.bed.channels.size(); ++c) {
+        const ChannelData& data = problem.bed.channels[c];
+        if (data.channel != channel) continue;
+        const Eigen::Index from = problem.bed.offset(c), n = data.mean.size();
+        const Eigen::VectorXd weight = data.noise.diagonal().cwiseInverse();
+        const Eigen::VectorXd own = part->segment(from, n);
+        const Eigen::VectorXd left = data.mean - fit.prediction.segment(from, n) + own;
+        const double own_size = std::sqrt(own.dot(weight.cwiseProduct(own)));
+        if (own.dot(weight.cwiseProduct(left)) < -kWrongWay * own_size) {
+          return fmt::format("{} would move {} the wrong way", effect.id, name(channel));
+        }
+      }
+    }
+  }
+  return "";
+}
+
+std::vector<Channel> channels_of(const FitProblem& problem, const CandidateFit& fit,
+                                 std::size_t effect) {
+  std::vector<Channel> channels;
+  const auto part = part_of(problem.bed, problem.soil, fit, effect);
+  if (!part) return channels;
+  std::vector<double> strength;
+  for (std::size_t c = 0; c < problem.bed.channels.size(); ++c) {
+    const ChannelData& data = problem.bed.channels[c];
+    const Eigen::VectorXd own = part->segment(problem.bed.offset(c), data.mean.size());
+    strength.push_back((own.array().square() / data.noise.diagonal().array()).sum());
+  }
+  constexpr double kShows = 16, kShare = 0.02;
+  const double most = std::ranges::max(strength);
+  for (std::size_t c = 0; c < strength.size(); ++c) {
+    if (strength[c] > kShows && strength[c] > kShare * most) {
+      channels.push_back(problem.bed.channels[c].channel);
+    }
+  }
+  return channels;
+}
+
+std::vector<Claim> claims_of(const FitProblem& problem, const std::vector<ScoredId>& scored,
+                             const std::vector<NameClass>& claimed, const CandidateFit& fit) {
+  std::vector<Claim> claims;
+  for (const NameClass& names : claimed) {
+    for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
+      const Effect& effect = fit.candidate.effects[e];
+      if (std::ranges::find(names.ids, effect.id) == names.ids.end()) continue;
+      Claim claim{.id = effect.id,
+                  .form = effect.form,
+                  .probability = std::min(names.probability, 1.0),
+                  .channels = channels_of(problem, fit, e)};
+      const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
+      for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
+        const Eigen::Index k = first + static_cast<Eigen::Index>(i);
+        const Coordinate& c = effect.coordinates[i];
+        claim.parameters[c.name] = {
+            c.value(fit.x[k]),
+            std::abs(c.slope(fit.x[k])) * std::sqrt(fit.evidence.covariance(k, k))};
+      }
+      for (const auto& [name, value] : effect.fixed) claim.parameters[name] = {value, 0};
+      for (const std::string& id : names.ids) {
+        if (id != effect.id) claim.equivalent.push_back(id);
+      }
+      double with = -INFINITY, without = -INFINITY;
+      for (const ScoredId& s : scored) {
+        if (s.given_up) continue;
+        const std::set<std::string> ids = parts_of(s.id);
+        const bool named =
+            std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });
+        (named ? with : without) = std::max(named ? with : without, s.score);
+      }
+      claim.evidence_nats = with - without;
+      claims.push_back(std::move(claim));
+      break;
+    }
+  }
+  return claims;
+}
+
+}  // namespace regoplan

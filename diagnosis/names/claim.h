@@ -1,0 +1,40 @@
+#pragma once
+
+#include "diagnosis/findings/findings.h"
+#include "diagnosis/fit/scoring.h"
+
+namespace regoplan {
+
+/// More names that fit alike say nothing: then there is no claim.
+inline constexpr std::size_t kLargestClass = 4;
+
+/// Names that stand for one effect: the likeliest first, then those the data cannot tell from it.
+struct NameClass {
+  std::vector<std::string> ids;
+  double probability = 0;  ///< that one of them is at work
+};
+
+/// The claim that the probabilities bear: for each effect the smallest set of names that together
+/// reach 0.9, of at most 4; none where nothing reaches it.
+std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored);
+
+/// Whether a candidate consists of one effect of each class.
+bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed);
+
+/// The best scored candidate whose every effect is of one of the classes.
+const ScoredId* best_of(const std::vector<ScoredId>& scored, const std::vector<NameClass>& claimed);
+
+/// Why a fitted claim is not believed; empty where it is: an amplitude or a soil number far from
+/// what is usual, or a channel that the effect should move and that moved the other way beyond its
+/// noise.
+std::string objection(const FitProblem& problem, const CandidateFit& fit);
+
+/// Channels in which an effect of a fitted candidate shows beyond the noise.
+std::vector<Channel> channels_of(const FitProblem& problem, const CandidateFit& fit,
+                                 std::size_t effect);
+
+/// The claims in full.
+std::vector<Claim> claims_of(const FitProblem& problem, const std::vector<ScoredId>& scored,
+                             const std::vector<NameClass>& claimed, const CandidateFit& fit);
+
+}  // namespace regoplan

@@ -1,0 +1,218 @@
+#include "diagnosis/names/correction.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/fit/unnamed_correction.h"
+
+namespace regoplan {
+namespace {
+
+/// What a fit predicts with the mean of the discrepancy added, as far as it proved itself.
+Eigen::VectorXd with_remainder(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                               const std::vector<std::size_t>& settings, const HeldOut& proof) {
+  const TestBed& bed = calibrated.bed();
+  const Eigen::VectorXd left = calibrated.remainder_of(fit).residual;
+  Eigen::VectorXd corrected = fit.prediction;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
+    const ChannelCovariance& covariance = calibrated.discrepancy().at(c, settings[c]);
+    if (covariance.discrepancy.size() == 0) continue;
+    corrected.segment(from, n) += proof.remainder_share[c] * covariance.discrepancy *
+                                  covariance.factor.solve(left.segment(from, n));
+  }
+  return corrected;
+}
+
+/// Faults of instruments are no part of a model of the wheel.
+std::vector<Mechanism> mechanisms_of(const CalibratedRecording& calibrated,
+                                     const CandidateFit& fit) {
+  std::vector<Mechanism> mechanisms;
+  auto next = static_cast<Eigen::Index>(calibrated.soil().size());
+  for (const Effect& effect : fit.candidate.effects) {
+    const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
+    if (!is_instrument(effect.id)) {
+      mechanisms.push_back(mechanism_at(effect, fit.x.segment(next, size)));
+    }
+    next += size;
+  }
+  return mechanisms;
+}
+
+std::vector<RunResidual> residuals_of(const CalibratedRecording& calibrated, const HeldOut& proof,
+                                      const Eigen::VectorXd& corrected) {
+  const TestBed& bed = calibrated.bed();
+  const CondensedRecording& recording = calibrated.recording();
+  const Eigen::VectorXd means = calibrated.prediction_at_prior_means();
+  std::vector<RunResidual> residuals;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const ChannelData& data = bed.channels[c];
+    for (std::size_t i = 0; i < data.conditions.size(); ++i) {
+      const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
+      for (const std::size_t run : bed.conditions[data.conditions[i]].runs) {
+        const double y = recording.adjusted[c][run];
+        if (!std::isfinite(y)) continue;
+        residuals.push_back({.run = run,
+                             .channel = data.channel,
+                             .measured = y,
+                             .noise = run_deviation(recording.noise[c], y),
+                             .baseline = means[row],
+                             .calibrated = calibrated.base().prediction[row],
+                             .corrected = corrected[row],
+                             .held_out = proof.corrected[row],
+                             .held_out_standard_deviation = proof.corrected_deviation[row]});
+      }
+    }
+  }
+  return residuals;
+}
+
+/// As correction_by(), whatever the proof says.
+Correction handed_out(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                      const std::vector<std::size_t>& settings, const HeldOut& proof) {
+  const DiagnosisSetup& setup = calibrated.bed().setup;
+  const std::vector<SoilCoordinate>& soil = calibrated.soil();
+  Correction correction{.model = {.variant = setup.variant,
+                                  .wheel = setup.wheel,
+                                  .soil = soil_of(calibrated.bed(), soil, fit.candidate, fit.x),
+                                  .gravity_mps2 = setup.gravity_mps2,
+                                  .mechanisms = mechanisms_of(calibrated, fit)},
+                        .soil_pulls = calibrated.soil_pulls(),
+                        .proof = proof,
+                        .remainder = calibrated.remainder_of(fit),
+                        .adds_remainder = !settings.empty()};
+  correction.soil = {.mean = correction.model.soil,
+                     .standard_deviation = setup.soil.standard_deviation};
+  for (std::size_t i = 0; i < soil.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    correction.soil_pulls[i].corrected = calibrated.soil_estimate(fit, i);
+    correction.soil_pulls[i].corrected_pull = fit.x[k];
+    correction.soil.standard_deviation.*soil_parameters()[soil[i].parameter].member =
+        soil[i].coordinate.spread * std::sqrt(fit.evidence.covariance(k, k));
+  }
+  Eigen::VectorXd corrected = fit.prediction;
+  if (!settings.empty()) {
+    GenericCorrection generic =
+        unnamed_correction(calibrated.problem(), fit, settings, proof.remainder_share);
+    // one that adds nothing would only make the rest of the world `outside_correction`
+    if (!generic.nodes.empty()) correction.model.generic = std::move(generic);
+    corrected = with_remainder(calibrated, fit, settings, proof);
+    correction.remainder.residual = calibrated.bed().measured() - corrected;
+  }
+  correction.residuals = residuals_of(calibrated, proof, corrected);
+  return correction;
+}
+
+/// The recording with the soil known at its prior means.
+CondensedRecording with_known_soil(CondensedRecording recording) {
+  recording.bed.setup.soil = {.mean = recording.bed.setup.soil.mean};
+  return recording;
+}
+
+/// Model at the prior means, and a surface over it where that proves itself. Figures of the
+/// calibrated model stay those of the calibrated model.
+Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surface,
+                          const HeldOut& of_calibrated, int threads) {
+  const CalibratedRecording known(with_known_soil(calibrated.recording()));
+  std::vector<std::size_t> settings;
+  if (with_surface) settings = remainder_settings(known.problem(), known.base());
+  HeldOut proof = known.held_out({.remainder = settings}, of_calibrated.families, threads);
+  const double plain =
+      variances_off(known.bed(), known.held_out({}, proof.families, threads).corrected);
+  if (with_surface && variances_off(known.bed(), proof.corrected) >= plain) {
+    settings.clear();
+    proof = known.held_out({}, proof.families, threads);
+  }
+  for (std::size_t c = 0; c < proof.fit.size(); ++c) {
+    proof.fit[c].calibrated_rmse = of_calibrated.fit[c].calibrated_rmse;
+  }
+  const auto rows = static_cast<double>(known.bed().size());
+  proof.share_explained =
+      of_calibrated.excess > 0
+          ? 1 - (variances_off(known.bed(), proof.corrected) - rows) / of_calibrated.excess
+          : 0;
+  proof.excess = of_calibrated.excess;
+  Correction correction = handed_out(known, known.base(), settings, proof);
+  correction.soil = calibrated.bed().setup.soil;
+  correction.soil_pulls = calibrated.soil_pulls();
+  for (SoilPull& pull : correction.soil_pulls) {
+    pull.corrected = pull.prior;
+    pull.corrected_pull = 0;
+  }
+  return correction;
+}
+
+/// Why a calibrated model is not handed on; empty where it is: soil numbers that fit some channels
+/// at the cost of another tell nothing of the soil.
+std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof) {
+  constexpr double kClear = 2;
+  const TestBed& bed = calibrated.bed();
+  const Eigen::VectorXd means = calibrated.prediction_at_prior_means();
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const double loss = gain_in_errors(bed, c, means, proof.calibrated);
+    if (loss > kClear) {
+      return fmt::format(
+          "held out by {}, calibrated soil numbers predict {} worse than the prior means by {:.1f} "
+          "standard errors",
+          proof.families.by, name(bed.channels[c].channel), loss);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+Correction calibrated_alone(const CalibratedRecording& calibrated, int threads) {
+  const HeldOut proof = calibrated.held_out({}, threads);
+  std::string worse = worse_than_prior_means(calibrated, proof);
+  if (worse.empty()) return handed_out(calibrated, calibrated.base(), {}, proof);
+  Correction correction = at_prior_means(calibrated, false, proof, threads);
+  correction.refused = "the soil stays at its prior means: " + worse;
+  return correction;
+}
+
+Correction correction_by(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                         const std::vector<std::size_t>& remainder, const HeldOut& proof,
+                         int threads) {
+  std::string reason = no_better_than_calibrated(calibrated.bed(), proof);
+  if (reason.empty()) return handed_out(calibrated, fit, remainder, proof);
+  const HeldOut plain = calibrated.held_out({}, proof.families, threads);
+  std::string worse = worse_than_prior_means(calibrated, plain);
+  Correction correction = worse.empty() ? handed_out(calibrated, calibrated.base(), {}, plain)
+                                        : at_prior_means(calibrated, false, plain, threads);
+  correction.refused = worse.empty() ? std::move(reason) : reason + "; " + worse;
+  return correction;
+}
+
+Correction correction_without_name(const CalibratedRecording& calibrated,
+                                   const std::vector<ScoredId>& scored, int threads) {
+  struct Proven {
+    const CandidateFit* fit;
+    std::vector<std::size_t> remainder;
+    HeldOut proof;
+  };
+  const auto prove = [&](const CandidateFit* fit) {
+    std::vector<std::size_t> remainder =
+        remainder_settings(calibrated.problem(), fit == nullptr ? calibrated.base() : *fit);
+    HeldOut proof = calibrated.held_out({.fit = fit, .remainder = remainder}, threads);
+    return Proven{fit, std::move(remainder), std::move(proof)};
+  };
+  Proven best = prove(nullptr);
+  const auto unexplained =
+      std::ranges::find_if(scored, [](const ScoredId& s) { return s.id == "unexplained"; });
+  if (unexplained != scored.end()) {
+    Proven over_fit = prove(&unexplained->fit);
+    if (over_fit.proof.share_explained > best.proof.share_explained) best = std::move(over_fit);
+  }
+  Correction at_means = at_prior_means(calibrated, true, best.proof, threads);
+  if (variances_off(calibrated.bed(), at_means.proof.corrected) <
+      variances_off(calibrated.bed(), best.proof.corrected)) {
+    return at_means;
+  }
+  return correction_by(calibrated, best.fit == nullptr ? calibrated.base() : *best.fit,
+                       best.remainder, best.proof, threads);
+}
+
+}  // namespace regoplan

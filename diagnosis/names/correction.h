@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/findings/findings.h"
+#include "diagnosis/fit/scoring.h"
+#include "diagnosis/names/calibrated_recording.h"
+
+namespace regoplan {
+
+/// A corrected model as it is handed out, and what it leaves of the recording.
+struct Correction {
+  WheelModelSpec model;
+  UncertainSoil soil;
+  std::vector<SoilPull> soil_pulls;
+  HeldOut proof;
+  FitRemainder remainder;       ///< on the conditions it was fitted to
+  bool adds_remainder = false;  ///< the mean of a discrepancy is part of it
+  std::vector<RunResidual> residuals;
+  std::string
+      refused;  ///< why the model asked for gave way to the calibrated one; empty: it did not
+};
+
+/// The calibrated model, nothing added.
+Correction calibrated_alone(const CalibratedRecording& calibrated, int threads);
+
+/// A fitted candidate with the remainder added to it (settings of the discrepancy; empty: none), or
+/// the calibrated model where that does as well on held-out conditions.
+/// \param proof of that candidate and that remainder
+Correction correction_by(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                         const std::vector<std::size_t>& remainder, const HeldOut& proof,
+                         int threads);
+
+/// A surface over the calibrated soil, or over the soil that a discrepancy leaves to be found: the
+/// one that does better on held-out conditions.
+Correction correction_without_name(const CalibratedRecording& calibrated,
+                                   const std::vector<ScoredId>& scored, int threads);
+
+}  // namespace regoplan

@@ -1,0 +1,153 @@
+#include "diagnosis/names/name_contest.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnosis/fit/unnamed_correction.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kClearGain = 2;  // standard errors of the held-out gain
+
+/// What a claim explains on held-out conditions, and of the pulls on the soil numbers.
+struct Worth {
+  double gain = 0;   ///< standard errors
+  double share = 0;  ///< of the excess misfit
+  double slack = 0;  ///< noise alone moves that share by so much
+
+  bool proven() const { return gain > kClearGain && share + slack > kWorthCorrecting; }
+};
+
+Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
+               const HeldOut& proof) {
+  const Eigen::VectorXd& base = calibrated.base().x;
+  // Soil tests are data that no family holds out: numbers that go back to them count.
+  const double back = std::max(base.squaredNorm() - fit.x.head(base.size()).squaredNorm(), 0.0);
+  const double excess = std::max(proof.excess, 0.0);
+  const auto size = static_cast<double>(calibrated.bed().size());
+  return {.gain = gain_in_errors(calibrated.bed(), proof.corrected, proof.calibrated, back),
+          .share = (proof.share_explained * excess + back) / std::max(excess + back, 1e-12),
+          .slack = std::sqrt(2.0 * size) / (excess + back + 1)};
+}
+
+}  // namespace
+
+std::optional<ProvenClaim> NameContest::decide() {
+  std::vector<NameClass> claimed = proven_one_by_one();
+  const ScoredId* best = claimed.empty() ? nullptr : best_of(scored_, claimed);
+  if (best == nullptr) return std::nullopt;
+  const FitProblem problem = calibrated_.problem();
+  std::string doubt = doubt_about(best->fit);
+  if (!doubt.empty() && another_holds(claimed, std::string(best->id))) {
+    claimed = proven_one_by_one();
+    best = best_of(scored_, claimed);
+    doubt.clear();
+  }
+  const std::vector<std::size_t> left = remainder_settings(problem, best->fit);
+  HeldOut proof = best_hold_out(calibrated_.recording(), calibrated_.soil(), calibrated_.base(),
+                                {.fit = &best->fit, .remainder = left}, threads_);
+  const Worth worth = worth_of(calibrated_, best->fit, proof);
+  if (doubt.empty() && worth.proven()) {
+    return ProvenClaim{std::move(claimed), best->fit, left, std::move(proof)};
+  }
+  if (doubt.empty()) {
+    doubt = fmt::format(
+        "on held-out conditions it explains {:.0f} % of the excess misfit, {:.1f} standard errors",
+        100 * worth.share, worth.gain);
+  }
+  notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id, doubt));
+  return std::nullopt;
+}
+
+/// Of two effects each must do its part on held-out conditions, whatever the kind of families:
+/// scores take what one mechanism's form leaves for a second mechanism. Pairs that do not are
+/// given up, and the rest is weighed anew.
+std::vector<NameClass> NameContest::proven_one_by_one() {
+  constexpr int kMostPairs = 3;
+  for (int tried = 0;; ++tried) {
+    std::vector<NameClass> claimed = claimed_names(scored_);
+    if (claimed.size() < 2) return claimed;
+    const auto idle = idle_effect(claimed);
+    if (!idle) return claimed;
+    notes_.push_back(fmt::format(
+        "{} and {} score best together, but on held-out conditions {} adds {:.1f} standard "
+        "errors only: the pair is given up",
+        claimed[0].ids.front(), claimed[1].ids.front(), claimed[idle->effect].ids.front(),
+        idle->gain));
+    for (ScoredId& s : scored_) {
+      const bool pair_too_many = tried + 1 == kMostPairs && s.id.find('+') != s.id.npos;
+      s.given_up = s.given_up || pair_too_many || is_of(s, claimed);
+    }
+    weigh(scored_, plain_);
+  }
+}
+
+/// What speaks against it: its own numbers, or a lack of fit that it leaves. Other effects act in
+/// forms that nobody knows and may leave one.
+std::string NameContest::doubt_about(const CandidateFit& fit) const {
+  std::string doubt = objection(calibrated_.problem(), fit);
+  const bool exact = std::ranges::all_of(
+      fit.candidate.effects, [](const Effect& effect) { return has_one_form(effect.id); });
+  if (!doubt.empty() || !exact) return doubt;
+  const LackOfFit left = lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(fit), seed_);
+  if (left.f <= left.critical) return "";
+  return fmt::format("what it does is known exactly, and leaves a lack of fit (p = {:.2g})",
+                     left.p_value);
+}
+
+/// What speaks against the best of a class need not speak against its other names, nor against
+/// it with a second effect beside it. Gives up the best where a claim that shares a name with the
+/// one before is made then and nothing speaks against it.
+bool NameContest::another_holds(const std::vector<NameClass>& refuted, const std::string& best) {
+  const std::vector<ScoredId> before = scored_;
+  const std::size_t notes = notes_.size();
+  for (ScoredId& s : scored_) s.given_up = s.given_up || s.id == best;
+  weigh(scored_, plain_);
+  const std::vector<NameClass> claimed = proven_one_by_one();
+  const ScoredId* other = claimed.empty() ? nullptr : best_of(scored_, claimed);
+  const auto was_named = [&](const Effect& effect) {
+    return std::ranges::any_of(refuted, [&](const NameClass& names) {
+      return std::ranges::count(names.ids, effect.id) > 0;
+    });
+  };
+  if (other != nullptr && std::ranges::any_of(other->fit.candidate.effects, was_named) &&
+      doubt_about(other->fit).empty()) {
+    return true;
+  }
+  scored_ = before;
+  notes_.resize(notes);
+  weigh(scored_, plain_);
+  return false;
+}
+
+/// The effect of a pair without which held-out conditions are predicted as well.
+std::optional<NameContest::IdleEffect> NameContest::idle_effect(
+    const std::vector<NameClass>& claimed) const {
+  const ScoredId* pair = best_of(scored_, claimed);
+  if (pair == nullptr) return std::nullopt;
+  const auto proof = [&](const CandidateFit& fit, const Families& families) {
+    const CorrectedModel model{.fit = &fit,
+                               .remainder = remainder_settings(calibrated_.problem(), fit)};
+    return calibrated_.held_out(model, families, threads_).corrected;
+  };
+  std::array<double, 2> gain{-INFINITY, -INFINITY};
+  for (const Families& families : all_families(calibrated_.bed())) {
+    const Eigen::VectorXd both = proof(pair->fit, families);
+    for (const std::size_t left_out : {0, 1}) {
+      const ScoredId* single = best_of(scored_, {claimed[1 - left_out]});
+      gain[left_out] = single == nullptr
+                           ? INFINITY
+                           : std::max(gain[left_out], gain_in_errors(calibrated_.bed(), both,
+                                                                     proof(single->fit, families)));
+    }
+  }
+  const std::size_t least = gain[0] < gain[1] ? 0 : 1;
+  if (gain[least] > kClearGain) return std::nullopt;
+  return IdleEffect{least, gain[least]};
+}
+
+}  // namespace regoplan

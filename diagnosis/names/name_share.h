@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "diagnosis/findings/findings.h"
+#include "diagnosis/names/calibrated_recording.h"
+
+namespace regoplan {
+
+/// What a fitted candidate alone, no remainder added, explains of the excess misfit on held-out
+/// conditions: by the kind of families there are most of, and the range over all kinds.
+struct NameShare {
+  Share share;
+  std::string held_out_by;
+  double gain_in_errors = 0;  ///< least over the kinds of families
+  /// Channel that it predicts worse than without it by more than two standard errors, in the mean
+  /// over the kinds of families; nothing where there is none.
+  std::optional<Channel> worsened;
+};
+
+NameShare name_share(const CalibratedRecording& calibrated, const CandidateFit& fit, int threads);
+
+/// As much for the effect that a fit has more than another has.
+NameShare added_share(const CalibratedRecording& calibrated, const CandidateFit& with,
+                      const CandidateFit& without, int threads);
+
+/// Whether names with a remainder predict the outermost families better than the remainder alone,
+/// which must extrapolate there. \param by_surface settings of the remainder on the base model
+bool extrapolates_better(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                         const std::vector<std::size_t>& by_surface, int threads);
+
+}  // namespace regoplan

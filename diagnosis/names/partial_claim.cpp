@@ -1,0 +1,224 @@
+#include "diagnosis/names/partial_claim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace regoplan {
+namespace {
+
+constexpr std::size_t kMostNames = 3;
+constexpr int kWorlds = 39;
+
+/// Forms are proxies: what names lose by that grows with the signal.
+double temperature(double gain_nats) {
+  return 1 + 0.2 * std::log1p(std::max(gain_nats, 0.0) / 10);
+}
+
+std::vector<double> weights_of(const std::vector<CappedName>& names) {
+  std::vector<double> weights;
+  const double top = names.empty() ? 0 : names.front().gain_nats;
+  for (const CappedName& name : names) {
+    weights.push_back(std::exp((name.gain_nats - top) / temperature(top)));
+  }
+  return weights;
+}
+
+double probability_of(const std::vector<CappedName>& names, const std::vector<std::string>& ids) {
+  const std::vector<double> weights = weights_of(names);
+  double within = 0, whole = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    whole += weights[i];
+    if (std::ranges::find(ids, names[i].id) != ids.end()) within += weights[i];
+  }
+  return whole > 0 ? within / whole : 0;
+}
+
+/// The claim for the last effect of a fit.
+Claim claim_for_last(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                     const std::vector<std::string>& ids) {
+  const FitProblem problem = calibrated.problem();
+  const std::string& id = fit.candidate.effects.back().id;
+  NameClass names{.ids = {id}};
+  for (const std::string& other : ids) {
+    if (other != id) names.ids.push_back(other);
+  }
+  std::vector<Claim> claims = claims_of(problem, {}, {names}, fit);
+  Claim claim = claims.front();
+  claim.channels = channels_of(problem, fit, fit.candidate.effects.size() - 1);
+  return claim;
+}
+
+std::vector<std::string> ids_near(const std::vector<CappedName>& names, double gain_nats) {
+  std::vector<std::string> ids;
+  for (const CappedName& name : names) {
+    if (name.gain_nats > gain_nats - kOverOthers_nats) ids.push_back(name.id);
+  }
+  return ids;
+}
+
+bool mixes_wheel_and_instrument(const std::vector<std::string>& ids) {
+  return std::ranges::any_of(ids, is_instrument) && !std::ranges::all_of(ids, is_instrument);
+}
+
+/// Why a name may not stand, by itself or in a class; empty where it may.
+std::string objection_to(const CalibratedRecording& calibrated, const CappedContest& contest,
+                         const CappedName& name, int threads) {
+  if (name.gain_nats < kOverRemainder_nats) {
+    return fmt::format("it gains {:.1f} nats over an unnamed remainder", name.gain_nats);
+  }
+  std::string doubt = objection(calibrated.problem(), name.fit);
+  if (!doubt.empty()) return doubt;
+  const NameShare share = name_share(calibrated, name.fit, threads);
+  if (share.share.low < kWorthANameAlone) {
+    return fmt::format("held out it explains {:.0f} % of the excess misfit only",
+                       100 * share.share.low);
+  }
+  if (!extrapolates_better(calibrated, name.fit, contest.alone_settings(), threads)) {
+    return "a nameless surface extrapolates better";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names, double chance_p) {
+  std::vector<ScoredCandidate> ranking;
+  const std::vector<double> weights = weights_of(names);
+  double whole = 0;
+  for (const double weight : weights) whole += weight;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ranking.push_back({names[i].id, (1 - chance_p) * weights[i] / whole, names[i].gain_nats});
+  }
+  ranking.push_back({"unexplained", names.empty() ? 1 : chance_p, 0});
+  ranking.push_back({"none", 0, 0});
+  ranking.push_back({"parameters", 0, 0});
+  std::ranges::stable_sort(ranking, std::greater{}, &ScoredCandidate::probability);
+  return ranking;
+}
+
+double chance_of(const std::vector<ByChance>& reached, double gain_nats, double share) {
+  const auto beyond = std::ranges::count_if(reached, [&](const ByChance& world) {
+    return world.gain_nats >= gain_nats && world.share >= share;
+  });
+  return (1.0 + static_cast<double>(beyond)) / (1.0 + static_cast<double>(reached.size()));
+}
+
+double reached_by_chance(const std::vector<ByChance>& reached) {
+  if (reached.empty()) return 0;
+  return reached[reached.size() - 1 - reached.size() / 40].gain_nats;
+}
+
+PartialClaim first_claim(const CalibratedRecording& calibrated,
+                         const std::vector<CappedName>& names, const std::vector<std::string>& ids,
+                         double chance_p, int threads) {
+  const auto find = [&](const std::string& id) {
+    return std::ranges::find(names, id, &CappedName::id);
+  };
+  PartialClaim result{.fit = find(ids.front())->fit};
+  Claim claim = claim_for_last(calibrated, result.fit, ids);
+  claim.evidence_nats = find(ids.front())->gain_nats;
+  claim.probability = (1 - chance_p) * probability_of(names, ids);
+  for (const std::string& id : ids) {
+    claim.member_shares[id] = name_share(calibrated, find(id)->fit, threads).share;
+  }
+  claim.share = claim.member_shares[ids.front()];
+  result.claims.push_back(std::move(claim));
+  result.steps.push_back(result.fit);
+  return result;
+}
+
+std::vector<NameStep> steps_of(const CalibratedRecording& calibrated, const PartialClaim& claim,
+                               int threads) {
+  std::vector<NameStep> steps;
+  for (const CandidateFit& fit : claim.steps) {
+    const HeldOut held = calibrated.held_out({.fit = &fit}, threads);
+    steps.push_back({fit.candidate.effects.back().id, held.fit, held.share_explained});
+  }
+  return steps;
+}
+
+void add_further_names(const CalibratedRecording& calibrated, const CappedContest& contest,
+                       const std::vector<Effect>& effects, double gain_nats, int threads,
+                       std::stop_token stop, PartialClaim& claim) {
+  while (claim.claims.size() < kMostNames && !stop.stop_requested()) {
+    std::vector<Effect> further = effects;
+    std::erase_if(further, [&](const Effect& e) {
+      return is_instrument(e.id) || std::ranges::any_of(claim.claims, [&](const Claim& c) {
+               return c.id == e.id || std::ranges::find(c.equivalent, e.id) != c.equivalent.end();
+             });
+    });
+    const auto names = contest.score(further, &claim.fit, threads, stop);
+    if (names.empty() || stop.stop_requested()) return;
+    const CappedName& best = names.front();
+    if (best.gain_nats - gain_nats < kOverRemainder_nats) return;
+    if (!objection(calibrated.problem(), best.fit).empty()) return;
+    const NameShare added = added_share(calibrated, best.fit, claim.fit, threads);
+    if (added.share.low < kWorthAnother || added.gain_in_errors < 2 || added.worsened) return;
+    const std::vector<std::string> ids = ids_near(names, best.gain_nats);
+    if (ids.size() > kLargestClass) return;
+    Claim next = claim_for_last(calibrated, best.fit, ids);
+    next.evidence_nats = best.gain_nats - gain_nats;
+    next.probability = probability_of(names, ids);
+    next.share = added.share;
+    for (const CappedName& name : names) {
+      if (std::ranges::find(ids, name.id) == ids.end()) continue;
+      next.member_shares[name.id] = added_share(calibrated, name.fit, claim.fit, threads).share;
+    }
+    claim.claims.push_back(std::move(next));
+    claim.fit = best.fit;
+    claim.steps.push_back(best.fit);
+    gain_nats = best.gain_nats;
+  }
+}
+
+PartialDecision decide_partly(const CalibratedRecording& calibrated,
+                              const std::vector<Effect>& effects, std::uint64_t seed, int threads,
+                              std::stop_token stop) {
+  const CappedContest contest(calibrated);
+  const std::vector<CappedName> names = contest.score(effects, nullptr, threads, stop);
+  PartialDecision decision;
+  if (names.empty() || stop.stop_requested()) {
+    decision.ranking = capped_ranking({}, 1);
+    return decision;
+  }
+  const std::vector<ByChance> reached = contest.by_chance(names, kWorlds, seed, threads);
+  decision.chance_nats = reached_by_chance(reached);
+  // what stands by itself, then what comes near the best of that
+  std::vector<std::string> ids;
+  double top = 0, p = 1;
+  for (const CappedName& name : names) {
+    if (name.gain_nats < std::max(kOverRemainder_nats, top - kOverOthers_nats)) break;
+    const std::string doubt = objection_to(calibrated, contest, name, threads);
+    if (!doubt.empty()) {
+      if (ids.empty())
+        decision.refused +=
+            fmt::format("{}{}: {}", decision.refused.empty() ? "" : "; ", name.id, doubt);
+      continue;
+    }
+    if (ids.empty()) {
+      top = name.gain_nats;
+      p = chance_of(reached, top, name_share(calibrated, name.fit, threads).share.low);
+    }
+    ids.push_back(name.id);
+  }
+  decision.ranking = capped_ranking(names, p);
+  if (ids.empty()) return decision;
+  if (ids.size() == 1 && p > kByChance) {
+    decision.refused = fmt::format(
+        "{} gains {:.0f} nats over an unnamed remainder; nameless worlds let some name do as well "
+        "with a probability of {:.2f}",
+        ids.front(), top, p);
+    return decision;
+  }
+  if (ids.size() > kLargestClass || mixes_wheel_and_instrument(ids)) {
+    decision.refused = "names that fit alike are too many, or of wheel and instrument both";
+    return decision;
+  }
+  decision.claim = first_claim(calibrated, names, ids, p, threads);
+  add_further_names(calibrated, contest, effects, top, threads, stop, *decision.claim);
+  return decision;
+}
+
+}  // namespace regoplan

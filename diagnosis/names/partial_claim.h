@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+
+#include "diagnosis/findings/findings.h"
+#include "diagnosis/names/capped_contest.h"
+#include "diagnosis/names/claim.h"
+#include "diagnosis/names/name_share.h"
+
+namespace regoplan {
+
+/// Rules by which names stand beside an unnamed remainder.
+inline constexpr double kOverRemainder_nats = 10;  ///< by which a name beats the remainder alone
+inline constexpr double kOverOthers_nats = 5;      ///< and every other name, or they are a class
+inline constexpr double kWorthANameAlone = 1.0 / 3.0;  ///< held-out share of the first name
+inline constexpr double kWorthAnother = 0.02;          ///< that a further name adds
+
+/// Names that explain part of a misfit, the likeliest form of each fitted together.
+struct PartialClaim {
+  std::vector<Claim> claims;
+  CandidateFit fit;
+  std::vector<CandidateFit> steps;  ///< of the first name, of the first two, ...
+};
+
+/// What every step makes of conditions held out by the families that there are most of.
+std::vector<NameStep> steps_of(const CalibratedRecording& calibrated, const PartialClaim& claim,
+                               int threads);
+
+/// Probabilities of names beside a remainder, adding up to 1 with `unexplained`, `none` and
+/// `parameters`. \param chance_p probability that a nameless world gains as much
+std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names, double chance_p);
+
+/// How often a nameless world lets some name gain as much and explain as large a share, or more.
+double chance_of(const std::vector<ByChance>& reached, double gain_nats, double share);
+
+/// Above this a single name is taken for chance.
+inline constexpr double kByChance = 1.0 / 40;
+
+/// Gain that one nameless world in forty reaches.
+double reached_by_chance(const std::vector<ByChance>& reached);
+
+/// A claim for the first of a class, its members' shares beside it.
+/// \param names as scored \param ids of the class, best first
+PartialClaim first_claim(const CalibratedRecording& calibrated,
+                         const std::vector<CappedName>& names, const std::vector<std::string>& ids,
+                         double chance_p, int threads);
+
+/// Adds names one by one as long as each gains 10 nats and adds its part on held-out conditions,
+/// however these are held out: at most three. Names that fit alike join as a class.
+void add_further_names(const CalibratedRecording& calibrated, const CappedContest& contest,
+                       const std::vector<Effect>& effects, double gain_nats, int threads,
+                       std::stop_token stop, PartialClaim& claim);
+
+/// A claim for what stands beside a remainder of a recording's misfit, if anything does. A single
+/// name must do better than it may by chance (kByChance); a class of names that
+/// fit alike need not, as none of them is claimed alone.
+struct PartialDecision {
+  std::optional<PartialClaim> claim;
+  std::vector<ScoredCandidate> ranking;
+  double chance_nats = 0;
+  std::string refused;  ///< why there is none
+};
+PartialDecision decide_partly(const CalibratedRecording& calibrated,
+                              const std::vector<Effect>& effects, std::uint64_t seed, int threads,
+                              std::stop_token stop);
+
+}  // namespace regoplan

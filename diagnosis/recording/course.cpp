@@ -1,0 +1,105 @@
+#include "diagnosis/recording/course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace regoplan {
+namespace {
+
+constexpr double kWorthACourse_nats = 12;
+
+struct Column {
+  std::string name;
+  std::vector<double> value;  // per run, scaled to [0, 1]
+  double low = 0, high = 0;
+};
+
+void add(std::string name, std::vector<double> value, std::vector<Column>& columns) {
+  const auto [low, high] = std::ranges::minmax(value);
+  if (!(high > low)) return;
+  for (double& v : value) v = (v - low) / (high - low);
+  columns.push_back({std::move(name), std::move(value), low, high});
+}
+
+/// What the runs may follow; rows stand in the order of the runs.
+std::vector<Column> columns_of(const Recording& recording) {
+  const std::vector<WheelRun>& runs = recording.runs;
+  const auto each = [&](const auto& of) {
+    std::vector<double> value;
+    for (std::size_t i = 0; i < runs.size(); ++i) value.push_back(of(i));
+    return value;
+  };
+  std::vector<Column> columns;
+  add(recording.columns.time ? "time_s" : "day",
+      each([&](std::size_t i) { return runs[i].conditions.time_s; }), columns);
+  const auto n = static_cast<double>(runs.size());
+  add("run_order", each([](std::size_t i) { return static_cast<double>(i); }), columns);
+  add("warm_up", each([&](std::size_t i) { return std::exp(-8 * static_cast<double>(i) / n); }),
+      columns);
+  add("after_slip_ratio", each([&](std::size_t i) { return i == 0 ? 0 : runs[i - 1].slip_ratio; }),
+      columns);
+  add("after_load_n", each([&](std::size_t i) { return runs[i == 0 ? 0 : i - 1].load_n; }),
+      columns);
+  return columns;
+}
+
+}  // namespace
+
+std::optional<Course> course_of(const Recording& recording,
+                                const std::vector<Condition>& conditions,
+                                const std::vector<ChannelRuns>& channels,
+                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup) {
+  std::vector<std::optional<ReplicateContrasts>> contrasts;
+  for (const ChannelRuns& c : channels) {
+    const ChannelNoise plain =
+        estimate_noise(recording, conditions, c.channel, c.adjusted, c.modelled, setup);
+    auto& of_channel = contrasts.emplace_back();
+    if (plain.source == NoiseSource::kReplicates) {
+      of_channel.emplace(recording, conditions, c.adjusted, plain);
+    }
+  }
+  std::optional<Course> best;
+  for (const Column& column : columns_of(recording)) {
+    for (const CourseKind& kind : kinds) {
+      Course course{.column = column.name,
+                    .kind = kind.name,
+                    .value = column.value,
+                    .low = column.low,
+                    .high = column.high};
+      for (std::size_t c = 0; c < channels.size(); ++c) {
+        std::vector<double> trend(recording.runs.size(), 0.0);
+        for (std::size_t i = 0; i < trend.size(); ++i) {
+          const double size = kind.of_channel[c][i];
+          trend[i] = std::isfinite(size) ? column.value[i] * size : 0;
+        }
+        // the trend's factor counts like another part of the noise model
+        constexpr double kCost_nats = 0.5;
+        if (contrasts[c]) course.gain_nats += contrasts[c]->gain(trend) - kCost_nats;
+        course.trend.push_back(std::move(trend));
+      }
+      if (course.gain_nats > (best ? best->gain_nats : kWorthACourse_nats)) best = course;
+    }
+  }
+  return best;
+}
+
+std::vector<int> blocks_of(const Course& course) {
+  constexpr std::size_t kMostDays = 6, kQuarters = 4;
+  const std::set<double> values(course.value.begin(), course.value.end());
+  const bool days = values.size() <= kMostDays;
+  std::vector<int> block;
+  for (const double value : course.value) {
+    if (days) {
+      block.push_back(static_cast<int>(std::distance(values.begin(), values.find(value))));
+    } else {
+      const auto before = std::ranges::count_if(course.value, [&](double v) { return v < value; });
+      block.push_back(
+          static_cast<int>(static_cast<std::size_t>(before) * kQuarters / course.value.size()));
+    }
+  }
+  return block;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/recording/noise_model.h"
+
+namespace regoplan {
+
+/// How replicates change in the course of a recording: what would else be taken for scatter.
+struct Course {
+  std::string
+      column;  ///< `time_s`, `day`, `run_order`, `warm_up`, `after_slip_ratio`, `after_load_n`
+  std::string kind;      ///< what changes: `offset`, `gain`, `cohesion`, `strength`, `stiffness`
+  double gain_nats = 0;  ///< over days and scatter alone, all channels
+  std::vector<double> value;               ///< of the column, per run, from 0 to 1
+  double low = 0, high = 0;                ///< what 0 and 1 stand for, in the column's unit
+  std::vector<std::vector<double>> trend;  ///< per channel and run, as estimate_noise() takes it
+
+  /// Whether it follows time, so that time can be a place: not what the run before was.
+  bool in_time() const { return column != "after_slip_ratio" && column != "after_load_n"; }
+};
+
+/// One channel as estimate_noise() takes it.
+struct ChannelRuns {
+  Channel channel = Channel::kFx;
+  std::vector<double> adjusted, modelled;
+};
+
+/// Changes of the model values of one channel that a course may follow, per run.
+struct CourseKind {
+  std::string name;
+  std::vector<std::vector<double>> of_channel;
+};
+
+/// The likeliest course of the replicates' differences, if one is worth its numbers: days and
+/// scatter alone must be less likely by 12 nats.
+std::optional<Course> course_of(const Recording& recording,
+                                const std::vector<Condition>& conditions,
+                                const std::vector<ChannelRuns>& channels,
+                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup);
+
+/// Runs in blocks of the course: days where there are at most six, else quarters.
+std::vector<int> blocks_of(const Course& course);
+
+}  // namespace regoplan

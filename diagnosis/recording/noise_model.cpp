@@ -1,0 +1,411 @@
+#include "diagnosis/recording/noise_model.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "terramech/basics/input_error.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kOutlier = 3.5;
+constexpr int kFewest = 4;  // degrees of freedom to trust replicates
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Measured runs of the conditions that have two and more.
+struct Replicates {
+  std::vector<std::vector<std::size_t>> groups;
+  int contrasts = 0;
+};
+
+Replicates replicates_of(const std::vector<Condition>& conditions,
+                         const std::vector<double>& value) {
+  Replicates all;
+  for (const Condition& condition : conditions) {
+    std::vector<std::size_t> measured;
+    for (const std::size_t run : condition.runs) {
+      if (std::isfinite(value[run])) measured.push_back(run);
+    }
+    if (measured.size() < 2) continue;
+    all.contrasts += static_cast<int>(measured.size()) - 1;
+    all.groups.push_back(std::move(measured));
+  }
+  return all;
+}
+
+/// Robust scatter of one run from the differences of replicates.
+double rough_deviation(const Replicates& replicates, const std::vector<double>& value) {
+  std::vector<double> differences;
+  for (const auto& group : replicates.groups) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        differences.push_back(std::abs(value[group[i]] - value[group[k]]));
+      }
+    }
+  }
+  const double middle = median(differences) / (0.6745 * std::sqrt(2.0));
+  if (middle > 0) return middle;
+  return std::accumulate(differences.begin(), differences.end(), 0.0) /
+         (1.128 * static_cast<double>(differences.size()));
+}
+
+/// Where the signal of a group lies, robustly.
+double centre(const std::vector<std::size_t>& group, const std::vector<double>& value) {
+  std::vector<double> values;
+  for (const std::size_t run : group) values.push_back(value[run]);
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  return (values[(n - 1) / 2] + values[n / 2]) / 2;
+}
+
+void weigh_outliers(const Replicates& replicates, const std::vector<double>& value,
+                    const auto& deviation, std::vector<double>& weight) {
+  for (const auto& group : replicates.groups) {
+    double middle = centre(group, value);
+    for (int pass = 0; pass < 10; ++pass) {
+      double sum = 0, weights = 0;
+      for (const std::size_t run : group) {
+        const double n = static_cast<double>(group.size());
+        const double z =
+            std::abs(value[run] - middle) / (deviation(middle) * std::sqrt((n - 1) / n));
+        weight[run] = z < kOutlier ? 1 : std::pow(kOutlier / z, 4);
+        sum += weight[run] * value[run];
+        weights += weight[run];
+      }
+      if (group.size() == 2) break;  // neither of two can be called the outlier
+      middle = sum / weights;
+    }
+  }
+}
+
+/// Contrasts of replicates: rows orthonormal and orthogonal to each group's mean (Helmert).
+struct Contrasts {
+  std::vector<std::size_t> runs;
+  Eigen::MatrixXd matrix;
+};
+
+Contrasts contrasts_of(const Replicates& replicates) {
+  Contrasts all;
+  for (const auto& group : replicates.groups) {
+    all.runs.insert(all.runs.end(), group.begin(), group.end());
+  }
+  all.matrix.setZero(replicates.contrasts, static_cast<Eigen::Index>(all.runs.size()));
+  Eigen::Index row = 0, column = 0;
+  for (const auto& group : replicates.groups) {
+    for (std::size_t i = 1; i < group.size(); ++i, ++row) {
+      const double n = static_cast<double>(i);
+      all.matrix.row(row).segment(column, static_cast<Eigen::Index>(i)).array() =
+          1 / std::sqrt(n * (n + 1));
+      all.matrix(row, column + static_cast<Eigen::Index>(i)) = -n / std::sqrt(n * (n + 1));
+    }
+    column += static_cast<Eigen::Index>(group.size());
+  }
+  return all;
+}
+
+struct Shares {
+  double proportional = 0, day_offset = 0, day_gain = 0;  // over the constant part
+};
+
+/// Restricted maximum likelihood of the constant part, and of the others over it on a grid.
+void fit_variances(const Recording& recording, const Replicates& replicates,
+                   const std::vector<double>& value, bool days, const std::vector<double>& trend,
+                   ChannelNoise& noise) {
+  const Contrasts contrasts = contrasts_of(replicates);
+  const auto n = static_cast<Eigen::Index>(contrasts.runs.size());
+  Eigen::VectorXd y(n), signal(n), inverse_weight(n), along = Eigen::VectorXd::Zero(n);
+  Eigen::MatrixXd same_day(n, n);
+  Eigen::Index i = 0;
+  for (const auto& group : replicates.groups) {
+    for (const std::size_t run : group) {
+      y[i] = value[run];
+      signal[i] = centre(group, value);
+      if (!trend.empty()) along[i] = trend[run];
+      inverse_weight[i++] = 1 / noise.weight[run];
+    }
+  }
+  const double rms = std::max(std::sqrt(signal.squaredNorm() / static_cast<double>(n)), 1e-300);
+  signal /= rms;
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (Eigen::Index b = 0; b < n; ++b) {
+      same_day(a, b) = recording.runs[contrasts.runs[static_cast<std::size_t>(a)]].day ==
+                       recording.runs[contrasts.runs[static_cast<std::size_t>(b)]].day;
+    }
+  }
+  const Eigen::VectorXd e = contrasts.matrix * y;
+  const Eigen::VectorXd column = contrasts.matrix * along;
+  const Eigen::MatrixXd offset_part = contrasts.matrix * same_day * contrasts.matrix.transpose();
+  const Eigen::MatrixXd gain_part = contrasts.matrix *
+                                    (signal.asDiagonal() * same_day * signal.asDiagonal()) *
+                                    contrasts.matrix.transpose();
+  double best = -INFINITY;
+  const std::vector<double> grid{0, 0.35, 0.7, 1.4, 2.8};
+  const std::vector<double> day_grid = days ? grid : std::vector<double>{0};
+  for (const double p : grid) {
+    const Eigen::VectorXd variance =
+        (inverse_weight.array() * (1 + p * p * signal.array().square())).matrix();
+    const Eigen::MatrixXd own =
+        contrasts.matrix * variance.asDiagonal() * contrasts.matrix.transpose();
+    for (const double d : day_grid) {
+      for (const double g : day_grid) {
+        const Eigen::LLT<Eigen::MatrixXd> factor(own + d * d * offset_part + g * g * gain_part);
+        const Eigen::VectorXd solved = factor.solve(column);
+        const double weight = column.dot(solved);
+        const double factor_of_trend = weight > 0 ? e.dot(solved) / weight : 0;
+        const double s2 = (e.dot(factor.solve(e)) - factor_of_trend * e.dot(solved)) /
+                          static_cast<double>(e.size());
+        const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
+        const double cost = 0.5 * ((p > 0) + (d > 0) + (g > 0));
+        const double score = -0.5 * (static_cast<double>(e.size()) * std::log(s2) + log_det) - cost;
+        if (!(score > best)) continue;
+        best = score;
+        noise.trend = factor_of_trend;
+        noise.constant = std::sqrt(s2);
+        noise.proportional = p * noise.constant / rms;
+        noise.day_offset = d * noise.constant;
+        noise.day_gain = g * noise.constant / rms;
+      }
+    }
+  }
+}
+
+/// Scatter between neighbouring conditions of what the model leaves.
+double neighbour_deviation(const std::vector<Condition>& conditions,
+                           const std::vector<double>& value, const std::vector<double>& model) {
+  struct Point {
+    double s, b, l, residual;
+  };
+  std::vector<Point> points;
+  for (const Condition& at : conditions) {
+    for (const std::size_t run : at.runs) {
+      if (!std::isfinite(value[run])) continue;
+      points.push_back({at.slip_ratio / 0.1, at.slip_angle_rad / 0.1, std::log(at.load_n) / 0.3,
+                        value[run] - model[run]});
+    }
+  }
+  if (points.size() < 4) return 0;
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<std::pair<double, double>> others;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (k == i) continue;
+      const double distance = std::hypot(points[k].s - points[i].s, points[k].b - points[i].b,
+                                         points[k].l - points[i].l);
+      others.emplace_back(distance, points[k].residual);
+    }
+    std::ranges::partial_sort(others, others.begin() + 2);
+    differences.push_back(std::abs(points[i].residual - (others[0].second + others[1].second) / 2));
+  }
+  return median(differences) / (0.6745 * std::sqrt(1.5));
+}
+
+int runs_on_two_days(const Recording& recording, const Replicates& replicates) {
+  return static_cast<int>(std::ranges::count_if(replicates.groups, [&](const auto& group) {
+    return std::ranges::any_of(group, [&](std::size_t run) {
+      return recording.runs[run].day != recording.runs[group.front()].day;
+    });
+  }));
+}
+
+bool several_days(const Recording& recording) {
+  return std::ranges::any_of(
+      recording.runs, [&](const WheelRun& run) { return run.day != recording.runs.front().day; });
+}
+
+/// A bed prepared once may differ from the next by as much as days do elsewhere, seen or not.
+void assume_a_day(ChannelNoise& noise) {
+  noise.day_assumed = true;
+  noise.day_offset = noise.constant / 2;
+}
+
+}  // namespace
+
+double run_deviation(const ChannelNoise& noise, double y) {
+  return std::hypot(noise.constant, noise.proportional * y);
+}
+
+ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
+                            Channel channel, const std::vector<double>& adjusted,
+                            const std::vector<double>& model, const DiagnosisSetup& setup,
+                            const std::vector<double>& trend) {
+  ChannelNoise noise{.channel = channel, .weight = std::vector<double>(adjusted.size(), 1.0)};
+  const Replicates replicates = replicates_of(conditions, adjusted);
+  noise.degrees_of_freedom = replicates.contrasts;
+  if (replicates.contrasts < kFewest) {
+    const auto given = setup.noise_standard_deviation.find(channel);
+    noise.source = given != setup.noise_standard_deviation.end() ? NoiseSource::kSetup
+                                                                 : NoiseSource::kNeighbours;
+    noise.constant = noise.source == NoiseSource::kSetup
+                         ? given->second
+                         : neighbour_deviation(conditions, adjusted, model);
+    noise.degrees_of_freedom = 0;
+    assume_a_day(noise);
+    if (!(noise.constant > 0)) {
+      throw InputError(
+          fmt::format("{}: neither replicates nor setup tell its noise, and "
+                      "neighbouring conditions do not scatter",
+                      name(channel)));
+    }
+    return noise;
+  }
+  const bool identical = std::ranges::all_of(replicates.groups, [&](const auto& group) {
+    return std::ranges::all_of(group, [&](std::size_t run) {
+      return recording.runs[run].value(channel) == recording.runs[group.front()].value(channel);
+    });
+  });
+  if (identical) {
+    throw InputError(
+        fmt::format("{}: all replicates are identical, so they tell nothing of its "
+                    "noise (copied rows?)",
+                    name(channel)));
+  }
+  const bool days = several_days(recording);
+  const bool days_seen = runs_on_two_days(recording, replicates) >= 3;
+  const double rough = rough_deviation(replicates, adjusted);
+  weigh_outliers(
+      replicates, adjusted, [&](double) { return 1.3 * rough; }, noise.weight);
+  fit_variances(recording, replicates, adjusted, days && days_seen, trend, noise);
+  const auto whole_deviation = [&](double y) {
+    return std::hypot(run_deviation(noise, y), noise.day_offset, noise.day_gain * y);
+  };
+  weigh_outliers(replicates, adjusted, whole_deviation, noise.weight);
+  fit_variances(recording, replicates, adjusted, days && days_seen, trend, noise);
+  if (!days_seen) assume_a_day(noise);
+  for (std::size_t run = 0; run < noise.weight.size(); ++run) {
+    if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
+  }
+  return noise;
+}
+
+ReplicateContrasts::ReplicateContrasts(const Recording& recording,
+                                       const std::vector<Condition>& conditions,
+                                       const std::vector<double>& adjusted,
+                                       const ChannelNoise& plain) {
+  const Replicates replicates = replicates_of(conditions, adjusted);
+  Contrasts contrasts = contrasts_of(replicates);
+  runs_ = std::move(contrasts.runs);
+  contrasts_ = std::move(contrasts.matrix);
+  const auto n = static_cast<Eigen::Index>(runs_.size());
+  Eigen::VectorXd y(n), own(n), signal(n);
+  Eigen::MatrixXd same_day(n, n);
+  Eigen::Index i = 0;
+  for (const auto& group : replicates.groups) {
+    for (const std::size_t run : group) {
+      y[i] = adjusted[run];
+      signal[i] = centre(group, adjusted);
+      own[i] = std::pow(run_deviation(plain, signal[i]), 2) / plain.weight[run];
+      ++i;
+    }
+  }
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const bool same = recording.runs[runs_[static_cast<std::size_t>(a)]].day ==
+                        recording.runs[runs_[static_cast<std::size_t>(b)]].day;
+      same_day(a, b) =
+          same ? std::pow(plain.day_offset, 2) + std::pow(plain.day_gain, 2) * signal[a] * signal[b]
+               : 0;
+    }
+  }
+  e_ = contrasts_ * y;
+  const Eigen::MatrixXd within = contrasts_ * own.asDiagonal() * contrasts_.transpose();
+  const Eigen::MatrixXd days = contrasts_ * same_day * contrasts_.transpose();
+  const bool has_days = !plain.day_assumed && plain.day_offset + plain.day_gain > 0;
+  for (const bool with_days : {true, false}) {
+    if (with_days && !has_days) continue;
+    Covariance& at = covariances_.emplace_back();
+    at.factor.compute(with_days ? Eigen::MatrixXd(within + days) : within);
+    at.score = score(at, e_.dot(at.factor.solve(e_)));
+  }
+}
+
+double ReplicateContrasts::score(const Covariance& covariance, double misfit) const {
+  const auto m = static_cast<double>(e_.size());
+  const double log_det = 2 * covariance.factor.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (m * std::log(misfit / m) + log_det);
+}
+
+double ReplicateContrasts::gain(const std::vector<double>& trend) const {
+  Eigen::VectorXd along(static_cast<Eigen::Index>(runs_.size()));
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    along[static_cast<Eigen::Index>(i)] = trend[runs_[i]];
+  }
+  const Eigen::VectorXd column = contrasts_ * along;
+  double before = -INFINITY, after = -INFINITY;
+  for (const Covariance& covariance : covariances_) {
+    const Eigen::VectorXd solved = covariance.factor.solve(column);
+    const double weight = column.dot(solved);
+    if (!(weight > 0)) continue;
+    const double misfit =
+        e_.dot(covariance.factor.solve(e_)) - std::pow(e_.dot(solved), 2) / weight;
+    before = std::max(before, covariance.score);
+    after = std::max(after, score(covariance, misfit));
+  }
+  return std::isfinite(after) ? after - before : 0;
+}
+
+void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days) {
+  constexpr double kSharedDegrees = 2;
+  double sum = 0, channels = 0;
+  for (const ChannelNoise& one : noise) {
+    if (one.source != NoiseSource::kReplicates || one.day_assumed) continue;
+    sum += std::pow(one.day_offset / one.constant, 2);
+    ++channels;
+  }
+  if (days < 2 || channels < 2) return;
+  const auto own_degrees = static_cast<double>(days - 1);
+  for (ChannelNoise& one : noise) {
+    if (one.source != NoiseSource::kReplicates || one.day_assumed) continue;
+    const double own = std::pow(one.day_offset / one.constant, 2);
+    one.day_offset =
+        one.constant * std::sqrt((own_degrees * own + kSharedDegrees * sum / channels) /
+                                 (own_degrees + kSharedDegrees));
+  }
+}
+
+Eigen::MatrixXd noise_correlation(const std::vector<ChannelNoise>& noise,
+                                  const std::vector<Condition>& conditions,
+                                  const std::vector<std::vector<double>>& adjusted) {
+  const auto n = static_cast<Eigen::Index>(noise.size());
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(n, n);
+  for (const Condition& condition : conditions) {
+    std::vector<Eigen::VectorXd> rows;
+    for (const std::size_t run : condition.runs) {
+      Eigen::VectorXd row(n);
+      bool whole = true;
+      for (std::size_t c = 0; c < noise.size(); ++c) {
+        row[static_cast<Eigen::Index>(c)] = adjusted[c][run];
+        whole = whole && std::isfinite(adjusted[c][run]) && noise[c].weight[run] == 1;
+      }
+      if (whole) rows.push_back(row);
+    }
+    if (rows.size() < 2) continue;
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(n), deviation(n);
+    for (const Eigen::VectorXd& row : rows) mean += row / static_cast<double>(rows.size());
+    for (Eigen::Index c = 0; c < n; ++c) {
+      deviation[c] = run_deviation(noise[static_cast<std::size_t>(c)], mean[c]);
+    }
+    for (const Eigen::VectorXd& row : rows) {
+      const Eigen::VectorXd z = ((row - mean).array() / deviation.array()).matrix();
+      sums += z * z.transpose();
+    }
+  }
+  Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(n, n);
+  constexpr double kShrink = 10;  // as many runs without correlation
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (Eigen::Index b = 0; b < n; ++b) {
+      if (a != b) correlation(a, b) = sums(a, b) / (std::sqrt(sums(a, a) * sums(b, b)) + kShrink);
+    }
+  }
+  return correlation;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <string>
+#include <vector>
+
+#include "diagnosis/recording/condition_groups.h"
+#include "diagnosis/recording/setup.h"
+
+namespace regoplan {
+
+enum class NoiseSource { kReplicates, kSetup, kNeighbours };
+
+/// Scatter of one channel: a run's variance is constant^2 + (proportional y)^2, and every day has
+/// an offset and a share of the signal of its own.
+struct ChannelNoise {
+  Channel channel = Channel::kFx;
+  NoiseSource source = NoiseSource::kReplicates;
+  double constant = 0;
+  double proportional = 0;
+  double day_offset = 0;
+  double day_gain = 0;
+  /// No condition was run on two days, as far as the recording says: half of the scatter was taken,
+  /// of every day that it names or of all of it.
+  bool day_assumed = false;
+  int degrees_of_freedom = 0;
+  std::vector<double> weight;         ///< per run, in [0, 1]: below 1 for outliers
+  std::vector<std::size_t> outliers;  ///< runs
+  double trend = 0;                   ///< factor of the trend column that was given
+};
+
+/// Noise from replicates: restricted maximum likelihood over the contrasts within conditions, with
+/// outliers (3.5 standard deviations from their fellows) weighted down. Without replicates (fewer
+/// than 4 degrees of freedom) the setup's number; without that the scatter between neighbouring
+/// conditions, which counts some of the signal as noise and so errs on the cautious side.
+/// \param adjusted per run: the value moved to its condition's mean load, slip and slip angle
+/// \param trend per run: a column that explains part of what replicates differ by, its factor
+/// fitted along; empty: none
+/// \throws InputError where all replicates of the channel are identical
+ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
+                            Channel channel, const std::vector<double>& adjusted,
+                            const std::vector<double>& model, const DiagnosisSetup& setup,
+                            const std::vector<double>& trend = {});
+
+/// What replicates of one channel say of a trend, the noise model's parts held at those of a
+/// channel's plain noise, or its days given up for the trend.
+class ReplicateContrasts {
+ public:
+  ReplicateContrasts(const Recording& recording, const std::vector<Condition>& conditions,
+                     const std::vector<double>& adjusted, const ChannelNoise& plain);
+
+  /// Log likelihood that letting the runs follow a column adds. \param trend per run
+  double gain(const std::vector<double>& trend) const;
+
+ private:
+  struct Covariance {
+    Eigen::LLT<Eigen::MatrixXd> factor;
+    double score = 0;  // without the trend's part
+  };
+  double score(const Covariance& covariance, double misfit) const;
+
+  std::vector<std::size_t> runs_;
+  Eigen::MatrixXd contrasts_;
+  Eigen::VectorXd e_;
+  std::vector<Covariance> covariances_;
+};
+
+/// Days are few, so that a channel may by chance not show what the bed did to all of them: moves
+/// each channel's day offset, over its scatter, toward the mean square of all, as if that were
+/// known from three days.
+void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days);
+
+/// Standard deviation of one run that measures y, without its day's part.
+double run_deviation(const ChannelNoise& noise, double y);
+
+/// Correlation between channels of what replicates scatter. \return channels x channels
+Eigen::MatrixXd noise_correlation(const std::vector<ChannelNoise>& noise,
+                                  const std::vector<Condition>& conditions,
+                                  const std::vector<std::vector<double>>& adjusted);
+
+}  // namespace regoplan

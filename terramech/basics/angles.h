@@ -1,0 +1,18 @@
+#pragma once
+
+#include <numbers>
+
+namespace regoplan {
+
+/// Radians in a degree.
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+/// Radians in a right angle.
+inline constexpr double kQuarterTurn = std::numbers::pi / 2;
+
+/// An angle in degrees, as people read it.
+constexpr double degrees(double angle_rad) {
+  return angle_rad * (180 / std::numbers::pi);
+}
+
+}  // namespace regoplan

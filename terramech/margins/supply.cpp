@@ -1,0 +1,70 @@
+#include "terramech/margins/supply.h"
+
+#include <cmath>
+
+namespace regoplan {
+namespace {
+
+/// No steady lateral or forward force comes near this many times the load.
+constexpr double kBeyondReach = 20;
+
+/// From no lateral force to the given direction: 1 left, -1 right. p counts loads.
+ForceLine sideways(const SteadyManoeuvre& manoeuvre, double forward_n, double direction) {
+  return {.from = {.forward_n = forward_n, .left_n = 0},
+          .per_unit = {.forward_n = 0, .left_n = direction * manoeuvre.normal_n()}};
+}
+
+SupplyEnd end_of(const SteadyManoeuvre& manoeuvre, const SteadyManoeuvre::Point& start,
+                 double forward_n, double direction, const TrimLimits& limits, bool find_fold) {
+  const ForceLine line = sideways(manoeuvre, forward_n, direction);
+  const BranchEnd end = follow_branch(manoeuvre, start, line, kBeyondReach, limits, find_fold);
+  SupplyEnd supply{.force_n = line.at(end.p).left_n, .limit = end.limit, .wheel = end.wheel};
+  if (end.fold_p) supply.fold_n = line.at(*end.fold_p).left_n;
+  if (end.wheel >= 0) {
+    supply.axle_x_m = manoeuvre.vehicle().wheels[static_cast<std::size_t>(end.wheel)].x_m;
+  }
+  supply.understeer_1pm =
+      direction * (manoeuvre.steer_curvature_1pm(end.point) - manoeuvre.curvature_1pm());
+  return supply;
+}
+
+NoSupply reason_for(BranchLimit limit) {
+  return limit == BranchLimit::kSlip || limit == BranchLimit::kSinkage ? NoSupply::kTraction
+                                                                       : NoSupply::kYaw;
+}
+
+}  // namespace
+
+SupplyResult cornering_supply(const SteadyManoeuvre& manoeuvre, double forward_n,
+                              const TrimLimits& limits, bool find_folds) {
+  const ForceLine left = sideways(manoeuvre, forward_n, 1);
+  const auto start = manoeuvre.solve_from_rolling(left);
+  if (!start) return {.supply = {}, .reason = NoSupply::kTraction};
+  const LimitUse use = limit_use(manoeuvre.trim(*start, left), limits);
+  if (use.used >= 1) return {.supply = {}, .reason = reason_for(use.limit)};
+  return {.supply = Supply{.right = end_of(manoeuvre, *start, forward_n, -1, limits, find_folds),
+                           .left = end_of(manoeuvre, *start, forward_n, 1, limits, find_folds)}};
+}
+
+std::optional<double> largest_traction_n(const SteadyManoeuvre& manoeuvre, const PathForce& force,
+                                         const TrimLimits& limits) {
+  const double normal = manoeuvre.normal_n();
+  const ForceLine across{
+      .from = {.forward_n = force.forward_n, .left_n = 0},
+      .per_unit = {.forward_n = 0, .left_n = std::copysign(normal, force.left_n)}};
+  const auto start = manoeuvre.solve_from_rolling(across);
+  if (!start) return std::nullopt;
+  const BranchEnd there =
+      follow_branch(manoeuvre, *start, across, std::abs(force.left_n) / normal, limits);
+  if (!there.reached_target) return std::nullopt;
+  const PathForce ahead = manoeuvre.ahead();
+  const ForceLine along{
+      .from = force,
+      .per_unit = {.forward_n = normal * ahead.forward_n, .yaw_nm = normal * ahead.yaw_nm}};
+  SteadyManoeuvre::Point at = there.point;
+  at[3] = 0;
+  const BranchEnd end = follow_branch(manoeuvre, at, along, kBeyondReach, limits);
+  return manoeuvre.ahead_n(force) + end.p * normal;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,96 @@
+#include "terramech/mechanisms/mechanism.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "terramech/basics/input_error.h"
+#include "terramech/mechanisms/mechanism_catalogue.h"
+
+namespace regoplan {
+namespace {
+
+using mechanism_catalogue::Definition;
+
+const std::vector<Definition>& all_definitions() {
+  static const std::vector<Definition> all = [] {
+    std::vector<Definition> sum;
+    for (const auto& of : {mechanism_catalogue::of_sinkage(), mechanism_catalogue::of_shear(),
+                           mechanism_catalogue::of_soil(), mechanism_catalogue::of_wheel(),
+                           mechanism_catalogue::of_flanks_and_rim()}) {
+      sum.insert(sum.end(), of.begin(), of.end());
+    }
+    return sum;
+  }();
+  return all;
+}
+
+std::size_t index_of(const Mechanism& mechanism) {
+  const std::vector<MechanismForm>& forms = mechanism_forms();
+  std::vector<std::string_view> ids, of_id;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    if (ids.empty() || ids.back() != forms[i].id) ids.push_back(forms[i].id);
+    if (forms[i].id != mechanism.id) continue;
+    if (mechanism.form.empty() || mechanism.form == forms[i].form) return i;
+    of_id.push_back(forms[i].form);
+  }
+  if (of_id.empty()) {
+    throw InputError(
+        fmt::format("mechanism id: {} is none of {}", mechanism.id, fmt::join(ids, ", ")));
+  }
+  throw InputError(fmt::format("mechanism {}: form {} is none of {}", mechanism.id, mechanism.form,
+                               fmt::join(of_id, ", ")));
+}
+
+}  // namespace
+
+const std::vector<MechanismForm>& mechanism_forms() {
+  static const std::vector<MechanismForm> forms = [] {
+    std::vector<MechanismForm> all;
+    for (const Definition& definition : all_definitions()) all.push_back(definition.form);
+    return all;
+  }();
+  return forms;
+}
+
+const MechanismForm& form_of(const Mechanism& mechanism) {
+  const MechanismForm& form = mechanism_forms()[index_of(mechanism)];
+  for (const auto& parameter : mechanism.parameters) {
+    const std::string& name = parameter.first;
+    const double value = parameter.second;
+    const bool known = std::ranges::any_of(
+        form.parameters, [&](const MechanismParameter& p) { return p.name == name; });
+    if (!known) {
+      std::vector<std::string_view> names;
+      for (const MechanismParameter& p : form.parameters) names.push_back(p.name);
+      throw InputError(
+          fmt::format("mechanism {}: parameter {} is none of {}", mechanism.id, name,
+                      names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", "))));
+    }
+    if (!std::isfinite(value)) throw ValueError(name, value, "a finite number");
+  }
+  return form;
+}
+
+BoundMechanism bind(const Mechanism& mechanism) {
+  const MechanismForm& form = form_of(mechanism);
+  BoundMechanism bound{.form = index_of(mechanism)};
+  for (std::size_t i = 0; i < form.parameters.size(); ++i) {
+    const auto given = mechanism.parameters.find(std::string(form.parameters[i].name));
+    bound.parameters[i] =
+        given == mechanism.parameters.end() ? form.parameters[i].typical : given->second;
+  }
+  return bound;
+}
+
+Effects apply(const std::vector<BoundMechanism>& mechanisms, Effects effects,
+              const WheelState& state) {
+  for (const BoundMechanism& mechanism : mechanisms) {
+    effects = all_definitions()[mechanism.form].act(effects, mechanism.parameters, state);
+  }
+  return effects;
+}
+
+}  // namespace regoplan

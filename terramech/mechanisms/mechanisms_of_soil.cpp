@@ -1,0 +1,148 @@
+// Mechanisms of the soil: pushed aside, in layers and zones, changed by passes, speed and time.
+#include <algorithm>
+#include <cmath>
+
+#include "terramech/mechanisms/mechanism_catalogue.h"
+
+namespace regoplan::mechanism_catalogue {
+
+// NOLINTBEGIN(bugprone-easily-swappable-parameters, readability-function-size)
+std::vector<Definition> of_soil() {
+  using E = Effects;
+  using P = const Parameters&;
+  using S = const WheelState&;
+  return {
+      {{"side_pileup",
+        "raised",
+        "Rb at h_b = h (1 + q sin|beta|)",
+        "proxy; Hegedus 1960 with ground swell",
+        {{"q", .3, 2, 1}}},
+       [](E e, P p, S at) {
+         e.bulldoze_height *= 1 + p[0] * std::sin(at.beta_abs_rad);
+         return e;
+       }},
+      {{"side_pileup",
+        "surcharge",
+        "Rb += D1 q sin|beta| h",
+        "proxy; Terzaghi's surcharge term",
+        {{"surcharge_pa", 100, 2000, 600}}},
+       [](E e, P p, S at) {
+         e.surcharge_pa += p[0] * std::sin(at.beta_abs_rad);
+         return e;
+       }},
+      {{"front_bulldozing",
+        "passive",
+        "Fx -= eta b (gamma h^2 Kp/2 + 2 c h sqrt(Kp))",
+        "Bekker 1960; Wong 2008",
+        {{"eta", .1, 1, .4}}},
+       [](E e, P p, S) {
+         e.front_bulldozing += p[0];
+         return e;
+       }},
+      {{"multi_pass",
+        "stiffening",
+        "k = k0 (1 + a (1 - 1/pass))",
+        "Wong 2008: unload-reload stiffness (proxy)",
+        {{"a", .3, 3, 1}}},
+       [](E e, P p, S at) {
+         e.stiffness *= 1 + p[0] * (1 - 1.0 / at.conditions.pass);
+         return e;
+       }},
+      {{"multi_pass",
+        "compaction",
+        "with u = 1 - 1/pass: c (1 + a u), k (1 + b u), kx (1 - d u), rho (1 + e u)",
+        "Holm 1969; Senatore & Sandu 2011",
+        {{"cohesion", .1, 1, .4},
+         {"stiffness", .1, 2, .6},
+         {"modulus", 0, .5, .2},
+         {"density", 0, .2, .1}}},
+       [](E e, P p, S at) {
+         const double u = 1 - 1.0 / at.conditions.pass;
+         e.soil.cohesion_pa *= 1 + p[0] * u;
+         e.stiffness *= 1 + p[1] * u;
+         e.soil.kx0_m *= 1 - p[2] * u;
+         e.soil.density_kgpm3 *= 1 + p[3] * u;
+         return e;
+       }},
+      {{"rate_dependence",
+        "stiffness",
+        "k = k0 (v/v0)^m",
+        "Grahn 1991; Pope 1969",
+        {{"m", .02, .2, .1}, {"v0_mps", .01, .1, .05}}},
+       [](E e, P p, S at) {
+         if (at.speed_mps > 0) e.stiffness *= std::pow(at.speed_mps / p[1], p[0]);
+         return e;
+       }},
+      {{"rate_dependence",
+        "shear_limit",
+        "c, tan(phi) times (v/v0)^m",
+        "Grahn 1991",
+        {{"m", .02, .2, .08}, {"v0_mps", .01, .1, .05}}},
+       [](E e, P p, S at) {
+         if (at.speed_mps > 0) e.limit *= std::pow(at.speed_mps / p[1], p[0]);
+         return e;
+       }},
+      {{"rate_dependence",
+        "inertia",
+        "Fx -= k rho v^2 b h",
+        "Shmulevich & Osetinsky 2003 (proxy)",
+        {{"k", .2, 2, 1}}},
+       [](E e, P p, S) {
+         e.inertia += p[0];
+         return e;
+       }},
+      {{"layered_soil",
+        "hard_below",
+        "sigma times 1 + (R - 1)(1 - exp(-(z/d)^2)), z the depth of each point of the contact",
+        "proxy; Bekker 1969 on soft ground over a hard base",
+        {{"ratio", 2, 20, 6}, {"depth_m", .005, .05, .02}}},
+       [](E e, P p, S) {
+         e.layering = {.kind = Layering::Kind::kHardBelow, .depth_m = p[1], .ratio = p[0]};
+         return e;
+       }},
+      {{"layered_soil",
+        "crust",
+        "sigma + p_c (z/d) exp(1 - z/d): a crust that bears p_c at the depth d, then breaks",
+        "proxy; Wong 2008, section 2.4, on ground under a mat or crust",
+        {{"crust_pa", 1e3, 2e4, 4e3}, {"depth_m", .002, .02, .005}}},
+       [](E e, P p, S) {
+         e.layering = {.kind = Layering::Kind::kCrust, .depth_m = p[1], .crust_pa = p[0]};
+         return e;
+       }},
+      {{"soil_zone",
+        "factors",
+        "from < position < to: k times a, c and tan(phi) times b",
+        "another soil",
+        {{"from_m", 0, 10, 0},
+         {"to_m", 0, 10, 1},
+         {"stiffness", .3, 3, .5},
+         {"limit", .5, 1.5, .8}}},
+       [](E e, P p, S at) {
+         if (at.conditions.position_m < p[0] || at.conditions.position_m > p[1]) return e;
+         e.stiffness *= p[2];
+         e.limit *= p[3];
+         return e;
+       }},
+      {{"cohesion_drift",
+        "linear",
+        "c = c0 max(0, 1 + a t)",
+        "moisture over time (proxy)",
+        {{"per_s", -1e-4, 1e-4, -2e-5}}},
+       [](E e, P p, S at) {
+         e.soil.cohesion_pa *= std::max(0.0, 1 + p[0] * at.conditions.time_s);
+         return e;
+       }},
+      {{"cohesion_drift",
+        "drying",
+        "c = c0 (f + (1 - f) exp(-t/tau))",
+        "moisture over time (proxy)",
+        {{"dry_share", 0, .8, .4}, {"tau_s", 1e3, 1e6, 3e4}}},
+       [](E e, P p, S at) {
+         e.soil.cohesion_pa *= p[0] + (1 - p[0]) * std::exp(-at.conditions.time_s / p[1]);
+         return e;
+       }},
+  };
+}
+// NOLINTEND(bugprone-easily-swappable-parameters, readability-function-size)
+
+}  // namespace regoplan::mechanism_catalogue
