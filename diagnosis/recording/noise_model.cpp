@@ -268,17 +268,29 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
                     "noise (copied rows?)",
                     name(channel)));
   }
-  const bool days = several_days(recording);
   const bool days_seen = runs_on_two_days(recording, replicates) >= 3;
-  const double rough = rough_deviation(replicates, adjusted);
+  const bool days = several_days(recording) && days_seen;
+  const auto fit = [&] { fit_variances(recording, replicates, adjusted, days, trend, noise); };
+  // An outlier is one beside the trend: what follows the trend lies far from its fellows and
+  // belongs.
+  std::vector<double> beside = adjusted;
+  const auto take_trend_off = [&] {
+    for (std::size_t run = 0; run < trend.size(); ++run) {
+      beside[run] = adjusted[run] - noise.trend * trend[run];
+    }
+  };
+  if (!trend.empty()) fit();
+  take_trend_off();
+  const double rough = rough_deviation(replicates, beside);
   weigh_outliers(
-      replicates, adjusted, [&](double) { return 1.3 * rough; }, noise.weight);
-  fit_variances(recording, replicates, adjusted, days && days_seen, trend, noise);
+      replicates, beside, [&](double) { return 1.3 * rough; }, noise.weight);
+  fit();
+  take_trend_off();
   const auto whole_deviation = [&](double y) {
     return std::hypot(run_deviation(noise, y), noise.day_offset, noise.day_gain * y);
   };
-  weigh_outliers(replicates, adjusted, whole_deviation, noise.weight);
-  fit_variances(recording, replicates, adjusted, days && days_seen, trend, noise);
+  weigh_outliers(replicates, beside, whole_deviation, noise.weight);
+  fit();
   if (!days_seen) assume_a_day(noise);
   for (std::size_t run = 0; run < noise.weight.size(); ++run) {
     if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
