@@ -7,7 +7,6 @@
 #include <optional>
 #include <string_view>
 
-#include "planner/problem/world.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/parallel_for.h"
 

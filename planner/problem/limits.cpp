@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "planner/problem/planning_problem.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 
@@ -14,6 +15,12 @@ Limits default_limits(const Vehicle& vehicle) {
           .slip_angle_max_rad = vehicle.slip_angle_max_rad,
           .slope_max_rad = vehicle.slope_max_rad,
           .sinkage_max_m = vehicle.sinkage_max_m};
+}
+
+StrainLimits strain_limits(const Limits& limits) {
+  return {.slip_angle_max_rad = limits.slip_angle_max_rad,
+          .slip_max = limits.slip_max,
+          .sinkage_max_m = limits.sinkage_max_m};
 }
 
 std::span<const LimitKey> limit_keys() {

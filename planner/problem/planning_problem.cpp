@@ -77,12 +77,6 @@ void validate(const Search& search) {
 
 }  // namespace
 
-StrainLimits strain_limits(const Limits& limits) {
-  return {.slip_angle_max_rad = limits.slip_angle_max_rad,
-          .slip_max = limits.slip_max,
-          .sinkage_max_m = limits.sinkage_max_m};
-}
-
 WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil) {
   return {.variant = problem.wheel_variant,
           .wheel = problem.vehicle.wheel,

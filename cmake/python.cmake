@@ -1,0 +1,31 @@
+# The Python package: `import regoplan` from <build>/python, where pybind11, the headers of Python
+# and numpy are there. Who lacks them builds what they built before.
+option(REGOPLAN_PYTHON "The Python package, where pybind11 and numpy are there" ${REGOPLAN_PYTHON_DEFAULT})
+set(python_missing "REGOPLAN_PYTHON is OFF")
+if(REGOPLAN_PYTHON)
+  # The first interpreter that has both: what is named, what is on the path, Debian's.
+  set(python_missing "no python3 with numpy and its headers (Debian: python3-dev, python3-numpy)")
+  set(headers_and_numpy "import numpy, os, sysconfig
+os.stat(os.path.join(sysconfig.get_paths()['include'], 'Python.h'))")
+  foreach(candidate ${Python_EXECUTABLE} python3 /usr/bin/python3)
+    execute_process(COMMAND ${candidate} -c "${headers_and_numpy}" RESULT_VARIABLE failed OUTPUT_QUIET
+                    ERROR_QUIET)
+    if(failed STREQUAL "0")
+      find_program(found_python ${candidate} NO_CACHE)
+      set(Python_EXECUTABLE ${found_python})
+      find_package(Python QUIET COMPONENTS Interpreter Development.Module)
+      find_package(pybind11 2.10 QUIET CONFIG)
+      set(python_missing "no pybind11 (Debian: pybind11-dev)")
+      break()
+    endif()
+  endforeach()
+endif()
+if(pybind11_FOUND)
+  set(python_missing "")
+  add_subdirectory(python)
+  file(WRITE ${CMAKE_BINARY_DIR}/python/interpreter "${Python_EXECUTABLE}\n")
+else()
+  add_test(NAME python COMMAND ${CMAKE_COMMAND} -E echo "skipped: ${python_missing}")
+  set_tests_properties(python PROPERTIES LABELS python SKIP_REGULAR_EXPRESSION "^skipped: ")
+  message(STATUS "no Python package: ${python_missing}")
+endif()

@@ -1,0 +1,50 @@
+#include "python/physics/wheel_source.h"
+
+#include "app/settings/model_settings.h"
+#include "app/settings/soil_settings.h"
+#include "python/shared/settings_text.h"
+#include "terramech/wheel/paper_figures.h"
+
+namespace regoplan::python {
+
+WheelSource wheel_source(const std::string& settings, const std::string& how,
+                         double nominal_load_n) {
+  const WheelModelSpec spec = read_model(settings_of(settings, "wheel")).spec;
+  if (how == "table") {
+    auto table = std::make_shared<const ForceTable>(
+        ForceTable::cached({.model = spec, .nominal_load_n = nominal_load_n, .accuracy = {}}));
+    return {.direct = std::make_shared<const WheelModel>(table->direct()), .table = table};
+  }
+  const WheelAccuracy accuracy = how == "fast" ? WheelAccuracy::kFast : WheelAccuracy::kExact;
+  return {.direct = std::make_shared<const WheelModel>(spec, accuracy), .table = nullptr};
+}
+
+std::string checked_soil(const std::string& settings) {
+  const UncertainSoil soil = read_mapping(
+      settings_of(settings, "soil"),
+      [](SettingsMapping& mapping) { return read_soil(mapping, WheelVariant::kIshigami2007); });
+  return json_of(settings_of(soil_keys_text({.mean = soil.mean}, ""), "soil"));
+}
+
+std::string model_file_settings(const std::string& file) {
+  read_model_file(file);  // throws where it is not valid
+  return json_of(read_settings(file));
+}
+
+std::string paper_wheel_settings() {
+  const WheelModelSpec spec = paper_model();
+  const ModelSettings settings{.spec = spec, .soil = {.mean = spec.soil}, .soil_name = {}};
+  return json_of(settings_of(model_text(settings), "model"));
+}
+
+std::string soils_file_settings(const std::string& file) {
+  std::string text;
+  for (const MapSoil& soil :
+       read_soil_catalogue(read_settings(file), WheelVariant::kIshigami2007).soils) {
+    text += quoted_text(soil.name) + ":\n  source: " + quoted_text(soil.source) + "\n" +
+            soil_keys_text({.mean = soil.soil.mean}, "  ");
+  }
+  return json_of(settings_of(text, "soils"));
+}
+
+}  // namespace regoplan::python

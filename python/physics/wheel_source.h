@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "terramech/force_table/force_table.h"
+#include "terramech/wheel/wheel_model.h"
+
+namespace regoplan::python {
+
+/// What answers for a wheel: the direct model, or a table of it.
+struct WheelSource {
+  std::shared_ptr<const WheelModel> direct;
+  std::shared_ptr<const ForceTable> table;  ///< null where the model answers
+};
+
+/// A wheel from the keys of a model file.
+/// \param settings JSON \param how `direct`, `fast` or `table` \param nominal_load_n of a table
+/// \throws InputError
+WheelSource wheel_source(const std::string& settings, const std::string& how,
+                         double nominal_load_n);
+
+/// A soil's keys (JSON), checked, with those that were left out: the same numbers, bit for bit.
+std::string checked_soil(const std::string& settings);
+
+/// The keys of a model file, as JSON.
+std::string model_file_settings(const std::string& file);
+
+/// The wheel and soil of the paper's figures, as JSON with the keys of a model file.
+std::string paper_wheel_settings();
+
+/// The soils of a soils file as JSON, each `{source, <soil keys>}`: numbers at their means.
+std::string soils_file_settings(const std::string& file);
+
+}  // namespace regoplan::python

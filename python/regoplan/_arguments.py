@@ -1,0 +1,103 @@
+"""Arguments from Python, checked and named before C++ sees them."""
+
+import json
+import operator
+import os
+
+import numpy as np
+
+from ._errors import InputError
+
+_READ_IN_PLACE = frozenset("f4 f8 i1 i2 i4 i8 u1 u2 u4 u8".split())
+
+
+def numbers(name, value):
+    """The value as an array of real numbers; arrays are not copied, unless of a type that is rare."""
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise InputError(f"{name}: masked values are not valid (allowed: numbers)")
+    try:
+        array = np.asarray(value)
+    except (ValueError, TypeError) as bad:
+        raise InputError(f"{name}: {bad}") from None
+    if array.dtype.kind not in "iuf":
+        raise InputError(
+            f"{name}: dtype {array.dtype} is not valid (allowed: real numbers: float or integer)"
+        )
+    if array.dtype.str[1:] not in _READ_IN_PLACE:
+        array = array.astype(np.float64)  # half, long double
+    return array
+
+
+def scalar(name, value):
+    """A single real number."""
+    array = numbers(name, value)
+    if array.size != 1:
+        raise InputError(f"{name}: shape {array.shape} is not valid (allowed: a single number)")
+    return float(array.reshape(())[()])
+
+
+def integer(name, value, least, most=2**31 - 1):
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise InputError(f"{name}: {value!r} is not valid (allowed: an integer)") from None
+    if not least <= number <= most:
+        raise InputError(f"{name}: {number} is not valid (allowed: {least} to {most})")
+    return number
+
+
+def choice(name, value, allowed):
+    if not isinstance(value, str) or value not in allowed:
+        raise InputError(f"{name}: {value!r} is not valid (allowed: {' | '.join(allowed)})")
+    return value
+
+
+def path(name, value):
+    """A file name, as str."""
+    try:
+        text = os.fsdecode(os.fspath(value))
+    except TypeError:
+        raise InputError(
+            f"{name}: {type(value).__name__} is not valid (allowed: a file name)"
+        ) from None
+    if "\0" in text:
+        raise InputError(f"{name}: a file name with a null byte is not valid")
+    return text
+
+
+def settings(name, value):
+    """A dict of settings as JSON: keys as in files, numpy's numbers as Python's."""
+
+    def plain(item):
+        if isinstance(item, np.generic):
+            return item.item()
+        if isinstance(item, np.ndarray):
+            return item.tolist()
+        if hasattr(item, "to_dict"):
+            return item.to_dict()
+        if isinstance(item, os.PathLike):
+            return os.fspath(item)
+        raise InputError(f"{name}: {type(item).__name__} is not valid as a setting")
+
+    try:
+        return json.dumps(_given(name, value), allow_nan=False, default=plain)
+    except InputError:
+        raise
+    except RecursionError:
+        raise InputError(f"{name}: nested too deeply") from None
+    except (TypeError, ValueError) as bad:  # NaN, keys that are no text, references to itself
+        raise InputError(f"{name}: {bad}") from None
+
+
+def _given(name, value):
+    """Without the keys whose value is None, which count as not given."""
+    if hasattr(value, "to_dict"):
+        value = value.to_dict()
+    if isinstance(value, dict):
+        for key in value:
+            if not isinstance(key, (str, int)) or isinstance(key, bool):
+                raise InputError(f"{name}: {key!r} is not valid as a key (allowed: text)")
+        return {str(key): _given(name, item) for key, item in value.items() if item is not None}
+    if isinstance(value, (list, tuple)):
+        return [_given(name, item) for item in value]
+    return value

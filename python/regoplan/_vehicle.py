@@ -1,0 +1,242 @@
+"""Vehicles, and what steady manoeuvres demand of them and the soil supplies."""
+
+import json
+
+import numpy as np
+
+from . import _arguments, _physics
+from ._errors import InputError
+from ._settings import Settings
+from ._soil import Soil
+
+_MOMENT = ("speed_mps", "curvature_1pm", "acceleration_mps2", "slope_forward_rad", "slope_left_rad")
+
+
+class Vehicle(Settings):
+    """A wheeled vehicle with the keys of a vehicle file (docs/vehicle-and-soil.md), angles in degrees.
+    Immutable; ``vehicle.replace(mass_kg=900)`` gives another.
+
+    Raises
+    ------
+    InputError
+        Naming the key, its value and its range.
+    """
+
+    __slots__ = ("_source",)
+
+    def __init__(self, **keys):
+        self._take(_physics.vehicle_from(_arguments.settings("vehicle", keys)))
+
+    @classmethod
+    def preset(cls, name):
+        """A vehicle that comes with regoplan: one of ``Vehicle.presets()``."""
+        return cls._of(_physics.preset_vehicle(_arguments.choice("name", name, cls.presets())))
+
+    @classmethod
+    def presets(cls):
+        """Names of the vehicles that come with regoplan."""
+        return _physics.preset_vehicle_names()
+
+    @classmethod
+    def from_file(cls, file):
+        """The vehicle of a vehicle file."""
+        return cls._of(_physics.vehicle_from_file(_arguments.path("file", file)))
+
+    @classmethod
+    def _of(cls, source):
+        vehicle = cls.__new__(cls)
+        vehicle._take(source)
+        return vehicle
+
+    def _take(self, source):
+        super().__init__(json.loads(source.settings()))
+        object.__setattr__(self, "_source", source)
+
+    def __repr__(self):
+        return f"Vehicle({self.name!r}, {self.mass_kg} kg, {len(self.wheels)} wheels)"
+
+
+class Margins:
+    """Demand, supply and margins of steady manoeuvres; arrays of the arguments' common shape.
+
+    Attributes
+    ----------
+    demand_n : float64
+        Lateral force that the wheels must give, N, left positive: m (v^2 k - g_left).
+    supply_min_n, supply_max_n : float64
+        The interval [A-, A+] of lateral forces that steady trims can give, N; NaN without a trim.
+    cornering, tip_over, traction : float64
+        Margins as shares of the weight; NaN where there is no trim.
+    margin : float64
+        The stability margin: the smallest of the three; NaN where one is missing.
+    """
+
+    __slots__ = ("demand_n", "supply_min_n", "supply_max_n", "cornering", "tip_over", "traction",
+                 "margin")
+
+    def __init__(self, columns):
+        for name, column in zip(self.__slots__, columns):
+            setattr(self, name, column[()])
+
+    def to_dict(self):
+        """Columns by name."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+    def to_dataframe(self):
+        """A pandas DataFrame, one row for each row of the raveled arrays."""
+        from ._frames import dataframe
+
+        return dataframe({name: np.ravel(column) for name, column in self.to_dict().items()})
+
+    def __repr__(self):
+        return f"Margins(shape {np.shape(self.margin)})"
+
+
+class SafeCurvature:
+    """The largest safe curvatures; arrays of the arguments' common shape.
+
+    Attributes
+    ----------
+    curvature_1pm : float64
+        1/m; 0 where not even straight on is safe.
+    supply_n : float64
+        The lateral supply in that turn, the smaller side, N.
+    limit : str
+        What forbids more: cornering, tip_over, traction, slope or steering.
+    """
+
+    __slots__ = ("curvature_1pm", "supply_n", "limit")
+
+    def __init__(self, columns):
+        curvature_1pm, supply_n, limit = columns
+        self.curvature_1pm = curvature_1pm[()]
+        self.supply_n = supply_n[()]
+        words = np.array(limit, dtype=str if limit else "U1")
+        self.limit = words.reshape(curvature_1pm.shape)[()]
+
+    def to_dict(self):
+        """Columns by name."""
+        return {name: getattr(self, name) for name in self.__slots__}
+
+    def to_dataframe(self):
+        """A pandas DataFrame, one row for each row of the raveled arrays."""
+        from ._frames import dataframe
+
+        return dataframe({name: np.ravel(column) for name, column in self.to_dict().items()})
+
+
+class VehicleOnSoil:
+    """A vehicle that drives on planes of one soil, judged as plans and charts judge.
+
+    Parameters
+    ----------
+    vehicle : Vehicle, dict or str
+        A str names a preset.
+    soil : Soil or dict
+    gravity_mps2 : float
+        m/s^2, above 0 to 100.
+    model, mechanisms, method, nominal_load_n : optional
+        As of ``Wheel``. The program's verdicts use ``direct``, its charts ``fast``.
+
+    Notes
+    -----
+    Functions of a moment take ``speed_mps``, ``curvature_1pm`` (commanded, left positive, within the
+    vehicle's ``curvature_max_1pm``), and the keywords ``acceleration_mps2``, ``slope_forward_rad``
+    (the ground rises ahead) and ``slope_left_rad`` (and to the left).
+    """
+
+    def __init__(self, vehicle, soil, gravity_mps2, *, model="ishigami2007", mechanisms=(),
+                 method="direct", nominal_load_n=None):
+        from ._wheel import Wheel
+
+        if isinstance(vehicle, str):
+            vehicle = Vehicle.preset(vehicle)
+        elif not isinstance(vehicle, Vehicle):
+            if not isinstance(vehicle, dict):
+                raise InputError(f"vehicle: {type(vehicle).__name__} is not valid "
+                                 "(allowed: Vehicle, dict, name of a preset)")
+            vehicle = Vehicle(**vehicle)
+        self.vehicle = vehicle
+        self.wheel = Wheel(**vehicle.wheel, soil=soil, gravity_mps2=gravity_mps2, model=model,
+                           mechanisms=mechanisms, method=method, nominal_load_n=nominal_load_n)
+        self.soil = soil if isinstance(soil, Soil) else Soil(**soil)
+        self.gravity_mps2 = _arguments.scalar("gravity_mps2", gravity_mps2)
+        self._source = _physics.VehicleOnSoil(vehicle._source, self.wheel._source,
+                                              self.gravity_mps2)
+
+    def __repr__(self):
+        return f"VehicleOnSoil({self.vehicle!r}, {self.gravity_mps2} m/s^2)"
+
+    def margins(self, speed_mps, curvature_1pm, *, threads=1, **ground):
+        """Demand, supply and margins of moments; arrays that broadcast.
+
+        Returns
+        -------
+        Margins
+        """
+        return Margins(self._source.margins(_moment(speed_mps, curvature_1pm, ground),
+                                            _arguments.integer("threads", threads, 1, 256)))
+
+    def largest_safe_curvature(self, speed_mps, slope_left_rad=0.0, *, margin_min=0.05, threads=1):
+        """The largest path curvature that is safe to both sides, as are all smaller ones: what the
+        chart of ``evaluate`` draws, with the limits that the vehicle brings.
+
+        Parameters
+        ----------
+        speed_mps : array_like
+            m/s, 0 or above; also beyond the vehicle's own largest.
+        slope_left_rad : array_like, optional
+            Of the ground across the path, rad, 0 or above.
+        margin_min : float, optional
+            The stability margin that must be kept, 0 to 1 (share of the weight).
+
+        Returns
+        -------
+        SafeCurvature
+            Found to within 1 % from below.
+        """
+        margin = _arguments.scalar("margin_min", margin_min)
+        if not 0 <= margin < 1:
+            raise InputError(f"margin_min: {margin} is not valid (allowed: 0 to below 1)")
+        return SafeCurvature(self._source.largest_safe_curvature(
+            _arguments.numbers("speed_mps", speed_mps),
+            _arguments.numbers("slope_left_rad", slope_left_rad), margin,
+            _arguments.integer("threads", threads, 1, 256)))
+
+    def supply(self, speed_mps, curvature_1pm, **ground):
+        """Both ends of the supply of one moment, with what ends it and at which wheel.
+
+        Returns
+        -------
+        dict
+            ``right`` and ``left``, each ``{force_n, limit, wheel, fold_n, understeer_1pm}`` or None;
+            ``reason`` (traction or yaw) where there is no supply.
+        """
+        return self._source.supply(_single(_moment(speed_mps, curvature_1pm, ground)))
+
+    def trim(self, speed_mps, curvature_1pm, **ground):
+        """The steady balance of one moment: body slip angle, steering, every wheel's load, slip, slip
+        angle and forces.
+
+        Returns
+        -------
+        dict
+            ``found``; where it is, ``forward_n, left_n, body_slip_angle_rad, steer_curvature_1pm,
+            drive_factor, wheels``; else ``limit`` and ``wheel``: what ends the branch of trims before.
+        """
+        return self._source.trim(_single(_moment(speed_mps, curvature_1pm, ground)))
+
+
+def _moment(speed_mps, curvature_1pm, ground):
+    unknown = sorted(set(ground) - set(_MOMENT[2:]))
+    if unknown:
+        raise InputError(f"{unknown[0]}: is no keyword (allowed: {', '.join(_MOMENT[2:])})")
+    given = {"speed_mps": speed_mps, "curvature_1pm": curvature_1pm, **ground}
+    return [_arguments.numbers(name, given.get(name, 0.0)) for name in _MOMENT]
+
+
+def _single(arrays):
+    for name, array in zip(_MOMENT, arrays):
+        if array.size != 1:
+            raise InputError(f"{name}: shape {array.shape} is not valid (allowed: a single number)")
+    return arrays
