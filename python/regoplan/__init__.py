@@ -8,8 +8,27 @@ same input gives the same bits, whatever the number of threads.
 
 from ._errors import InputError
 from ._soil import Soil
-from ._vehicle import Margins, Vehicle, VehicleOnSoil
+from ._vehicle import Margins, SafeCurvature, Vehicle, VehicleOnSoil
 from ._wheel import STATUS, Wheel, WheelForces, cornering_and_drag, mechanisms
 
-__all__ = ["InputError", "Margins", "STATUS", "Soil", "Vehicle", "VehicleOnSoil", "Wheel",
-           "WheelForces", "cornering_and_drag", "mechanisms"]
+# What needs the program's commands is loaded with their first use.
+_LATER = {"plan": "_commands", "evaluate": "_commands", "diagnose": "_commands",
+          "diagnose_drives": "_commands", "benchmark": "_commands", "TerrainMap": "_maps",
+          "Plan": "_results", "Candidate": "_results", "Evaluation": "_results",
+          "Diagnosis": "_results", "DriveDiagnosis": "_results", "Benchmark": "_results",
+          "ProgramError": "_program"}
+
+__all__ = ["InputError", "Margins", "STATUS", "SafeCurvature", "Soil", "Vehicle", "VehicleOnSoil",
+           "Wheel", "WheelForces", "cornering_and_drag", "mechanisms", *_LATER]
+
+
+def __getattr__(name):
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(f".{_LATER[name]}", __name__), name)
+
+
+def __dir__():
+    return __all__

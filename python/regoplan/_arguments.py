@@ -89,15 +89,18 @@ def settings(name, value):
         raise InputError(f"{name}: {bad}") from None
 
 
-def _given(name, value):
+def _given(place, value):
     """Without the keys whose value is None, which count as not given."""
     if hasattr(value, "to_dict"):
         value = value.to_dict()
     if isinstance(value, dict):
         for key in value:
             if not isinstance(key, (str, int)) or isinstance(key, bool):
-                raise InputError(f"{name}: {key!r} is not valid as a key (allowed: text)")
-        return {str(key): _given(name, item) for key, item in value.items() if item is not None}
+                raise InputError(f"{place}: {key!r} is not valid as a key (allowed: text)")
+        return {str(key): _given(f"{place}.{key}", item) for key, item in value.items()
+                if item is not None}
     if isinstance(value, (list, tuple)):
-        return [_given(name, item) for item in value]
+        return [_given(f"{place}[{i}]", item) for i, item in enumerate(value)]
+    if isinstance(value, (float, np.floating)) and not np.isfinite(value):
+        raise InputError(f"{place}: {value} is not valid (allowed: a finite number)")
     return value

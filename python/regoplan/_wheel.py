@@ -48,6 +48,7 @@ class WheelForces:
 
     @classmethod
     def columns(cls):
+        """Names of the columns, those of ``channels`` last."""
         return cls.__slots__
 
     @property

@@ -1,0 +1,275 @@
+"""plan, evaluate, diagnose and benchmark: the program's commands over dicts, tables and files."""
+
+import os
+
+from . import _arguments, _physics, _program, _tables
+from ._errors import InputError
+from ._maps import TerrainMap, absolute
+from ._results import Benchmark, Candidate, Diagnosis, Evaluation, Plan
+
+_MAP_FILES = ("elevation", "soil_class", "soils", "rocks")
+
+
+def plan(scenario, *, model=None, planner=None, seed=None, time_s=None, iterations=None,
+         candidates=None, improve=None, threads=None, out=None, force=False, progress=None):
+    """Finds, verifies and ranks paths: ``regoplan plan``.
+
+    Parameters
+    ----------
+    scenario : dict or file name
+        Keys as in docs/scenario.md; file names in a dict are relative to the working folder;
+        ``vehicle`` may be a ``Vehicle``, ``map`` a ``TerrainMap``.
+    model : dict, file name or Wheel, optional
+        A model file, as ``--model``.
+    planner, seed, time_s, iterations, candidates, improve, threads : optional
+        In place of the scenario's. Only ``iterations`` gives the same bits again.
+    out : folder, optional
+        Where the files stay; else they go with the result.
+    force : bool, optional
+        Files that others wrote in ``out`` are replaced.
+    progress : callable, optional
+        Told ``(stage, share, text)`` now and then; what it raises ends the plan.
+
+    Returns
+    -------
+    Plan
+
+    Raises
+    ------
+    InputError
+        Naming file or ``scenario``, key, value and range.
+    KeyboardInterrupt
+        After Ctrl-C; ``out`` then holds what there was, marked interrupted.
+    """
+    call = _Call(out, force, progress)
+    arguments = ["plan", call.scenario("scenario", scenario)]
+    arguments += call.model(model)
+    arguments += _options({"--planner": planner, "--seed": seed, "--time": time_s,
+                           "--iterations": iterations, "--candidates": candidates,
+                           "--threads": threads})
+    if improve is not None:
+        arguments.append("--improve" if improve else "--no-improve")
+    return call.run(arguments, Plan)
+
+
+def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
+             deviation_max_m=None, draws=None, seed=None, threads=None, out=None, force=False,
+             progress=None):
+    """Judges given paths and manoeuvres, side by side: ``regoplan evaluate``.
+
+    Parameters
+    ----------
+    scenario : dict or file name
+        As of ``plan``.
+    paths : sequence or dict by name
+        Each a table (DataFrame or dict of columns ``x_m, y_m``, optional ``speed_mps``), a
+        ``Candidate`` of ``plan``, or a file name.
+    manoeuvres : list of dict or file name, optional
+        Steady turns, lane changes, slaloms, ... (docs/evaluation.md).
+    speed_mps, deviation_max_m, draws, seed, threads : optional
+        As the program's options.
+    model, out, force, progress : optional
+        As of ``plan``.
+
+    Returns
+    -------
+    Evaluation
+    """
+    call = _Call(out, force, progress)
+    arguments = ["evaluate", call.scenario("scenario", scenario)]
+    named = paths if isinstance(paths, dict) and not _is_path(paths) else {
+        f"path-{i + 1}": path for i, path in enumerate([paths] if _is_path(paths) else paths)}
+    arguments += [call.path(name, path) for name, path in named.items()]
+    arguments += call.model(model)
+    if manoeuvres is not None:
+        arguments += ["--manoeuvres", call.settings("manoeuvres", manoeuvres)]
+    arguments += _options({"--speed": speed_mps, "--deviation-max-m": deviation_max_m,
+                           "--draws": draws, "--seed": seed, "--threads": threads})
+    return call.run(arguments, Evaluation)
+
+
+def diagnose(recording, setup, *, reference=(), seed=None, threads=None, out=None, force=False,
+             progress=None):
+    """Where a single wheel's recording and the model differ, and what physics was left out:
+    ``regoplan diagnose``.
+
+    Parameters
+    ----------
+    recording : DataFrame, dict of columns or file name
+        ``run_id, load_n, slip_ratio, slip_angle_deg`` and at least one of ``fx_n, fy_n, torque_nm,
+        sinkage_m, rut_left_m, rut_right_m``; more in docs/diagnosis.md. NaN: not measured.
+    setup : dict or file name
+        ``model, wheel, gravity_mps2, soil`` with priors ``{mean, std}``, optional ``noise``.
+    reference : sequence of such recordings, optional
+        Of the same rig and soil without the effect: only the difference is diagnosed.
+    seed, threads, out, force, progress : optional
+        As of ``plan``.
+
+    Returns
+    -------
+    Diagnosis
+    """
+    call = _Call(out, force, progress)
+    arguments = ["diagnose", call.recording("recording", recording),
+                 "--setup", call.settings("setup", setup)]
+    references = [reference] if _is_path(reference) else list(reference)
+    if references:
+        arguments += ["--reference", *(call.recording(f"reference-{i + 1}", each)
+                                       for i, each in enumerate(references))]
+    arguments += _options({"--seed": seed, "--threads": threads})
+    return call.run(arguments, Diagnosis)
+
+
+def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, out=None, force=False,
+                    progress=None):
+    """The same for logs of whole drives on the map of a scenario (docs/drive-diagnosis.md).
+
+    Parameters
+    ----------
+    drives : DataFrame, dict of columns, file name, or a sequence of them
+    scenario : dict or file name
+    setup, columns : dict or file name, optional
+    seed, out, force, progress : optional
+        As of ``plan``.
+
+    Returns
+    -------
+    DriveDiagnosis
+    """
+    from ._results import DriveDiagnosis
+
+    call = _Call(out, force, progress)
+    logs = [drives] if _is_path(drives) else list(drives)
+    if not logs:
+        raise InputError("drives: is empty")
+    arguments = ["diagnose", *(call.recording(f"drive-{i + 1}", log) for i, log in enumerate(logs)),
+                 "--scenario", call.scenario("scenario", scenario)]
+    for option, value in (("--setup", setup), ("--columns", columns)):
+        if value is not None:
+            arguments += [option, call.settings(option[2:], value)]
+    return call.run(arguments + _options({"--seed": seed}), DriveDiagnosis)
+
+
+def benchmark(suite, *, shard=None, processes=None, out=None, force=False, progress=None):
+    """Runs planners on scenarios over seeds: ``regoplan benchmark``.
+
+    Parameters
+    ----------
+    suite : dict or file name
+        ``name, scenarios, planners, seeds, time_s, ...`` (docs/benchmark.md); ``scenarios`` may be
+        a dict of scenarios by name.
+    shard : str, optional
+        ``I/N``.
+    processes : int, optional
+        Runs at once.
+    out, force, progress : optional
+        As of ``plan``. Called again with the same ``out`` after an end, it goes on where it was.
+
+    Returns
+    -------
+    Benchmark
+    """
+    call = _Call(out, force, progress)
+    if isinstance(suite, dict):
+        suite = {**suite, "scenarios": call.suite_scenarios(suite.get("scenarios"))}
+    arguments = ["benchmark", call.settings("suite", suite)]
+    return call.run(arguments + _options({"--shard": shard, "--processes": processes}), Benchmark)
+
+
+def _is_path(value):
+    return isinstance(value, (str, bytes, Candidate)) or hasattr(value, "__fspath__") or (
+        _tables.is_table(value) and (not isinstance(value, dict) or _is_columns(value)))
+
+
+def _is_columns(table):
+    """Columns of one path or recording, and not paths by name."""
+    return any(key in table for key in ("x_m", "run_id", "time_s", "load_n"))
+
+
+def _options(values):
+    found = []
+    for option, value in values.items():
+        if value is None:
+            continue
+        if isinstance(value, str):
+            text = value
+        else:
+            number = _arguments.scalar(option, value)
+            text = repr(int(number)) if number == int(number) else repr(number)
+        found.append(f"{option}={text}")
+    return found
+
+
+class _Call:
+    """One run of the program: what is given in memory stands in files while it lasts."""
+
+    def __init__(self, out, force, progress):
+        if progress is not None and not callable(progress):
+            raise InputError("progress: is not valid (allowed: a callable)")
+        self._out = out if out is None else absolute(out, "out")
+        self._force, self._progress = bool(force), progress
+        self._inputs = _program.ResultFolder(None)
+        self._shown = []
+
+    def _file(self, name, suffix, text):
+        file = f"{name}{suffix}"
+        (self._inputs.path / file).write_text(text, encoding="utf-8")
+        self._shown.append((file, name))
+        return file
+
+    def settings(self, name, value):
+        """A settings file: the one that is named, or one made of a dict."""
+        if isinstance(value, (dict, list, tuple)) or hasattr(value, "to_dict"):
+            return self._file(name, ".yaml", _arguments.settings(name, value))
+        return absolute(value, name)
+
+    def scenario(self, name, value):
+        if not isinstance(value, dict):
+            return self.settings(name, value)
+        value = dict(value)
+        vehicle = value.get("vehicle")
+        if isinstance(vehicle, str) and vehicle not in _physics.preset_vehicle_names():
+            value["vehicle"] = absolute(vehicle)
+        terrain = value.get("map")
+        if isinstance(terrain, TerrainMap):
+            # Relative names: the same map is the same scenario, whatever folder it stands in.
+            files = terrain.write(self._inputs.path / f"{name}-map")
+            value["map"] = {key: os.path.relpath(item, self._inputs.path.resolve())
+                            if isinstance(item, str) and key in _MAP_FILES else item
+                            for key, item in files.items()}
+        elif isinstance(terrain, dict):
+            value["map"] = {key: absolute(item) if key in _MAP_FILES and not isinstance(item, dict)
+                            and item is not None else item for key, item in terrain.items()}
+        return self.settings(name, value)
+
+    def suite_scenarios(self, scenarios):
+        if isinstance(scenarios, dict):
+            return [{"name": name, "file": self.scenario(str(name), each)}
+                    for name, each in scenarios.items()]
+        if not isinstance(scenarios, (list, tuple)):
+            raise InputError("suite: scenarios: is not valid (allowed: a list of files, or a dict)")
+        return [{**each, "file": absolute(each["file"])} if isinstance(each, dict) and "file" in each
+                else absolute(each) if not isinstance(each, dict) else each for each in scenarios]
+
+    def model(self, value):
+        return [] if value is None else ["--model", self.settings("model", value)]
+
+    def path(self, name, value):
+        if isinstance(value, Candidate):
+            return self._file(name, ".csv", value.csv)
+        return self.recording(name, value)
+
+    def recording(self, name, value):
+        """A CSV file: the one that is named, or one made of columns."""
+        if not isinstance(name, str) or "/" in name or "\0" in name or len(name) > 100:
+            raise InputError(f"paths: {name!r} is not valid as a name (allowed: short text, no /)")
+        if _tables.is_table(value):
+            return self._file(name, ".csv", _tables.csv_text(name, value))
+        return absolute(value, name)
+
+    def run(self, arguments, result):
+        folder = _program.ResultFolder(self._out)
+        shown = [*self._shown, (self._inputs.path, "given")]
+        arguments = [*arguments, "--out", str(folder.path)] + (["--force"] if self._force else [])
+        _, notices = _program.run(arguments, self._progress, shown, self._inputs.path)
+        return result(folder, notices)

@@ -1,0 +1,227 @@
+"""The program's commands from dicts and tables: the same numbers, to the last bit."""
+
+import html
+import json
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+import regoplan
+
+# Differ between two runs of the program as well.
+CLOCKS = ("planning_time_s", "verification_time_s", "first_verified_s", "evaluation_time_s")
+
+
+def without_clocks(found):
+    return {key: value for key, value in found.items() if key not in CLOCKS}
+
+
+@pytest.fixture(scope="module")
+def scenario(program, soil):
+    y, x = np.mgrid[0:120, 0:120] * 0.5
+    return {"map": regoplan.TerrainMap(0.2 * np.sin(x / 6) * np.cos(y / 9), 0.5, soil,
+                                       rocks=[[25, 30, 0.8, 0.6]]),
+            "vehicle": "lrv", "gravity_mps2": 1.62,
+            "start": {"x_m": 10, "y_m": 25, "heading_deg": 0},
+            "goal": {"x_m": 40, "y_m": 25, "radius_m": 3}, "speed_mps": {"max": 3},
+            "planner": {"name": "Lattice", "iterations": 1000, "candidates": 1, "soil_draws": 10}}
+
+
+@pytest.fixture(scope="module")
+def planned(scenario, tmp_path_factory):
+    return regoplan.plan(scenario, out=tmp_path_factory.mktemp("plan") / "out")
+
+
+def as_file(scenario, folder):
+    file = folder / "scenario.yaml"
+    file.write_text(json.dumps({**scenario, "map": scenario["map"].write(folder / "map")}))
+    return file
+
+
+def test_a_plan_is_the_programs(program, scenario, planned, tmp_path):
+    file = as_file(scenario, tmp_path)
+    ran = program("plan", file, "--out", tmp_path / "out", "--quiet")
+    assert ran.returncode == 0, ran.stderr
+    theirs = json.loads((tmp_path / "out" / "plan.json").read_text())
+    assert json.dumps(without_clocks(theirs)) == json.dumps(without_clocks(planned.json))
+    best = planned.candidates[0]
+    assert best.csv == (tmp_path / "out" / "candidate-1.csv").read_text()
+    assert planned.status == "feasible"
+    assert best.columns["margin"].min() == best.margin_min
+    again = regoplan.plan(file)
+    assert again.candidates[0].csv == best.csv
+
+
+def test_results_show_their_report(planned):
+    page = planned._repr_html_()
+    assert page.startswith("<iframe srcdoc=") and html.escape(planned.report_html) in page
+    assert (planned.folder / "candidate-1.geojson").exists()
+
+
+def test_results_are_frames_where_pandas_is(planned):
+    pytest.importorskip("pandas")
+    assert list(planned.to_dataframe()["rank"]) == [1]
+    assert len(planned.candidates[0].to_dataframe()) == len(planned.candidates[0].columns["x_m"])
+
+
+def test_an_evaluation_is_the_programs(program, scenario, planned, tmp_path):
+    turn = {"x_m": [10, 20, 27, 30, 30], "y_m": [25, 25, 28, 35, 45.5], "speed_mps": [2.9] * 5}
+    judged = regoplan.evaluate(scenario, {"best": planned.candidates[0], "turn": turn}, draws=10)
+    (tmp_path / "best.csv").write_text(planned.candidates[0].csv)
+    rows = zip(turn["x_m"], turn["y_m"], turn["speed_mps"])
+    (tmp_path / "turn.csv").write_text(
+        "x_m,y_m,speed_mps\n" + "".join(f"{x},{y},{v}\n" for x, y, v in rows))
+    ran = program("evaluate", as_file(scenario, tmp_path), tmp_path / "best.csv",
+                  tmp_path / "turn.csv", "--draws", 10, "--out", tmp_path / "out", "--quiet")
+    assert ran.returncode == 0, ran.stderr
+    theirs = json.loads((tmp_path / "out" / "evaluation.json").read_text())
+    for path in theirs["paths"]:
+        path["file"] = path["file"].removeprefix(f"{tmp_path}/")
+    assert json.dumps(without_clocks(theirs)) == json.dumps(without_clocks(judged.json))
+    assert judged.paths[0]["recorded"]["difference"] < 0.02
+
+
+def test_manoeuvres_are_evaluated_without_a_path(scenario):
+    judged = regoplan.evaluate(scenario, manoeuvres=[
+        {"kind": "steady_turn", "radius_m": 20, "speed_mps": 1}], draws=10)
+    assert len(judged.paths) == 1
+
+
+@pytest.fixture(scope="module")
+def recording():
+    """Of a wheel whose sinkage grows with slip, which the base model leaves out."""
+    soil = regoplan.Soil(cohesion_pa=800, friction_angle_deg=37.2, kc=1370, kphi=8.14e5, n=1, a0=0.4,
+                         a1=0.15, lambda_=0.9, density_kgpm3=1600, kx0_m=0.036, kx1_m=0.043,
+                         ky0_m=0.013, ky1_m=0.02)
+    wheel = regoplan.Wheel(0.09, 0.1, soil, mechanisms=[{"id": "slip_sinkage"}])
+    slip, angle = (grid.ravel() for grid in np.meshgrid(np.linspace(-0.2, 0.8, 6),
+                                                        np.radians([0, 8, 16])))
+    slip, angle = np.tile(slip, 2), np.tile(angle, 2)
+    random = np.random.default_rng(4)
+    forces = wheel.forces(60, slip, angle)
+    noise = {"fx_n": 0.6, "fy_n": 0.6, "torque_nm": 0.06, "sinkage_m": 3e-4}
+    table = {"run_id": np.array([f"r{i:03d}" for i in range(len(slip))]),
+             "load_n": np.full(len(slip), 60.0), "slip_ratio": slip,
+             "slip_angle_deg": np.degrees(angle)}
+    for name, deviation in noise.items():
+        table[name] = getattr(forces, name) + random.normal(0, deviation, len(slip))
+    uncertain = {"cohesion_pa": 120, "friction_angle_deg": 1, "kphi": 8e4}
+    setup = {"model": "ishigami2007", "wheel": {"radius_m": 0.09, "width_m": 0.1},
+             "gravity_mps2": 9.80665,
+             "soil": {key: {"mean": value, "std": uncertain[key]} if key in uncertain else value
+                      for key, value in soil.model_keys().items()}}
+    return table, setup
+
+
+def test_a_diagnosis_is_the_programs(program, recording, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    table, setup = recording
+    seen = []
+    found = regoplan.diagnose(pandas.DataFrame(table), setup,
+                              progress=lambda *told: seen.append(told))
+    columns = [column.tolist() for column in table.values()]
+    (tmp_path / "recording.csv").write_text(",".join(table) + "\n" + "".join(
+        ",".join(cell if isinstance(cell, str) else repr(cell) for cell in row) + "\n"
+        for row in zip(*columns)))
+    (tmp_path / "setup.yaml").write_text(json.dumps(setup))
+    ran = program("diagnose", tmp_path / "recording.csv", "--setup", tmp_path / "setup.yaml",
+                  "--out", tmp_path / "out", "--quiet")
+    assert ran.returncode in (0, 2), ran.stderr
+    text = (tmp_path / "out" / "diagnosis.json").read_text().replace(f"{tmp_path}/", "")
+    assert json.loads(text) == found.json
+    assert "slip_sinkage" in [entry["id"] for entry in found.ranking[:5]]
+    assert seen and all(0 <= share <= 1 for _, share, _ in seen)
+    corrected, base = found.corrected_wheel(), regoplan.Wheel.from_file(tmp_path / "setup.yaml")
+    measured = np.array(table["sinkage_m"])
+    at = (60, table["slip_ratio"], np.radians(table["slip_angle_deg"]))
+    miss = [np.sqrt(np.mean((wheel.forces(*at).sinkage_m - measured) ** 2))
+            for wheel in (corrected, base)]
+    assert miss[0] < miss[1] / 2
+    assert len(found.residuals["run_id"]) == len(measured)
+
+
+def test_a_benchmark_goes_on_where_it_was(scenario, tmp_path):
+    suite = {"name": "small", "scenarios": {"open": scenario}, "planners": ["Lattice"], "seeds": 2,
+             "time_s": 5, "iterations": 500, "soil_draws": 5}
+    first = regoplan.benchmark(suite, out=tmp_path / "out")
+    again = regoplan.benchmark(suite, out=tmp_path / "out")
+    assert first.experiments == again.experiments
+    assert first.experiments[0]["planners"][0]["runs"] == 2
+
+
+@pytest.mark.parametrize("change, told", [
+    ({"goal": {"x_m": 40, "y_m": 25, "radius_m": -3}}, "scenario: goal.radius_m: -3 is not valid"),
+    ({"gravity_mps2": float("nan")}, "scenario.gravity_mps2: nan is not valid"),
+    ({"gravity": 1.62}, "scenario: gravity: unknown key"),
+    ({"vehicle": "nothing.yaml"}, "scenario: vehicle: .*nothing.yaml"),
+    ({"map": {"elevation": "no.tif", "soils": "no.yaml"}}, "no.yaml: no such file"),
+    ({"start": object()}, "scenario: object is not valid"),
+    ({3.5: 1}, "3.5 is not valid as a key"),
+])
+def test_bad_scenarios_are_named(scenario, change, told):
+    with pytest.raises(regoplan.InputError, match=told):
+        regoplan.plan({**scenario, **change})
+
+
+@pytest.mark.parametrize("path, told", [
+    ({"x_m": [1, 2], "y_m": [1]}, "columns differ in length"),
+    ({"x_m": [10, 20], "y_m": [25, np.nan]}, "y_m"),
+    ({"x_m": [10, 20], "z": [25, 25]}, "y_m"),
+    ({"x_m": [[10]], "y_m": [[25]]}, "x_m: shape"),
+    ("missing.csv", "missing.csv"),
+])
+def test_bad_paths_are_named(scenario, path, told):
+    with pytest.raises(regoplan.InputError, match=told):
+        regoplan.evaluate(scenario, [path], draws=10)
+
+
+def test_bad_maps_are_named(soil):
+    flat = np.zeros((10, 10))
+    for arguments, told in [
+        ({"elevation_m": np.zeros(10)}, "elevation_m: shape"),
+        ({"elevation_m": flat + 1j}, "elevation_m: dtype"),
+        ({"elevation_m": flat + np.inf}, "elevation_m: inf"),
+        ({"cell_m": 0}, "cell_m"),
+        ({"soil_class": np.ones((3, 3), int), "classes": {1: "soil"}}, "soil_class: shape"),
+        ({"soil_class": flat, "classes": {1: "soil"}}, "soil_class"),
+        ({"soil_class": flat.astype(int)}, "classes"),
+        ({"rocks": [[1, 2, 3]]}, "rocks"), ({"soils": {}}, "soils"),
+    ]:
+        with pytest.raises(regoplan.InputError, match=told):
+            regoplan.TerrainMap(**{"elevation_m": flat, "cell_m": 1, "soils": soil, **arguments})
+
+
+def test_a_map_says_what_the_program_reads(program):
+    soils = {name: regoplan.Soil.preset(name) for name in ("firm_regolith", "soft_patch")}
+    height = np.add.outer(np.arange(40.0), np.zeros(50)) * -0.1
+    height[0, 0] = np.nan
+    codes = np.ones((40, 50), np.int64)
+    codes[:, :10] = 7
+    info = regoplan.TerrainMap(height, 2.0, soils, west_m=100, south_m=-30, soil_class=codes,
+                               classes={1: "firm_regolith", 7: "soft_patch"}).info()
+    assert (info["west_m"], info["south_m"], info["columns"], info["rows"]) == (100, -30, 50, 40)
+    assert info["height_min_m"] == pytest.approx(-3.9) and info["known_share"] == 0.9995
+    assert info["soils"]["soft_patch"] == pytest.approx(0.2)
+
+
+def test_ctrl_c_ends_a_plan_with_whole_files(scenario, tmp_path):
+    long = {**scenario, "planner": {"name": "RRT", "time_s": 120, "candidates": 50}}
+    begun = time.monotonic()
+    threading.Timer(3, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        regoplan.plan(long, out=tmp_path / "out")
+    assert time.monotonic() - begun < 60
+    assert json.loads((tmp_path / "out" / "plan.json").read_text())["interrupted"]
+
+
+def test_what_progress_raises_ends_the_plan(scenario):
+    class Enough(Exception):
+        pass
+
+    def progress(*_):
+        raise Enough
+
+    with pytest.raises(Enough):
+        regoplan.plan(scenario, progress=progress)
