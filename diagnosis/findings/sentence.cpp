@@ -77,14 +77,15 @@ std::string region_words(const MismatchRegion& region) {
 }
 
 /// "Sinkage lies 6.05 mm (95 %: 5.79 to 6.3) above the calibrated model at slip ratio 0.65".
-std::string mismatch_words(const MismatchRegion& region) {
+/// \param beside what the measured is held against
+std::string mismatch_words(const MismatchRegion& region, std::string_view beside) {
   Quantity quantity = quantity_of(region.channel);
   quantity.words.front() = static_cast<char>(std::toupper(quantity.words.front()));
   const double up = region.effect < 0 ? -quantity.per_file_unit : quantity.per_file_unit;
   const auto [least, most] = std::minmax({up * region.ci95[0], up * region.ci95[1]});
-  return fmt::format("{} lies {:.3g} {} (95 %: {:.3g} to {:.3g}) {} the calibrated model{}",
-                     quantity.words, up * region.effect, quantity.unit, least, most,
-                     region.effect < 0 ? "below" : "above", region_words(region));
+  return fmt::format("{} lies {:.3g} {} (95 %: {:.3g} to {:.3g}) {} the {}{}", quantity.words,
+                     up * region.effect, quantity.unit, least, most,
+                     region.effect < 0 ? "below" : "above", beside, region_words(region));
 }
 
 std::string experiment_words(const Diagnosis& diagnosis) {
@@ -135,7 +136,11 @@ std::string against(const Diagnosis& diagnosis) {
 
 std::string sentence_of(const Diagnosis& diagnosis) {
   std::string where;
-  if (!diagnosis.where.empty()) where = mismatch_words(diagnosis.where.front()) + "; ";
+  if (!diagnosis.where.empty()) {
+    where = mismatch_words(diagnosis.where.front(),
+                           diagnosis.references.empty() ? "calibrated model" : "reference") +
+            "; ";
+  }
   switch (diagnosis.verdict) {
     case Verdict::kConsistent:
       if (!diagnosis.references.empty()) {

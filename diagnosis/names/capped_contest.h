@@ -13,7 +13,9 @@ namespace regoplan {
 struct CappedName {
   std::string id;
   double gain_nats = 0;  ///< over the remainder alone, forms marginalised
-  CandidateFit fit;      ///< of the likeliest form
+  /// Of the likeliest form; where others are about as likely, of the one that predicts held-out
+  /// conditions best.
+  CandidateFit fit;
 };
 
 /// What the best name makes of a world whose misfit has no name.
@@ -54,6 +56,8 @@ class CappedContest {
     std::vector<std::size_t> settings;  // uncapped, likeliest per channel
     SettingWeights weights;
   };
+  CandidateFit best_predicting(const std::vector<CandidateFit>& forms,
+                               const CandidateFit* beside) const;
   Cap cap_for(const Eigen::VectorXd& residual) const;
   ByChance best_in_world(const std::vector<CappedName>& names, const Eigen::VectorXd& world) const;
 
