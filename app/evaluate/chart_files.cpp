@@ -8,82 +8,20 @@
 
 #include "app/io/csv_cells.h"
 #include "app/page/report_page.h"
+#include "app/page/svg_panel.h"
 #include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
 
-struct Axis {
-  std::string label;
-  double low, high, tick;
-};
-
-/// Ticks that are round, about five of them, from 0.
-Axis axis_to(std::string label, double high) {
-  const double rough = std::max(high, 1e-6) / 5;
-  const double decade = std::pow(10, std::floor(std::log10(rough)));
-  double tick = 10 * decade;
-  for (const double step : {5.0, 2.0, 1.0}) {
-    if (step * decade >= rough) tick = step * decade;
-  }
-  constexpr double kRounding = 1e-9;
-  return {std::move(label), 0, std::ceil(high / tick - kRounding) * tick, tick};
+std::string titled_axes(const SvgPanel& p, std::string_view title) {
+  return axes_svg(p) + fmt::format(R"(<text x="{}" y="{}" font-weight="bold">{}</text>)"
+                                   "\n",
+                                   p.left, p.top - 10, html_escaped(title));
 }
 
-/// A panel of the picture, in pixels.
-struct Panel {
-  double left, top, width, height;
-  Axis x, y;
-
-  double px(double v) const { return left + (v - x.low) / (x.high - x.low) * width; }
-  double py(double v) const { return top + height - (v - y.low) / (y.high - y.low) * height; }
-};
-
-std::string frame_svg(const Panel& p, std::string_view title) {
-  std::string svg;
-  for (int i = 0; p.x.low + i * p.x.tick <= p.x.high + p.x.tick / 2; ++i) {
-    const double v = p.x.low + i * p.x.tick;
-    svg += fmt::format(R"(<line x1="{0:.1f}" y1="{1}" x2="{0:.1f}" y2="{2}" stroke="#ddd"/>)"
-                       R"(<text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.4g}</text>)"
-                       "\n",
-                       p.px(v), p.top, p.top + p.height, p.top + p.height + 16, v);
-  }
-  for (int i = 0; p.y.low + i * p.y.tick <= p.y.high + p.y.tick / 2; ++i) {
-    const double v = p.y.low + i * p.y.tick;
-    const double shown = std::abs(v) < 1e-9 ? 0 : v;
-    svg += fmt::format(R"(<line x1="{1}" y1="{0:.1f}" x2="{2}" y2="{0:.1f}" stroke="#ddd"/>)"
-                       R"(<text x="{3}" y="{4:.1f}" text-anchor="end">{5:.4g}</text>)"
-                       "\n",
-                       p.py(v), p.left, p.left + p.width, p.left - 6, p.py(v) + 4, shown);
-  }
-  return svg +
-         fmt::format(
-             R"(<rect x="{}" y="{}" width="{}" height="{}" fill="none" stroke="#333"/>)"
-             R"(<text x="{}" y="{}" font-weight="bold">{}</text>)"
-             R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)"
-             R"svg(<text transform="translate({},{}) rotate(-90)" text-anchor="middle">{}</text>)svg"
-             "\n",
-             p.left, p.top, p.width, p.height, p.left, p.top - 10, html_escaped(title),
-             p.left + p.width / 2, p.top + p.height + 36, p.x.label, p.left - 48,
-             p.top + p.height / 2, p.y.label);
-}
-
-struct Place {
-  double x, y;
-};
-
-std::string line_svg(const Panel& p, const std::vector<Place>& places, std::string_view colour,
-                     std::string_view dashes, double width = 2) {
-  std::string points;
-  for (const Place& place : places) {
-    points +=
-        fmt::format("{:.1f},{:.1f} ", p.px(place.x), p.py(std::clamp(place.y, p.y.low, p.y.high)));
-  }
-  return fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="{}")"
-                     R"( stroke-dasharray="{}"/>)"
-                     "\n",
-                     points, colour, width, dashes);
-}
+/// The end of the steering, the smallest margin: what no line may cross.
+constexpr SvgStroke kLimit{.colour = "#999", .dashes = "1 3", .width = 1.5};
 
 constexpr std::array kColours{"#0072b2", "#c2570c", "#00795a", "#8a3fa0", "#1b1f23", "#b59f00"};
 constexpr std::array kDashes{"none", "7 4", "2 3", "9 3 2 3"};
@@ -95,18 +33,18 @@ std::string_view colour_of(int soil) {
 std::string curvature_panel(const ChartSettings& settings, const FeasibilityChart& chart) {
   double highest = 0;
   for (const SafeCurvature& at : chart.curvatures) highest = std::max(highest, at.curvature_1pm);
-  const Panel p{.left = 70,
-                .top = 84,
-                .width = 430,
-                .height = 330,
-                .x = axis_to("speed [m/s]", *std::ranges::max_element(settings.speeds_mps)),
-                .y = axis_to("largest safe path curvature [1/m]", highest)};
-  std::string svg = frame_svg(p, "Turns: safe below the line");
+  const SvgPanel p{.left = 70,
+                   .top = 84,
+                   .width = 430,
+                   .height = 330,
+                   .x = axis_over("speed [m/s]", 0, *std::ranges::max_element(settings.speeds_mps)),
+                   .y = axis_over("largest safe path curvature [1/m]", 0, highest)};
+  std::string svg = titled_axes(p, "Turns: safe below the line");
   svg += line_svg(p,
                   {{p.x.low, settings.vehicle.curvature_max_1pm},
                    {p.x.high, settings.vehicle.curvature_max_1pm}},
-                  "#999", "1 3", 1.5);
-  std::vector<Place> line;
+                  kLimit);
+  std::vector<SvgPoint> line;
   for (std::size_t i = 0; i < chart.curvatures.size(); ++i) {
     const SafeCurvature& at = chart.curvatures[i];
     line.push_back({at.speed_mps, at.curvature_1pm});
@@ -115,7 +53,8 @@ std::string curvature_panel(const ChartSettings& settings, const FeasibilityChar
     if (!last) continue;
     const auto slope = static_cast<std::size_t>(
         std::ranges::find(settings.slopes_rad, at.slope_rad) - settings.slopes_rad.begin());
-    svg += line_svg(p, line, colour_of(at.soil), kDashes.at(slope % kDashes.size()));
+    svg += line_svg(p, line,
+                    {.colour = colour_of(at.soil), .dashes = kDashes.at(slope % kDashes.size())});
     line.clear();
   }
   return svg;
@@ -123,27 +62,26 @@ std::string curvature_panel(const ChartSettings& settings, const FeasibilityChar
 
 std::string slope_panel(const ChartSettings& settings, const FeasibilityChart& chart) {
   const double steepest = degrees(chart.side_slopes.back().slope_rad);
-  Panel p{.left = 590,
-          .top = 84,
-          .width = 300,
-          .height = 330,
-          .x = axis_to("side slope [deg]", steepest),
-          .y = {"smallest stability margin", -0.2, 0.8, 0.2}};
-  std::string svg = frame_svg(p, "Straight across a slope");
-  svg +=
-      line_svg(p, {{p.x.low, settings.limits.margin_min}, {p.x.high, settings.limits.margin_min}},
-               "#999", "1 3", 1.5);
+  const SvgPanel p{.left = 590,
+                   .top = 84,
+                   .width = 300,
+                   .height = 330,
+                   .x = axis_over("side slope [deg]", 0, steepest),
+                   .y = {"smallest stability margin", -0.2, 0.8, 0.2}};
+  std::string svg = titled_axes(p, "Straight across a slope");
+  svg += line_svg(
+      p, {{p.x.low, settings.limits.margin_min}, {p.x.high, settings.limits.margin_min}}, kLimit);
   svg +=
       fmt::format(R"(<text x="{:.1f}" y="{:.1f}" fill="#666">smallest margin allowed, {:g}</text>)"
                   "\n",
                   p.left + 6, p.py(settings.limits.margin_min) - 5, settings.limits.margin_min);
-  std::vector<Place> line;
+  std::vector<SvgPoint> line;
   for (std::size_t i = 0; i < chart.side_slopes.size(); ++i) {
     const SideSlope& at = chart.side_slopes[i];
     line.push_back({degrees(at.slope_rad), std::min({at.cornering, at.tip_over, at.traction})});
     const bool last = i + 1 == chart.side_slopes.size() || chart.side_slopes[i + 1].soil != at.soil;
     if (!last) continue;
-    svg += line_svg(p, line, colour_of(at.soil), "none");
+    svg += line_svg(p, line, {.colour = colour_of(at.soil)});
     line.clear();
   }
   return svg;
@@ -178,22 +116,18 @@ std::string legend(const ChartSettings& settings, const FeasibilityChart& chart)
 
 std::string picture(const ChartSettings& settings, const FeasibilityChart& chart) {
   const std::size_t rows = std::max(settings.soils.size(), settings.slopes_rad.size() + 1);
-  return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 920 {0}" width="920" height="{0}" )"
-      R"(font-family="Helvetica, Arial, sans-serif" font-size="12">)"
+  const std::string content = fmt::format(
+      R"(<text x="20" y="26" font-size="15" font-weight="bold">What {0} may drive</text>)"
       "\n"
-      R"(<rect width="100%" height="100%" fill="white"/>)"
-      "\n"
-      R"(<text x="20" y="26" font-size="15" font-weight="bold">What {1} may drive</text>)"
-      "\n"
-      R"(<text x="20" y="46" fill="#666">gravity {2:g} m/s2; mean soils; margins of cornering, )"
-      R"(tip-over and traction at least {3:g}; slip angle to {4:.3g} deg, slip to {5:g}, sinkage to )"
-      R"({6:.3g} m</text>)"
-      "\n{7}{8}{9}</svg>\n",
-      480 + 20 * rows, html_escaped(settings.vehicle.name), settings.gravity_mps2,
-      settings.limits.margin_min, degrees(settings.limits.slip_angle_max_rad),
-      settings.limits.slip_max, settings.limits.sinkage_max_m, curvature_panel(settings, chart),
-      slope_panel(settings, chart), legend(settings, chart));
+      R"(<text x="20" y="46" fill="#666">gravity {1:g} m/s2; mean soils; margins of cornering, )"
+      R"(tip-over and traction at least {2:g}; slip angle to {3:.3g} deg, slip to {4:g}, sinkage to )"
+      R"({5:.3g} m</text>)"
+      "\n{6}{7}{8}",
+      html_escaped(settings.vehicle.name), settings.gravity_mps2, settings.limits.margin_min,
+      degrees(settings.limits.slip_angle_max_rad), settings.limits.slip_max,
+      settings.limits.sinkage_max_m, curvature_panel(settings, chart), slope_panel(settings, chart),
+      legend(settings, chart));
+  return svg_picture(920, 480 + 20 * static_cast<double>(rows), content);
 }
 
 }  // namespace

@@ -8,20 +8,20 @@
 #include <numbers>
 #include <string>
 
+#include "app/page/svg_panel.h"
 #include "terramech/wheel/paper_figures.h"
 
 namespace regoplan {
 namespace {
 
-struct Axis {
-  std::string label;
-  double FigureCurve::Point::*value;
-  double low, high, tick;  // high and low are multiples of tick
+/// What of a curve's points is drawn.
+struct Drawn {
+  double FigureCurve::Point::*x;
+  double FigureCurve::Point::*y;
 };
 
-/// Ends and ticks that hold all values, zero among them.
-Axis axis_over(std::string label, double FigureCurve::Point::*value,
-               const std::vector<FigureCurve>& curves) {
+SvgAxis axis_of(std::string label, double FigureCurve::Point::*value,
+                const std::vector<FigureCurve>& curves) {
   double low = 0, high = 0;
   for (const FigureCurve& curve : curves) {
     for (const auto& point : curve.points) {
@@ -29,114 +29,48 @@ Axis axis_over(std::string label, double FigureCurve::Point::*value,
       high = std::max(high, point.*value);
     }
   }
-  const double rough = (high - low) / 5;
-  const double decade = std::pow(10, std::floor(std::log10(rough)));
-  double tick = 10 * decade;
-  for (const double step : {5.0, 2.0, 1.0}) {
-    if (step * decade >= rough) tick = step * decade;
-  }
-  const double rounding = 1e-9;
-  return {.label = std::move(label),
-          .value = value,
-          .low = std::floor(low / tick + rounding) * tick,
-          .high = std::ceil(high / tick - rounding) * tick,
-          .tick = tick};
+  return axis_over(std::move(label), low, high);
 }
-
-/// Where a panel stands on the page, in pixels.
-struct Box {
-  double left, top, width, height;
-};
 
 constexpr std::array kColours{"#1b6ca8", "#d1661c", "#2f8f4e", "#8a3fa0"};
 
-std::string curve_svg(const FigureCurve& curve, std::string_view colour, const Axis& x,
-                      const Axis& y, const Box& box) {
-  const auto px = [&](double v) { return box.left + (v - x.low) / (x.high - x.low) * box.width; };
-  const auto py = [&](double v) {
-    return box.top + box.height - (v - y.low) / (y.high - y.low) * box.height;
-  };
-  std::string path;
-  for (const auto& point : curve.points) {
-    path += fmt::format("{:.1f},{:.1f} ", px(point.*x.value), py(point.*y.value));
-  }
-  std::string svg =
-      fmt::format(R"(<polyline points="{}" fill="none" stroke="{}" stroke-width="{}"{}/>)"
-                  "\n",
-                  path, colour, curve.of_constant_slip ? 1 : 2,
-                  curve.of_constant_slip ? R"( stroke-dasharray="4 3")" : "");
-  if (curve.of_constant_slip) {
-    const auto& end = curve.points.back();
-    svg += fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill="#666">{}</text>)"
-                       "\n",
-                       px(end.*x.value), py(end.*y.value) - 6, curve.label);
-  }
-  return svg;
-}
-
-std::string axes_svg(const Axis& x, const Axis& y, const Box& box) {
-  std::string svg =
-      fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" fill="none" stroke="#333"/>)"
-                  "\n",
-                  box.left, box.top, box.width, box.height);
-  const auto ticks = [](const Axis& axis) {
-    return static_cast<int>(std::lround((axis.high - axis.low) / axis.tick));
-  };
-  for (int i = 0; i <= ticks(x); ++i) {
-    const double at = box.left + box.width * i / ticks(x);
-    svg += fmt::format(R"(<line x1="{0:.1f}" y1="{1}" x2="{0:.1f}" y2="{2}" stroke="#ddd"/>)"
-                       R"(<text x="{0:.1f}" y="{3}" text-anchor="middle">{4:.6g}</text>)"
-                       "\n",
-                       at, box.top, box.top + box.height, box.top + box.height + 16,
-                       x.low + i * x.tick + 0.0);
-  }
-  for (int i = 0; i <= ticks(y); ++i) {
-    const double at = box.top + box.height - box.height * i / ticks(y);
-    svg += fmt::format(R"(<line x1="{1}" y1="{0:.1f}" x2="{2}" y2="{0:.1f}" stroke="#ddd"/>)"
-                       R"(<text x="{3}" y="{4:.1f}" text-anchor="end">{5:.6g}</text>)"
-                       "\n",
-                       at, box.left, box.left + box.width, box.left - 6, at + 4,
-                       y.low + i * y.tick + 0.0);
-  }
-  svg += fmt::format(
-      R"(<text x="{}" y="{}" text-anchor="middle">{}</text>)"
-      R"svg(<text transform="translate({},{}) rotate(-90)" text-anchor="middle">{}</text>)svg"
-      "\n",
-      box.left + box.width / 2, box.top + box.height + 36, x.label, box.left - 44,
-      box.top + box.height / 2, y.label);
-  return svg;
+std::string curve_svg(const FigureCurve& curve, std::string_view colour, const Drawn& drawn,
+                      const SvgPanel& panel) {
+  std::vector<SvgPoint> points;
+  for (const auto& point : curve.points) points.push_back({point.*drawn.x, point.*drawn.y});
+  if (!curve.of_constant_slip) return line_svg(panel, points, {.colour = colour});
+  return line_svg(panel, points, {.colour = colour, .dashes = "4 3", .width = 1}) +
+         fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" fill="#666">{}</text>)"
+                     "\n",
+                     panel.px(points.back().x), panel.py(points.back().y) - 6, curve.label);
 }
 
 std::string page(double width, double height, std::string_view title, std::string_view content) {
-  return fmt::format(
-      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}" )"
-      R"(font-family="Helvetica, Arial, sans-serif" font-size="12">)"
-      "\n"
-      R"(<rect width="100%" height="100%" fill="white"/>)"
-      "\n"
-      R"(<text x="20" y="24" font-size="14" font-weight="bold">{2}</text>)"
-      "\n"
-      R"(<text x="20" y="42" fill="#666">yoshida2004, r 0.09 m, b 0.10 m, {3} N on )"
-      R"(Lunar Regolith Simulant</text>)"
-      "\n{4}</svg>\n",
-      width, height, title, kPaperLoad_n, content);
+  return svg_picture(
+      width, height,
+      fmt::format(R"(<text x="20" y="24" font-size="14" font-weight="bold">{}</text>)"
+                  "\n"
+                  R"(<text x="20" y="42" fill="#666">yoshida2004, r 0.09 m, b 0.10 m, {} N on )"
+                  R"(Lunar Regolith Simulant</text>)"
+                  "\n{}",
+                  title, kPaperLoad_n, content));
 }
 
 /// All curves in one panel, those of constant slip angle named in a legend.
-std::string one_panel(std::string_view title, const std::vector<FigureCurve>& curves, const Axis& x,
-                      const Axis& y) {
-  constexpr Box kBox{.left = 70, .top = 60, .width = 480, .height = 340};
-  std::string svg = axes_svg(x, y, kBox);
+std::string one_panel(std::string_view title, const std::vector<FigureCurve>& curves,
+                      const Drawn& drawn, const SvgAxis& x, const SvgAxis& y) {
+  const SvgPanel panel{.left = 70, .top = 60, .width = 480, .height = 340, .x = x, .y = y};
+  std::string svg = axes_svg(panel);
   std::size_t colour = 0;
-  double legend_y = kBox.top + 14;
+  double legend_y = panel.top + 14;
   for (const FigureCurve& curve : curves) {
     if (curve.of_constant_slip) {
-      svg += curve_svg(curve, "#888", x, y, kBox);
+      svg += curve_svg(curve, "#888", drawn, panel);
       continue;
     }
     const std::string_view stroke = kColours[colour++ % kColours.size()];
-    svg += curve_svg(curve, stroke, x, y, kBox);
-    const double at = kBox.left + kBox.width + 16;
+    svg += curve_svg(curve, stroke, drawn, panel);
+    const double at = panel.left + panel.width + 16;
     svg +=
         fmt::format(R"(<line x1="{0}" y1="{1}" x2="{2}" y2="{1}" stroke="{3}" stroke-width="2"/>)"
                     R"(<text x="{4}" y="{5}">{6}</text>)"
@@ -149,18 +83,20 @@ std::string one_panel(std::string_view title, const std::vector<FigureCurve>& cu
 
 /// A panel a curve, all with the same axes.
 std::string small_multiples(std::string_view title, const std::vector<FigureCurve>& curves,
-                            const Axis& x, const Axis& y) {
+                            const Drawn& drawn, const SvgAxis& x, const SvgAxis& y) {
   std::string svg;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     const std::size_t row = i / 2, column = i % 2;
-    const Box box{.left = 70 + 320 * static_cast<double>(column),
-                  .top = 72 + 260 * static_cast<double>(row),
-                  .width = 230,
-                  .height = 180};
-    svg += axes_svg(x, y, box) + curve_svg(curves[i], kColours[i % kColours.size()], x, y, box);
+    const SvgPanel panel{.left = 70 + 320 * static_cast<double>(column),
+                         .top = 72 + 260 * static_cast<double>(row),
+                         .width = 230,
+                         .height = 180,
+                         .x = x,
+                         .y = y};
+    svg += axes_svg(panel) + curve_svg(curves[i], kColours[i % kColours.size()], drawn, panel);
     svg += fmt::format(R"(<text x="{}" y="{}" text-anchor="middle">slip angle {}</text>)"
                        "\n",
-                       box.left + box.width / 2, box.top - 6, curves[i].label);
+                       panel.left + panel.width / 2, panel.top - 6, curves[i].label);
   }
   return page(650, 590, title, svg);
 }
@@ -184,27 +120,28 @@ std::string csv(const std::vector<FigureCurve>& curves) {
 std::vector<RenderedFile> render_wheel_figures() {
   const PaperFigures figures = paper_figures();
   using Point = FigureCurve::Point;
+  constexpr Drawn kSide{&Point::slip_ratio, &Point::fy_n};
   const auto slip = [](const auto& curves) {
-    return axis_over("slip ratio s", &Point::slip_ratio, curves);
+    return axis_of("slip ratio s", &Point::slip_ratio, curves);
   };
   const auto side = [](const auto& curves) {
-    return axis_over("lateral force Fy [N]", &Point::fy_n, curves);
+    return axis_of("lateral force Fy [N]", &Point::fy_n, curves);
   };
   return {
       {.name = "figure-6.svg",
-       .content = one_panel("Fig. 6: lateral force over slip ratio", figures.figure_6,
+       .content = one_panel("Fig. 6: lateral force over slip ratio", figures.figure_6, kSide,
                             slip(figures.figure_6), side(figures.figure_6))},
       {.name = "figure-6.csv", .content = csv(figures.figure_6)},
       {.name = "figure-7.svg",
        .content = one_panel("Fig. 7: longitudinal against lateral force (dashed: constant slip)",
-                            figures.figure_7,
-                            axis_over("longitudinal force Fx [N]", &Point::fx_n, figures.figure_7),
+                            figures.figure_7, {&Point::fx_n, &Point::fy_n},
+                            axis_of("longitudinal force Fx [N]", &Point::fx_n, figures.figure_7),
                             side(figures.figure_7))},
       {.name = "figure-7.csv", .content = csv(figures.figure_7)},
       {.name = "figure-10.svg",
        .content =
            small_multiples("Fig. 10: the theoretical curves of the experiments", figures.figure_10,
-                           slip(figures.figure_10), side(figures.figure_10))},
+                           kSide, slip(figures.figure_10), side(figures.figure_10))},
       {.name = "figure-10.csv", .content = csv(figures.figure_10)}};
 }
 
