@@ -16,8 +16,9 @@ class Port:
         self.phi = np.radians(soil["friction_angle_deg"])
 
     def forces(self, load_n, slip_ratio, slip_angle_rad):
-        """Fx, Fy, torque, sinkage; arrays of one shape."""
+        """Fx, Fy, torque, sinkage; one-dimensional arrays of one length."""
         s, beta = np.asarray(slip_ratio, float), np.asarray(slip_angle_rad, float)
+        load_n = np.broadcast_to(np.asarray(load_n, float), s.shape)
         q = np.where(s >= 0, 1 - s, 1 / (1 + np.minimum(s, 0)))
         u = q * np.tan(np.abs(beta))
         theta_f = self._entry_angle(load_n, s, beta, q, u)
@@ -26,25 +27,36 @@ class Port:
         return fx, fy, torque, self.r * (1 - np.cos(theta_f))
 
     def _entry_angle(self, load_n, s, beta, q, u):
-        """By bisection in the smallest bracket of a scan: the smallest root at which Fz rises."""
-        low = np.full(s.shape, 1e-4)
-        high = np.full(s.shape, np.nan)
-        for theta in np.geomspace(0.01, np.pi / 2, 60):
-            open_ = np.isnan(high)
-            if not open_.any():
+        """The smallest root at which Fz rises: a scan for its bracket, then regula falsi (Illinois)
+        in logarithms, in which Fz is nearly a straight line."""
+        def excess(theta, rows):
+            fz = self._integrals(theta, s[rows], beta[rows], q[rows], u[rows])[1]
+            return np.log(np.maximum(fz, 1e-300) / load_n[rows])
+
+        low, high = np.empty(s.shape), np.empty(s.shape)
+        f_low, f_high = np.empty(s.shape), np.empty(s.shape)
+        open_ = np.arange(s.size)
+        before, f_before = np.full(s.size, 1e-3), excess(np.full(s.size, 1e-3), open_)
+        for theta in np.geomspace(0.02, np.pi / 2, 24):
+            f = excess(np.full(open_.size, theta), open_)
+            found = f >= 0
+            rows = open_[found]
+            low[rows], f_low[rows] = before[found], f_before[found]
+            high[rows], f_high[rows] = theta, f[found]
+            open_ = open_[~found]
+            before, f_before = np.full(open_.size, theta), f[~found]
+            if open_.size == 0:
                 break
-            carried = np.zeros(s.shape, bool)
-            at = np.full(open_.sum(), theta)
-            fz = self._integrals(at, s[open_], beta[open_], q[open_], u[open_])[1]
-            carried[open_] = fz >= load_n[open_]
-            high[carried & open_] = theta
-            low[~carried & open_] = theta
-        for _ in range(60):
-            middle = (low + high) / 2
-            above = self._integrals(middle, s, beta, q, u)[1] >= load_n
-            high = np.where(above, middle, high)
-            low = np.where(above, low, middle)
-        return (low + high) / 2
+        every = np.arange(s.size)
+        low, high = np.log(low), np.log(high)
+        for _ in range(12):
+            middle = (low * f_high - high * f_low) / (f_high - f_low)
+            f = excess(np.exp(middle), every)
+            above = f >= 0
+            f_low = np.where(above, f_low / 2, f)
+            f_high = np.where(above, f, f_high / 2)
+            low, high = np.where(above, low, middle), np.where(above, middle, high)
+        return np.exp(middle)
 
     def _integrals(self, theta_f, s, beta, q, u):
         soil, r, b = self.soil, self.r, self.b
