@@ -74,73 +74,91 @@ EvaluatedPath evaluated(PathEvaluation evaluation, const PlanningProblem& proble
           .recorded_margin_min = {}};
 }
 
+/// What is to be judged.
+struct GivenCourses {
+  double speed_max_mps = 0;
+  std::vector<GivenPath> paths;
+  std::vector<Manoeuvre> manoeuvres;
+};
+
+GivenCourses read_courses(const EvaluationRequest& request, const PlanningProblem& problem) {
+  GivenCourses given{.speed_max_mps = checked_speed_mps(request, problem)};
+  for (const std::string& file : request.path_files) {
+    given.paths.push_back(read_path(file, problem, given.speed_max_mps));
+  }
+  if (request.manoeuvre_file) given.manoeuvres = read_manoeuvres(*request.manoeuvre_file, problem);
+  return given;
+}
+
+/// On a plane of its own. Another vehicle brings its own limits; the margin asked for is the
+/// scenario's.
+EvaluatedPath judged_manoeuvre(const Manoeuvre& manoeuvre, const PlanningProblem& problem,
+                               const EvaluationSettings& settings) {
+  Limits limits = problem.limits;
+  if (manoeuvre.vehicle.name != problem.vehicle.name) {
+    limits = default_limits(manoeuvre.vehicle);
+    limits.margin_min = problem.limits.margin_min;
+  }
+  const PreparedManoeuvre prepared = prepare(manoeuvre, limits, problem);
+  const World plane(prepared.problem, WorldUse::kVerdict, 1);
+  PathEvaluation evaluation = std::visit(
+      [&](const auto& course) { return evaluate(plane, course, settings); }, prepared.course);
+  EvaluatedPath path = evaluated(std::move(evaluation), prepared.problem);
+  path.on_the_map = false;
+  return path;
+}
+
+/// One after the other; what an interrupt cuts short is not kept.
+void judge_all(const GivenCourses& given, const PlanningProblem& problem, bool quiet,
+               EvaluationResult& result) {
+  const std::stop_token stop = result.settings.stop;
+  ProgressLine line(quiet);
+  const std::size_t count = given.paths.size() + given.manoeuvres.size();
+  const auto judge = [&](const auto& judged) {
+    if (stop.stop_requested()) return;
+    const auto feasible = std::ranges::count_if(
+        result.paths, [](const EvaluatedPath& path) { return path.evaluation.feasible; });
+    line.show({.stage = "evaluating",
+               .share = static_cast<double>(result.paths.size()) / static_cast<double>(count),
+               .found = static_cast<int>(feasible)});
+    EvaluatedPath path = judged();
+    if (!stop.stop_requested()) result.paths.push_back(std::move(path));
+  };
+  const PlanningProblem tolerant = with_tolerant_speed(problem, given.speed_max_mps);
+  const World world(tolerant, WorldUse::kVerdict, 1);
+  for (const GivenPath& path : given.paths) {
+    judge([&] {
+      EvaluatedPath judged = evaluated(evaluate(world, path.path, result.settings), problem);
+      judged.recorded_margin_min = path.recorded_margin_min;
+      return judged;
+    });
+  }
+  for (const Manoeuvre& manoeuvre : given.manoeuvres) {
+    judge([&] { return judged_manoeuvre(manoeuvre, problem, result.settings); });
+  }
+  result.interrupted = stop.stop_requested();
+}
+
 }  // namespace
 
 ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& request) {
   require_writable_folder(request.folder.path);
   const PlanningProblem& problem = scenario.problem;
-  const double speed_max_mps = checked_speed_mps(request, problem);
   // Everything is read before anything is judged.
-  std::vector<GivenPath> paths;
-  for (const std::string& file : request.path_files) {
-    paths.push_back(read_path(file, problem, speed_max_mps));
-  }
-  std::vector<Manoeuvre> manoeuvres;
-  if (request.manoeuvre_file) manoeuvres = read_manoeuvres(*request.manoeuvre_file, problem);
+  const GivenCourses given = read_courses(request, problem);
   require_results_fit(request.folder, {"evaluation.json", "report.html"});
   for (const std::string& notice : scenario.notices) notify(notice, request.quiet);
-  for (const GivenPath& path : paths) {
+  for (const GivenPath& path : given.paths) {
     for (const std::string& notice : path.notices) notify(notice, request.quiet);
   }
 
-  const std::stop_token stop = stop_on_interrupt();
   const auto begun = std::chrono::steady_clock::now();
   EvaluationResult result{.settings = {.deviation_max_m = request.deviation_max_m,
                                        .soil_draws = request.soil_draws,
                                        .seed = problem.search.seed,
                                        .threads = problem.search.threads,
-                                       .stop = stop}};
-  {
-    ProgressLine line(request.quiet);
-    const std::size_t count = paths.size() + manoeuvres.size();
-    const auto show = [&] {
-      const auto done = static_cast<double>(result.paths.size());
-      const auto feasible = std::ranges::count_if(
-          result.paths, [](const EvaluatedPath& path) { return path.evaluation.feasible; });
-      line.show({.stage = "evaluating",
-                 .share = done / static_cast<double>(count),
-                 .found = static_cast<int>(feasible)});
-    };
-    const PlanningProblem tolerant = with_tolerant_speed(problem, speed_max_mps);
-    const World world(tolerant, WorldUse::kVerdict, 1);
-    for (const GivenPath& path : paths) {
-      if (stop.stop_requested()) break;
-      show();
-      PathEvaluation evaluation = evaluate(world, path.path, result.settings);
-      if (stop.stop_requested()) break;
-      result.paths.push_back(evaluated(std::move(evaluation), problem));
-      result.paths.back().recorded_margin_min = path.recorded_margin_min;
-    }
-    for (const Manoeuvre& manoeuvre : manoeuvres) {
-      if (stop.stop_requested()) break;
-      show();
-      // Another vehicle brings its own limits; the margin asked for is the scenario's.
-      Limits limits = problem.limits;
-      if (manoeuvre.vehicle.name != problem.vehicle.name) {
-        limits = default_limits(manoeuvre.vehicle);
-        limits.margin_min = problem.limits.margin_min;
-      }
-      const PreparedManoeuvre prepared = prepare(manoeuvre, limits, problem);
-      const World plane(prepared.problem, WorldUse::kVerdict, 1);
-      PathEvaluation evaluation =
-          std::visit([&](const auto& course) { return evaluate(plane, course, result.settings); },
-                     prepared.course);
-      if (stop.stop_requested()) break;
-      result.paths.push_back(evaluated(std::move(evaluation), prepared.problem));
-      result.paths.back().on_the_map = false;
-    }
-    result.interrupted = stop.stop_requested();
-  }
+                                       .stop = stop_on_interrupt()}};
+  judge_all(given, problem, request.quiet, result);
   rank(result);
   result.evaluation_time_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

@@ -28,7 +28,21 @@ struct VehicleDynamics::Stage {
   Eigen::Vector3d acceleration;
   double transfer_forward_n = 0, transfer_left_n = 0;
   WheelSums sums;
+
+  /// The load transfers go after the forces. \return by how much they change, N
+  double follow(const BodyForce& force, double lag);
 };
+
+double VehicleDynamics::Stage::follow(const BodyForce& force, double lag) {
+  const double forward_n =
+      transfer_forward_base_n + lag * (force.forward_n - transfer_forward_base_n);
+  const double left_n = transfer_left_base_n + lag * (force.left_n - transfer_left_base_n);
+  const double change_n =
+      std::max(std::abs(forward_n - transfer_forward_n), std::abs(left_n - transfer_left_n));
+  transfer_forward_n = forward_n;
+  transfer_left_n = left_n;
+  return change_n;
+}
 
 bool VehicleDynamics::solve_stage(Stage& stage) const {
   const PatchAxes axes(stage.patch, gravity_mps2_);
@@ -37,6 +51,13 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
   const double h = stage.step_s;
   const double lag = h / (h + kTransferTime_s);
   const Eigen::Vector3d in_mps{1, 1, std::sqrt(inertia / m)};
+  // All but at rest, and in a turn on the spot, the balance may lie on a jump of the forces: where
+  // a wheel that turns stops moving, it spins on the one side and counter-rotates on the other.
+  const auto is_on_a_jump = [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+    constexpr double kNearRest_mps = kStandstillSpeed_mps, kJump_mps = 1e-2 * kNearRest_mps;
+    return (stage.on_the_spot || from.cwiseProduct(in_mps).norm() < kNearRest_mps) &&
+           (to - from).cwiseProduct(in_mps).norm() < kJump_mps;
+  };
   double error_before = 0, missing_before = 0;
   bool slows = false;
   Eigen::Vector3d velocity_before = stage.velocity;
@@ -55,15 +76,7 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
     const WheelSums& sums = sloped.sums;
     const BodyForce& f = sums.force;
     stage.acceleration = acceleration_of(f, axes, per_force, v);
-    const double transfer_forward =
-        stage.transfer_forward_base_n + lag * (f.forward_n - stage.transfer_forward_base_n);
-    const double transfer_left =
-        stage.transfer_left_base_n + lag * (f.left_n - stage.transfer_left_base_n);
-    const double transfer_error = std::max(std::abs(transfer_forward - stage.transfer_forward_n),
-                                           std::abs(transfer_left - stage.transfer_left_n)) /
-                                  (m * axes.gravity_normal_mps2);
-    stage.transfer_forward_n = transfer_forward;
-    stage.transfer_left_n = transfer_left;
+    const double transfer_error = stage.follow(f, lag) / (m * axes.gravity_normal_mps2);
     stage.sums = sums;
 
     const Eigen::Vector3d missing = stage.base + h * stage.acceleration - v;
@@ -73,15 +86,7 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
       ++halvings;
       slows = true;
       stage.velocity = (stage.velocity + velocity_before) / 2;
-      // All but at rest, and in a turn on the spot, the balance may lie on a jump of the forces:
-      // where a wheel that turns stops moving, it spins on the one side and counter-rotates on the
-      // other.
-      constexpr double kNearRest_mps = kStandstillSpeed_mps, kJump_mps = 1e-2 * kNearRest_mps;
-      const Eigen::Vector3d apart = stage.velocity - velocity_before;
-      if ((stage.on_the_spot || velocity_before.cwiseProduct(in_mps).norm() < kNearRest_mps) &&
-          apart.cwiseProduct(in_mps).norm() < kJump_mps) {
-        return true;
-      }
+      if (is_on_a_jump(velocity_before, stage.velocity)) return true;
       continue;
     }
     halvings = 0;
