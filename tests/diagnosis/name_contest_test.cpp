@@ -1,0 +1,69 @@
+// A name is claimed only where held-out conditions bear it.
+#include "diagnosis/names/name_contest.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "synthetic_bed.h"
+
+namespace regoplan {
+namespace {
+
+/// Two ids scored against the plain models, the soil calibrated.
+class NameContestOf : public testing::Test {
+ protected:
+  void hold(const TrueWheel& truth) {
+    setup_ = simulant_setup();
+    recording_ = record(truth, setup_, setup_.soil.mean, {.conditions = 24}, 5);
+    calibrated_ = std::make_unique<CalibratedRecording>(recording_, setup_);
+    std::vector<Effect> effects = effects_for(calibrated_->bed(), recording_);
+    std::erase_if(effects,
+                  [](const Effect& e) { return e.id != "slip_sinkage" && e.id != "shear_hump"; });
+    scored_ = score_candidates(calibrated_->problem(), calibrated_->wide_problem(), effects, {});
+  }
+
+  static TrueWheel digging() {
+    TrueWheel wheel;
+    wheel.sinkage = [](const WheelRun& run, double h) {
+      return h * (1 + 1.2 * (1 - std::exp(-2 * std::max(run.slip_ratio, 0.0))));
+    };
+    return wheel;
+  }
+
+  DiagnosisSetup setup_;
+  Recording recording_;
+  std::unique_ptr<CalibratedRecording> calibrated_;
+  std::vector<ScoredId> scored_;
+};
+
+TEST_F(NameContestOf, AnEffectThatIsAtWorkIsClaimedWithItsProof) {
+  hold(digging());
+  weigh(scored_, PlainModel::kRefuted);
+  NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
+  const auto claim = contest.decide();
+  ASSERT_TRUE(claim);
+  ASSERT_FALSE(claim->names.empty());
+  EXPECT_EQ(claim->names.front().ids.front(), "slip_sinkage");
+  EXPECT_GT(claim->proof.share_explained, 1.0 / 3.0);
+}
+
+TEST_F(NameContestOf, ANameThatOnlyScoresIsGivenUpWithAReason) {
+  hold({});
+  // Whatever led to it, a score alone claims nothing: held out, the name explains nothing here.
+  for (ScoredId& one : scored_) {
+    if (one.id == "slip_sinkage") one.score += 500;
+  }
+  weigh(scored_, PlainModel::kRefuted);
+  ASSERT_EQ(scored_.front().id.substr(0, 12), "slip_sinkage");
+  NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
+  EXPECT_FALSE(contest.decide());
+  EXPECT_FALSE(contest.notes().empty());
+  const auto given_up = std::ranges::find(contest.scored(), "slip_sinkage", &ScoredId::id);
+  ASSERT_NE(given_up, contest.scored().end());
+  EXPECT_EQ(given_up->probability, 0);
+}
+
+}  // namespace
+}  // namespace regoplan

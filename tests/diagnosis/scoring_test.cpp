@@ -1,0 +1,91 @@
+// Candidates and how they are weighed against each other.
+#include "diagnosis/fit/scoring.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrated_bed.h"
+
+namespace regoplan {
+namespace {
+
+std::vector<ScoredId> scored(const std::vector<std::pair<std::string, double>>& scores) {
+  std::vector<ScoredId> all;
+  for (const auto& [id, score] : scores) all.push_back({.id = id, .score = score});
+  return all;
+}
+
+double probability(const std::vector<ScoredId>& all, const std::string& id) {
+  const auto found = std::ranges::find(all, id, &ScoredId::id);
+  return found == all.end() ? 0 : found->probability;
+}
+
+TEST(Weighing, ProbabilitiesAddUpAndTheLikeliestStandsFirst) {
+  auto all = scored({{"none", -40}, {"parameters", -30}, {"grousers", -10}, {"multi_pass", -12}});
+  weigh(all, PlainModel::kRefuted);
+  double sum = 0;
+  for (const ScoredId& one : all) sum += one.probability;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_EQ(all.front().id, "grousers");
+  EXPECT_TRUE(std::ranges::is_sorted(all, std::greater{}, &ScoredId::probability));
+}
+
+TEST(Weighing, WhatTestsRefuteOrHeldOutConditionsForbidHasNoProbability) {
+  auto all = scored({{"none", -1}, {"parameters", 0}, {"grousers", -10}, {"multi_pass", -9}});
+  all[3].given_up = true;
+  weigh(all, PlainModel::kRefuted);
+  EXPECT_EQ(probability(all, "none"), 0);
+  EXPECT_EQ(probability(all, "parameters"), 0);
+  EXPECT_EQ(probability(all, "multi_pass"), 0);
+  EXPECT_EQ(probability(all, "grousers"), 1);
+}
+
+TEST(Weighing, AModelThatHoldsIsNotGivenUpForANameThatFitsALittleBetter) {
+  auto holds = scored({{"parameters", 0}, {"grousers", 8}});
+  weigh(holds, PlainModel::kHolds);
+  EXPECT_GT(probability(holds, "parameters"), 0.9);
+  auto doubted = scored({{"parameters", 0}, {"grousers", 8}});
+  weigh(doubted, PlainModel::kDoubted);
+  EXPECT_GT(probability(doubted, "grousers"), 0.9);
+}
+
+TEST(Weighing, TwoEffectsMustFitBetterThanOne) {
+  auto all = scored({{"parameters", 0}, {"grousers", 50}, {"grousers+multi_pass", 51}});
+  weigh(all, PlainModel::kRefuted);
+  EXPECT_GT(probability(all, "grousers"), probability(all, "grousers+multi_pass"));
+}
+
+TEST(Scoring, TheEffectAtWorkScoresBestAndThePlainModelsStandBeside) {
+  TrueWheel digging;
+  digging.sinkage = [](const WheelRun& run, double h) {
+    return h * (1 + 1.2 * std::max(run.slip_ratio, 0.0));
+  };
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = record(digging, setup, setup.soil.mean, {.conditions = 24}, 3);
+  const CalibratedBed bed(recording);
+  std::vector<Effect> effects = effects_for(bed.recording.bed, recording);
+  std::erase_if(effects, [](const Effect& e) {
+    return e.id != "slip_sinkage" && e.id != "grousers" && e.id != "rear_contact";
+  });
+  const FitProblem problem = bed.problem();
+  const std::vector<SoilCoordinate> wide_soil = soil_coordinates(setup.soil, 3);
+  const FitProblem wide{bed.recording.bed, wide_soil, bed.discrepancy, bed.soil_free};
+  const std::vector<ScoredId> all = score_candidates(problem, wide, effects, {});
+  for (const char* id : {"none", "parameters", "unexplained", "slip_sinkage", "grousers"}) {
+    EXPECT_EQ(std::ranges::count(all, id, &ScoredId::id), 1) << id;
+  }
+  const auto best_single = std::ranges::max_element(all, {}, [](const ScoredId& one) {
+    return one.id.find('+') == std::string::npos ? one.score : -INFINITY;
+  });
+  EXPECT_EQ(best_single->id, "slip_sinkage");
+  for (const ScoredId& one : all) {
+    const auto plus = one.id.find('+');
+    if (plus == std::string::npos) continue;
+    EXPECT_NE(one.id.substr(0, plus), one.id.substr(plus + 1)) << "an effect beside itself";
+  }
+}
+
+}  // namespace
+}  // namespace regoplan

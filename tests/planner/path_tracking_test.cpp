@@ -1,0 +1,82 @@
+// The law that drives a path in closed loop, without a judge of margins.
+#include "planner/evaluation/path_tracking.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "flat_problem.h"
+
+namespace regoplan {
+namespace {
+
+class PathTracking : public testing::Test {
+ protected:
+  static ReferencePath path(const std::vector<PathPoint>& points, double speed_mps) {
+    PathCurve curve(points);
+    SpeedProfile speed({{0, speed_mps}, {curve.length_m(), speed_mps}});
+    return {.name = "path", .curve = std::move(curve), .speed = std::move(speed)};
+  }
+
+  /// A quarter of a circle to the left.
+  static std::vector<PathPoint> bend(double radius_m) {
+    std::vector<PathPoint> points;
+    for (int i = 0; i <= 18; ++i) {
+      const double angle = i * 5 * kTestDegree;
+      points.push_back({15 + radius_m * std::sin(angle), 15 + radius_m * (1 - std::cos(angle))});
+    }
+    return points;
+  }
+
+  PlanningProblem problem_ = lrv_problem(one_soil_map(60, firm_regolith(), flat));
+  World world_{problem_, WorldUse::kVerdict, 1};
+  SteeringLaw law_;
+};
+
+TEST_F(PathTracking, KeepsToAStraightPathAndArrivesInItsTime) {
+  const TrackingRun run = track(world_, path({{10, 25}, {45, 25}}, 2), law_, 1);
+  EXPECT_EQ(run.end, TrackingEnd::kArrived);
+  EXPECT_LT(run.deviation_max_m, 1e-6);
+  EXPECT_NEAR(run.duration_s, 17.5, 0.5);
+}
+
+TEST_F(PathTracking, KeepsNearABendAndStraysTheMoreTheFasterItIs) {
+  const TrackingRun slow = track(world_, path(bend(20), 1), law_, 2);
+  const TrackingRun fast = track(world_, path(bend(20), 2.5), law_, 2);
+  ASSERT_EQ(slow.end, TrackingEnd::kArrived);
+  ASSERT_EQ(fast.end, TrackingEnd::kArrived);
+  EXPECT_LT(slow.deviation_max_m, 0.1);
+  EXPECT_GT(fast.deviation_max_m, slow.deviation_max_m);
+}
+
+TEST_F(PathTracking, IsTheSameToBothSides) {
+  std::vector<PathPoint> right = bend(20);
+  for (PathPoint& point : right) point.y_m = 30 - point.y_m;
+  const TrackingRun to_left = track(world_, path(bend(20), 2), law_, 2);
+  const TrackingRun to_right = track(world_, path(right, 2), law_, 2);
+  EXPECT_NEAR(to_left.deviation_max_m, to_right.deviation_max_m, 1e-6);
+  EXPECT_NEAR(to_left.energy_j, to_right.energy_j, 1e-6 * to_left.energy_j);
+}
+
+TEST_F(PathTracking, EndsWhereItStraysFartherThanAllowed) {
+  const TrackingRun run = track(world_, path(bend(20), 2.5), law_, 0.005);
+  EXPECT_EQ(run.end, TrackingEnd::kStrayed);
+  EXPECT_LT(run.last.s_m, path(bend(20), 2.5).curve.length_m() - 1);
+}
+
+TEST_F(PathTracking, EndsAtALimitOfTheStateAndNamesIt) {
+  const TrackingRun run = track(world_, path({{10, 25}, {70, 25}}, 2), law_, 1);
+  EXPECT_EQ(run.end, TrackingEnd::kRejected);
+  ASSERT_TRUE(run.rejected);
+  EXPECT_EQ(run.rejected->reason, Rejection::kBounds);
+}
+
+TEST_F(PathTracking, SaysNothingAboutThePathWhereItWasStopped) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(track(world_, path({{10, 25}, {45, 25}}, 2), law_, 1, stop.get_token()).end,
+            TrackingEnd::kInterrupted);
+}
+
+}  // namespace
+}  // namespace regoplan
