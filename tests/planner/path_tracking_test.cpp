@@ -51,7 +51,7 @@ TEST_F(PathTracking, KeepsNearABendAndStraysTheMoreTheFasterItIs) {
 
 TEST_F(PathTracking, IsTheSameToBothSides) {
   std::vector<PathPoint> right = bend(20);
-  for (PathPoint& point : right) point.y_m = 30 - point.y_m;
+  for (PathPoint& point : right) point.y_m = 50 - point.y_m;
   const TrackingRun to_left = track(world_, path(bend(20), 2), law_, 2);
   const TrackingRun to_right = track(world_, path(right, 2), law_, 2);
   EXPECT_NEAR(to_left.deviation_max_m, to_right.deviation_max_m, 1e-6);
@@ -68,7 +68,8 @@ TEST_F(PathTracking, EndsAtALimitOfTheStateAndNamesIt) {
   const TrackingRun run = track(world_, path({{10, 25}, {70, 25}}, 2), law_, 1);
   EXPECT_EQ(run.end, TrackingEnd::kRejected);
   ASSERT_TRUE(run.rejected);
-  EXPECT_EQ(run.rejected->reason, Rejection::kBounds);
+  // The body reaches over the border before the centre of gravity does.
+  EXPECT_EQ(run.rejected->reason, Rejection::kUnknownTerrain);
 }
 
 TEST_F(PathTracking, SaysNothingAboutThePathWhereItWasStopped) {
