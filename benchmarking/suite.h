@@ -8,7 +8,8 @@
 
 namespace regoplan {
 
-/// A planner of a suite: one of `planner_names()` with parameters, as OMPL names them.
+/// A planner of a suite: one of `planner_names()`, or one's own, with parameters, as OMPL names
+/// them.
 struct SuitePlanner {
   std::string label;  ///< stands for it in every result
   std::string planner;
@@ -44,6 +45,9 @@ struct Suite {
   std::vector<SuitePlanner> planners;
   std::vector<std::uint64_t> seeds;
   RunBounds bounds;
+  /// Where planners (by label) and what is varied (by key) stand in the suite's file,
+  /// `suite.yaml:3: planners[1]`, for whoever must refuse one of them later.
+  std::map<std::string, std::string> planner_places = {}, sweep_places = {};
 };
 
 /// One run, by its places in the suite.

@@ -51,7 +51,7 @@ std::vector<char> bytes_of(const BenchmarkRecord& record) {
 }
 
 ChildTask task_of(const Suite& suite, const SuiteRun& run, const World& searched,
-                  const World& verdict) {
+                  const World& verdict, const OwnPlanners& own) {
   const SuitePlanner& planner = suite.planners[run.planner];
   const RunBounds& bounds = suite.bounds;
   const BenchmarkRun request{
@@ -62,19 +62,23 @@ ChildTask task_of(const Suite& suite, const SuiteRun& run, const World& searched
       .iterations = bounds.iterations,
       .memory_mb = bounds.memory_mb,
       .progress_interval_s = bounds.progress_interval_s};
-  return {.work = [&searched, &verdict,
-                   request] { return bytes_of(benchmark(searched, verdict, request)); },
+  return {.work = [&searched, &verdict, &own,
+                   request] { return bytes_of(benchmark(searched, verdict, request, own)); },
           .time_limit_s = bounds.time_s + kVerificationLimit_s,
           .memory_limit_mb = bounds.memory_mb + kVerificationMemory_mb};
+}
+
+/// What a run says of its planner, with the planner's place in the suite's file.
+InputError refused(const Suite& suite, const SuiteRun& run, const std::string& why) {
+  const auto place = suite.planner_places.find(suite.planners[run.planner].label);
+  return InputError(place == suite.planner_places.end() ? why : place->second + ": " + why);
 }
 
 }  // namespace
 
 void run_suite(const Suite& suite, const std::vector<SuiteRun>& runs, RunJournal& journal,
-               int processes,
                const std::function<PlanningProblem(std::size_t, std::size_t)>& problem_of,
-               const std::function<void(const SuiteProgress&)>& on_progress,
-               const std::stop_token& stop) {
+               const SuiteSession& session, const SingleThread& alone) {
   const auto key_of = [&](const SuiteRun& run) {
     return RunKey{.experiment = experiment_name(suite, run.scenario, run.sweep_point),
                   .planner = suite.planners[run.planner].label,
@@ -86,34 +90,34 @@ void run_suite(const Suite& suite, const std::vector<SuiteRun>& runs, RunJournal
   std::size_t done = runs.size() - left.size();
   const Stopwatch watch(done, runs.size());
 
-  for (auto first = left.begin(); first != left.end() && !stop.stop_requested();) {
+  for (auto first = left.begin(); first != left.end() && !session.stop.stop_requested();) {
     const auto last = std::find_if(first, left.end(), [&](const SuiteRun& run) {
       return run.scenario != first->scenario || run.sweep_point != first->sweep_point;
     });
     const std::string experiment = experiment_name(suite, first->scenario, first->sweep_point);
-    on_progress(watch.progress(experiment, done));
+    session.on_progress(watch.progress(experiment, done));
     PlanningProblem problem = problem_of(first->scenario, first->sweep_point);
     problem.search.soil_draws = suite.bounds.soil_draws;
     problem.search.threads = 1;  // of one run; the processes share the machine
-    const World searched(problem, WorldUse::kSearch, processes);
-    const World verdict(problem, WorldUse::kVerdict, processes);
+    const World searched(problem, WorldUse::kSearch, session.processes);
+    const World verdict(problem, WorldUse::kVerdict, session.processes);
     auto next = first;
     run_in_children(
-        processes, AnswerOrder::kAsEnded,
+        session.processes, AnswerOrder::kAsEnded,
         [&]() -> std::optional<ChildTask> {
           if (next == last) return std::nullopt;
-          return task_of(suite, *next++, searched, verdict);
+          return task_of(suite, *next++, searched, verdict, session.planners);
         },
         [&](const ChildAnswer& answer) {
           const SuiteRun& run = *(first + static_cast<std::ptrdiff_t>(answer.task));
-          if (answer.bad_input) throw InputError(answer.failure);
+          if (answer.bad_input) throw refused(suite, run, answer.failure);
           journal.append({.key = key_of(run),
                           .outcome = answer.bytes
                                          ? benchmark_record_of(nlohmann::json::parse(*answer.bytes))
                                          : crashed_run(run.seed, answer.failure)});
-          on_progress(watch.progress(experiment, ++done));
+          session.on_progress(watch.progress(experiment, ++done));
         },
-        stop);
+        session.stop, alone);
     first = last;
   }
 }

@@ -9,6 +9,7 @@
 #include "benchmarking/run_journal.h"
 #include "benchmarking/suite.h"
 #include "planner/problem/planning_problem.h"
+#include "planner/runtime/single_thread.h"
 
 namespace regoplan {
 
@@ -20,16 +21,21 @@ struct SuiteProgress {
   std::optional<double> remaining_s;  ///< estimated from the runs of this session
 };
 
+/// What surrounds the runs of a suite.
+struct SuiteSession {
+  int processes = 1;          ///< at once
+  OwnPlanners planners = {};  ///< one's own, beside those of regoplan
+  std::function<void(const SuiteProgress&)> on_progress = [](const SuiteProgress&) {};
+  std::stop_token stop{};
+};
+
 /// Does those of the runs that the journal does not hold, each in a process of its own: a planner
-/// that crashes, leaks or hangs costs one run. Call it while the process has one thread.
+/// that crashes, leaks or hangs costs one run.
 /// \param problem_of the problem of a scenario at a sweep point, by their places in the suite
-/// \param processes at once
-/// \throws InputError for a planner's parameter that is not valid, or a journal that cannot be
-/// written
+/// \throws InputError for a planner's parameter that is not valid, with its place in the suite's
+/// file, or a journal that cannot be written
 void run_suite(const Suite& suite, const std::vector<SuiteRun>& runs, RunJournal& journal,
-               int processes,
                const std::function<PlanningProblem(std::size_t, std::size_t)>& problem_of,
-               const std::function<void(const SuiteProgress&)>& on_progress,
-               const std::stop_token& stop);
+               const SuiteSession& session, const SingleThread& alone = {});
 
 }  // namespace regoplan

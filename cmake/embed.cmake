@@ -2,15 +2,15 @@
 # build time, each std::string_view that the header declares as the files that follow its name, one
 # after the other. Names begin with k.
 function(regoplan_embed target header)
-  set(output ${CMAKE_BINARY_DIR}/embedded/${target}.cpp)
+  set(output ${PROJECT_BINARY_DIR}/embedded/${target}.cpp)
   set(files ${ARGN})
   list(FILTER files EXCLUDE REGEX "^k[A-Z][A-Za-z0-9]*$")
   add_custom_command(
     OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} "-DASSETS=${ARGN}" -P
-            ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
-    WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
-    DEPENDS ${files} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+            ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+    DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/embed.cmake
     VERBATIM)
   target_sources(${target} PRIVATE ${output})
   set_source_files_properties(${output} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)

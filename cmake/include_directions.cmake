@@ -56,10 +56,10 @@ foreach(command plan evaluate benchmark diagnose wheel map)
        app/page)
 endforeach()
 list(APPEND app/diagnose_may app/diagnose_drive)
-room(app app/command)
 room(python/shared terramech app/io app/settings)
 room(python/physics terramech planner/chart planner/problem app/settings python/shared)
 room(python/benchmark terramech app/settings)
+room(app app/command app/benchmark)
 
 # Where a library may be included: the header's pattern, then the rooms.
 set(libraries "")

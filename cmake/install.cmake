@@ -24,10 +24,13 @@ function(public_headers variable header)
 endfunction()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/regoplan)
+set(app_rooms benchmarking drive_diagnosis)  # libraries that a component has beside its own
 foreach(component ${REGOPLAN_COMPONENTS})
-  set_target_properties(regoplan_${component} PROPERTIES EXPORT_NAME ${component})
-  install(TARGETS regoplan_${component} EXPORT regoplan-${component}
-          ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  foreach(library ${component} ${${component}_rooms})
+    set_target_properties(regoplan_${library} PROPERTIES EXPORT_NAME ${library})
+    install(TARGETS regoplan_${library} EXPORT regoplan-${component}
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endforeach()
   install(EXPORT regoplan-${component} FILE regoplan-${component}.cmake NAMESPACE regoplan::
           DESTINATION ${package_folder})
   public_headers(headers ${component}/${component}.h)
@@ -57,6 +60,11 @@ if(REGOPLAN_PROGRAM)
   set(CPACK_PACKAGE_DESCRIPTION_SUMMARY
       "Motion-planning feasibility for wheeled vehicles on loose soil")
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  # The program needs libraries only; who builds on ours needs what their headers include.
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS
+      "libeigen3-dev, libfmt-dev, libboost-dev, libgdal-dev, libompl-dev, libfcl-dev, libceres-dev, \
+libyaml-cpp-dev, nlohmann-json3-dev, libcli11-dev, libsqlite3-dev")
+  set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
   include(CPack)
 endif()

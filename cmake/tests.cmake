@@ -42,10 +42,19 @@ include(cmake/robustness_tests.cmake)
 
 # The package as others take it: found installed, as a subfolder, and the program from a prefix.
 if(NOT REGOPLAN_DEV)
-  foreach(how find_package add_subdirectory program)
+  set(package_ways find_package add_subdirectory program)
+  find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+  if(DPKG_SHLIBDEPS)
+    list(APPEND package_ways deb)
+  endif()
+  foreach(how ${package_ways})
     add_test(NAME package.${how}
              COMMAND ${CMAKE_SOURCE_DIR}/tests/package/run.sh ${how} ${CMAKE_BINARY_DIR}
                      ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/package/${how})
     set_tests_properties(package.${how} PROPERTIES LABELS package TIMEOUT 900)
   endforeach()
+  add_test(NAME package.newer_ompl
+           COMMAND ${CMAKE_COMMAND} -S ${CMAKE_SOURCE_DIR}/tests/package/newer_ompl -B
+                   ${CMAKE_BINARY_DIR}/package/newer_ompl -DREGOPLAN_SOURCE=${CMAKE_SOURCE_DIR})
+  set_tests_properties(package.newer_ompl PROPERTIES LABELS package)
 endif()

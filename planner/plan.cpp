@@ -407,7 +407,8 @@ class Planning {
 
 }  // namespace
 
-PlanResult plan(const PlanningProblem& problem, const PlanSession& session) {
+PlanResult plan(const PlanningProblem& problem, const PlanSession& session,
+                SingleThread /*alone*/) {
   validate(problem);
   return Planning(problem, session).run();
 }

@@ -59,7 +59,8 @@ std::vector<Relaxation> relaxations_of(const PlanningProblem& problem) {
 
 std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
                                                  const TimeBudget& budget,
-                                                 const std::stop_token& stop) {
+                                                 const std::stop_token& stop,
+                                                 const SingleThread& alone) {
   const std::vector<Relaxation> relaxations = relaxations_of(problem);
   std::optional<std::string> helps;
   std::size_t given = 0;
@@ -80,7 +81,7 @@ std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
         if (helps || !answer.bytes || answer.bytes->front() != 'y') return;
         helps = relaxations[answer.task].words;
       },
-      stop);
+      stop, alone);
   return helps;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planner/problem/planning_problem.h"
+#include "planner/runtime/single_thread.h"
 #include "planner/runtime/time_budget.h"
 
 namespace regoplan {
@@ -22,10 +23,11 @@ std::vector<Relaxation> relaxations_of(const PlanningProblem& problem);
 
 /// Of a problem without a path: the first of its relaxations that opens the way, in words. Each is
 /// planned for briefly and the path verified, so that what is named is known to help; nothing where
-/// none does in that time. Call it while the process has one thread.
+/// none does in that time.
 /// \param budget whose share for the answer ends it; without a budget it does not hang on the clock
 std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
                                                  const TimeBudget& budget,
-                                                 const std::stop_token& stop);
+                                                 const std::stop_token& stop,
+                                                 const SingleThread& alone = {});
 
 }  // namespace regoplan

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -10,9 +11,11 @@
 #include <thread>
 
 #include "app/benchmark/benchmark_files.h"
+#include "app/benchmark/benchmark_main.h"
 #include "app/benchmark/benchmark_report.h"
 #include "app/command/command.h"
 #include "app/command/plan_options.h"
+#include "app/command/program_run.h"
 #include "app/command/suite_progress_line.h"
 #include "app/io/interrupt.h"
 #include "app/io/staged_files.h"
@@ -24,6 +27,7 @@ namespace regoplan {
 namespace {
 
 struct BenchmarkOptions {
+  OwnPlanners own;
   std::string suite;
   ResultFolder out;
   std::string shard = "1/1";
@@ -68,6 +72,12 @@ std::string utc_now() {
   char text[32];
   std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &utc);
   return text;
+}
+
+std::vector<std::string> names_of(const OwnPlanners& own) {
+  std::vector<std::string> names;
+  for (const auto& [name, maker] : own) names.push_back(name);
+  return names;
 }
 
 /// What is needed of every scenario, read once.
@@ -116,20 +126,22 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
     throw InputError("SUITE.yaml and --out DIR are needed, or merge");
   }
   const Shard shard = shard_of(options.shard);
-  const Suite suite = read_suite(options.suite);
+  const Suite suite = read_suite(options.suite, names_of(options.own));
   require_results_fit(options.out, benchmark_file_names());
   const ReadScenarios read = read_scenarios(suite);
   const std::stop_token stop = stop_on_interrupt();
   {
     RunJournal journal(options.out.path, origin_of(suite, read));
     SuiteProgressLine line(options.quiet);
-    run_suite(
-        suite, runs_of(suite, shard), journal, options.processes,
-        [&suite](std::size_t scenario, std::size_t point) {
-          return at_sweep_point(read_scenario(suite.scenarios[scenario].file, {}).problem, suite,
-                                scenario, point);
-        },
-        [&line](const SuiteProgress& progress) { line.show(progress); }, stop);
+    run_suite(suite, runs_of(suite, shard), journal,
+              [&suite](std::size_t scenario, std::size_t point) {
+                return at_sweep_point(read_scenario(suite.scenarios[scenario].file, {}).problem,
+                                      suite, scenario, point);
+              },
+              {.processes = options.processes,
+               .planners = options.own,
+               .on_progress = [&line](const SuiteProgress& progress) { line.show(progress); },
+               .stop = stop});
   }
   const SuiteResults results{.journal = read_journal(options.out.path),
                              .interrupted = stop.stop_requested()};
@@ -153,38 +165,72 @@ ExitStatus run_merge(const BenchmarkOptions& options) {
   return kYes;
 }
 
-}  // namespace
-
-Command add_benchmark_command(CLI::App& program) {
+/// The command's options on `parser`, which may be the whole program.
+Command benchmark_command(CLI::App& parser, const OwnPlanners& own) {
   const auto options = std::make_shared<BenchmarkOptions>();
-  CLI::App* parser =
-      program.add_subcommand("benchmark",
-                             "Run scenarios x planners x seeds through OMPL's benchmark tool.\n"
-                             "Writes EXPERIMENT.log, benchmark.db, benchmark.json and report.html. "
-                             "Started again with the\n"
-                             "same folder after a kill, it goes on where it was.");
-  parser->add_option("SUITE.yaml", options->suite, "scenarios, planners, seeds, bounds, sweep");
-  parser->add_option("--out", options->out.path, "folder for the results")->type_name("DIR");
-  parser->add_option("--shard", options->shard, "the I-th of N disjoint parts")
+  options->own = own;
+  parser.add_option("SUITE.yaml", options->suite, "scenarios, planners, seeds, bounds, sweep");
+  parser.add_option("--out", options->out.path, "folder for the results")->type_name("DIR");
+  parser.add_option("--shard", options->shard, "the I-th of N disjoint parts")
       ->type_name("I/N")
       ->capture_default_str();
-  parser->add_option("--processes", options->processes, "runs at once; default: all cores")
+  parser.add_option("--processes", options->processes, "runs at once; default: all cores")
       ->type_name("N")
       ->check(in_range({.min = 1, .max = kThreadsMax}));
-  add_force_flag(*parser, options->out);
-  add_network_flag(*parser);
-  add_output_flags(*parser, options->json, options->quiet);
+  add_force_flag(parser, options->out);
+  add_network_flag(parser);
+  add_output_flags(parser, options->json, options->quiet);
 
-  CLI::App* merge = parser->add_subcommand("merge", "Join the results of shards.");
+  CLI::App* merge = parser.add_subcommand("merge", "Join the results of shards.");
   merge->add_option("DIR", options->parts, "folders of shards")->required();
   merge->add_option("--out", options->out.path, "folder for the whole")
       ->type_name("DIR")
       ->required();
   add_force_flag(*merge, options->out);
   add_output_flags(*merge, options->json, options->quiet);
-  return {parser, [options, merge] {
+  return {&parser, [options, merge] {
             return merge->parsed() ? run_merge(*options) : run_benchmark(*options);
           }};
+}
+
+/// \throws InputError for a name that a suite cannot hold, or that means another planner
+void require_new_names(const OwnPlanners& own) {
+  const std::vector<std::string>& known = planner_names();
+  for (const auto& [name, maker] : own) {
+    if (std::ranges::find(known, name) != known.end()) {
+      throw InputError(name + ": a planner of regoplan has this name already");
+    }
+    if (!is_label(name)) {
+      throw InputError(
+          fmt::format("\"{}\" is no name of a planner (allowed: {})", name, kLabelRule));
+    }
+    if (!maker) throw InputError(name + ": no function that makes it");
+  }
+}
+
+}  // namespace
+
+Command add_benchmark_command(CLI::App& program) {
+  return benchmark_command(
+      *program.add_subcommand(
+          "benchmark",
+          "Run scenarios x planners x seeds through OMPL's benchmark tool.\n"
+          "Writes EXPERIMENT.log, benchmark.db, benchmark.json and report.html. "
+          "Started again with the\n"
+          "same folder after a kill, it goes on where it was."),
+      {});
+}
+
+int benchmark_main(int argc, const char* const* argv, const OwnPlanners& own) {
+  return run_program(argc, argv, [&](CLI::App& program) {
+    require_new_names(own);
+    const std::vector<std::string> names = names_of(own);
+    program.description(
+        fmt::format("Run scenarios x planners x seeds of a suite, as `regoplan benchmark` does, "
+                    "with planners beside regoplan's: {}.",
+                    fmt::join(names, ", ")));
+    return std::vector<Command>{benchmark_command(program, own)};
+  });
 }
 
 }  // namespace regoplan

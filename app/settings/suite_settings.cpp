@@ -1,65 +1,31 @@
 #include "app/settings/suite_settings.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <set>
 #include <sstream>
 
 #include "app/io/content_digest.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/settings_path.h"
+#include "app/settings/sweep_keys.h"
 
 namespace regoplan {
 namespace {
 
 constexpr int kMost = 1000000;
 
-/// A number of a problem that a suite may vary.
-struct SweepKey {
-  std::string key;
-  std::function<void(PlanningProblem&, double)> set;
-};
-
-std::vector<SweepKey> known_sweep_keys() {
-  std::vector<SweepKey> keys{
-      {"speed_mps.max", [](PlanningProblem& p, double v) { p.speed_max_mps = v; }},
-      {"start.speed_mps", [](PlanningProblem& p, double v) { p.start.speed_mps = v; }},
-      {"goal.speed_mps.max", [](PlanningProblem& p, double v) { p.goal.speed_max_mps = v; }},
-      {"goal.radius_m", [](PlanningProblem& p, double v) { p.goal.radius_m = v; }},
-      {"gravity_mps2", [](PlanningProblem& p, double v) { p.gravity_mps2 = v; }}};
-  for (const LimitKey& limit : limit_keys()) {
-    keys.push_back({fmt::format("limits.{}", limit.key), [&limit](PlanningProblem& p, double v) {
-                      p.limits.*limit.value = v * limit.si_per_shown;
-                    }});
-  }
-  return keys;
+/// `suite.yaml:3: planners[1]`
+std::string place_of(const SettingsNode& node) {
+  return fmt::format("{}:{}: {}", node.file(), node.line(), node.path());
 }
 
-const std::vector<SweepKey>& sweep_keys() {
-  static const std::vector<SweepKey> keys = known_sweep_keys();
-  return keys;
-}
-
-/// Nothing for a number that cannot be varied.
-const SweepKey* sweep_key(std::string_view key) {
-  const auto found = std::ranges::find(sweep_keys(), key, &SweepKey::key);
-  return found == sweep_keys().end() ? nullptr : &*found;
-}
-
-/// A name that may stand in OMPL's logs, file names and shells.
 std::string label_of(const SettingsNode& node, const std::string& text) {
-  const auto allowed = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '-' || c == '.';
-  };
-  if (text.empty() || text.front() == '.' || !std::all_of(text.begin(), text.end(), allowed)) {
-    throw node.error(text + " is no name (allowed: letters, digits, _, - and .)");
-  }
+  if (!is_label(text))
+    throw node.error(fmt::format("{} is no name (allowed: {})", text, kLabelRule));
   return text;
 }
 
@@ -89,42 +55,77 @@ SuiteScenario read_suite_scenario(const SettingsNode& node, const std::filesyste
   });
 }
 
-std::string planner_name_of(const SettingsNode& node) {
+std::string planner_name_of(const SettingsNode& node, const std::vector<std::string>& own) {
   std::vector<std::string> names = planner_names();
   std::erase(names, "auto");
+  names.insert(names.end(), own.begin(), own.end());
   return names[node.choice(names)];
 }
 
-SuitePlanner read_suite_planner(const SettingsNode& node) {
-  if (node.kind() != SettingsNode::Kind::kMapping) {
-    const std::string name = planner_name_of(node);
-    return {.label = name, .planner = name, .parameters = {}};
+/// A planner for each value of a parameter that is given as a list, and each combination of them:
+/// `RRT-goal_bias-0.1`.
+std::vector<SuitePlanner> with_parameter(const std::vector<SuitePlanner>& planners,
+                                         const SettingsEntry& entry) {
+  std::vector<SuitePlanner> all;
+  for (SuitePlanner planner : planners) {
+    if (entry.value.kind() != SettingsNode::Kind::kList) {
+      planner.parameters[entry.key] = entry.value.text();
+      all.push_back(std::move(planner));
+      continue;
+    }
+    if (entry.value.list().empty()) throw entry.value.error("is empty (allowed: at least one)");
+    for (const SettingsNode& value : entry.value.list()) {
+      SuitePlanner& varied = all.emplace_back(planner);
+      varied.parameters[entry.key] = value.text();
+      varied.label = label_of(value, planner.label + "-" + entry.key + "-" + value.text());
+    }
   }
-  return read_mapping(node, [](SettingsMapping& mapping) {
-    SuitePlanner planner{
-        .label = {}, .planner = planner_name_of(mapping.required("planner")), .parameters = {}};
+  return all;
+}
+
+std::vector<SuitePlanner> read_suite_planner(const SettingsNode& node,
+                                             const std::vector<std::string>& own) {
+  if (node.kind() != SettingsNode::Kind::kMapping) {
+    const std::string name = planner_name_of(node, own);
+    return {{.label = name, .planner = name, .parameters = {}}};
+  }
+  return read_mapping(node, [&own](SettingsMapping& mapping) {
+    const std::string known = planner_name_of(mapping.required("planner"), own);
     const SettingsNode* name = mapping.optional("name");
-    planner.label = name ? label_of(*name, name->text()) : planner.planner;
+    std::vector<SuitePlanner> planners{{.label = name ? label_of(*name, name->text()) : known,
+                                        .planner = known,
+                                        .parameters = {}}};
     if (const SettingsNode* parameters = mapping.optional("parameters")) {
       for (const SettingsEntry& entry : parameters->mapping()) {
-        planner.parameters[entry.key] = entry.value.text();
+        planners = with_parameter(planners, entry);
       }
     }
-    return planner;
+    return planners;
   });
 }
 
-template <class Item>
-std::vector<Item> read_labelled(const SettingsNode& node,
-                                const std::function<Item(const SettingsNode&)>& read) {
-  std::vector<Item> items;
+void read_planners(const SettingsNode& node, const std::vector<std::string>& own, Suite& suite) {
   std::set<std::string> seen;
   for (const SettingsNode& item : node.list()) {
-    items.push_back(read(item));
-    require_new(seen, item, items.back().label);
+    for (SuitePlanner& planner : read_suite_planner(item, own)) {
+      require_new(seen, item, planner.label);
+      suite.planner_places[planner.label] = place_of(item);
+      suite.planners.push_back(std::move(planner));
+    }
   }
-  if (items.empty()) throw node.error("is empty (allowed: at least one)");
-  return items;
+  if (suite.planners.empty()) throw node.error("is empty (allowed: at least one)");
+}
+
+std::vector<SuiteScenario> read_scenarios(const SettingsNode& node,
+                                          const std::filesystem::path& folder) {
+  std::vector<SuiteScenario> scenarios;
+  std::set<std::string> seen;
+  for (const SettingsNode& item : node.list()) {
+    scenarios.push_back(read_suite_scenario(item, folder));
+    require_new(seen, item, scenarios.back().label);
+  }
+  if (scenarios.empty()) throw node.error("is empty (allowed: at least one)");
+  return scenarios;
 }
 
 std::vector<std::uint64_t> read_seeds(const SettingsNode& node) {
@@ -146,45 +147,47 @@ std::vector<std::uint64_t> read_seeds(const SettingsNode& node) {
 }
 
 /// Every combination of the values of all keys.
-std::vector<SweepPoint> read_sweep(const SettingsNode& node) {
-  std::vector<SweepPoint> points{{}};
+void read_sweep(const SettingsNode& node, Suite& suite) {
+  suite.sweep_places[""] = place_of(node);
   for (const SettingsEntry& entry : node.mapping()) {
-    if (!sweep_key(entry.key)) {
-      std::vector<std::string_view> known;
-      for (const SweepKey& key : sweep_keys()) known.push_back(key.key);
-      throw entry.value.error(
-          fmt::format("cannot be varied (allowed: {})", fmt::join(known, ", ")));
-    }
+    const SettingsNode& values = entry.value;
+    const SweepKey key = placed(values, [&] { return sweep_key(entry.key); });
+    suite.sweep_places[entry.key] = place_of(values);
     constexpr std::size_t kPointsMax = 10000;
-    if (points.size() * entry.value.list().size() > kPointsMax) {
-      throw entry.value.error(fmt::format("more than {} combinations", kPointsMax));
+    if (suite.sweep.size() * values.list().size() > kPointsMax) {
+      throw values.error(fmt::format("more than {} combinations", kPointsMax));
     }
     std::vector<SweepPoint> more;
-    for (const SweepPoint& point : points) {
-      for (const SettingsNode& value : entry.value.list()) {
+    for (const SweepPoint& point : suite.sweep) {
+      for (const SettingsNode& value : values.list()) {
         more.push_back(point);
-        more.back()[entry.key] = value.number(kAnyNumber);
+        more.back()[entry.key] = value.number(key.allowed);
       }
     }
-    if (more.empty()) throw entry.value.error("is empty (allowed: at least one)");
-    points = std::move(more);
+    if (more.empty()) throw values.error("is empty (allowed: at least one)");
+    suite.sweep = std::move(more);
   }
-  return points;
 }
 
 }  // namespace
 
-Suite read_suite(const std::string& file) {
+bool is_label(std::string_view text) {
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  return !text.empty() && text.front() != '.' && std::all_of(text.begin(), text.end(), allowed);
+}
+
+Suite read_suite(const std::string& file, const std::vector<std::string>& own_planners) {
   const SettingsNode root = read_settings(file);
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   return read_mapping(root, [&](SettingsMapping& mapping) {
     Suite suite;
     const SettingsNode& name = mapping.required("name");
     suite.name = label_of(name, name.text());
-    suite.scenarios = read_labelled<SuiteScenario>(
-        mapping.required("scenarios"),
-        [&](const SettingsNode& node) { return read_suite_scenario(node, folder); });
-    suite.planners = read_labelled<SuitePlanner>(mapping.required("planners"), read_suite_planner);
+    suite.scenarios = read_scenarios(mapping.required("scenarios"), folder);
+    read_planners(mapping.required("planners"), own_planners, suite);
     suite.seeds = read_seeds(mapping.required("seeds"));
     suite.bounds.time_s = mapping.number("time_s", {.min = 0, .max = 1e6, .min_excluded = true});
     if (const SettingsNode* iterations = mapping.optional("iterations")) {
@@ -195,19 +198,31 @@ Suite read_suite(const std::string& file) {
         mapping.number_or("progress_interval_s", {.min = 0.001, .max = 1e4}, 0.05);
     const SettingsNode* draws = mapping.optional("soil_draws");
     suite.bounds.soil_draws = draws ? static_cast<int>(draws->integer(1, kMost)) : 100;
-    if (const SettingsNode* sweep = mapping.optional("sweep")) suite.sweep = read_sweep(*sweep);
+    if (const SettingsNode* sweep = mapping.optional("sweep")) read_sweep(*sweep, suite);
     return suite;
   });
 }
 
 PlanningProblem at_sweep_point(PlanningProblem problem, const Suite& suite, std::size_t scenario,
                                std::size_t sweep_point) {
-  for (const auto& [key, value] : suite.sweep[sweep_point]) sweep_key(key)->set(problem, value);
+  const auto refused = [&](const std::string& key, const InputError& bad) {
+    const auto place = suite.sweep_places.find(key);
+    return InputError(fmt::format("{}{}: {}",
+                                  place == suite.sweep_places.end() ? "" : place->second + ": ",
+                                  experiment_name(suite, scenario, sweep_point), bad.what()));
+  };
+  for (const auto& [key, value] : suite.sweep[sweep_point]) {
+    try {
+      sweep_key(key).set(problem, value);
+    } catch (const InputError& bad) {
+      throw refused(key, bad);
+    }
+  }
   try {
+    for (const MapSoil& soil : problem.map.soils()) validate(soil.soil.mean);
     validate(problem);
   } catch (const InputError& bad) {
-    throw InputError(
-        fmt::format("{}: {}", experiment_name(suite, scenario, sweep_point), bad.what()));
+    throw refused("", bad);
   }
   return problem;
 }

@@ -17,14 +17,6 @@
 namespace regoplan {
 namespace {
 
-/// A number of a vehicle: its key, where it is held, the SI value of the file's unit, its range.
-struct VehicleNumber {
-  std::string_view key;
-  double Vehicle::*member;
-  double unit;
-  ValueRange allowed;
-};
-
 constexpr ValueRange kAngle{.min = 0, .max = 90, .min_excluded = true};
 constexpr ValueRange kSteerAngle{.min = 0, .max = 90};  // 0: skid steering
 
@@ -104,6 +96,10 @@ RockerBogie read_rocker_bogie(const SettingsNode& node) {
 }
 
 }  // namespace
+
+std::span<const VehicleNumber> vehicle_numbers() {
+  return kNumbers;
+}
 
 Vehicle read_vehicle(const SettingsNode& node) {
   return read_mapping(node, [](SettingsMapping& mapping) {

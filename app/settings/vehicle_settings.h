@@ -1,12 +1,25 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "app/settings/settings_node.h"
+#include "terramech/basics/value_range.h"
 #include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
+
+/// A number of a vehicle: its key, where it is held, the SI value of the file's unit, its range.
+struct VehicleNumber {
+  std::string_view key;
+  double Vehicle::*member;
+  double unit;
+  ValueRange allowed;
+};
+/// Those that stand directly in a vehicle's file and that every vehicle has.
+std::span<const VehicleNumber> vehicle_numbers();
 
 /// Reads a vehicle: the fields of `Vehicle` under their names, angles in degrees
 /// (`steer_angle_max_deg`).

@@ -6,14 +6,13 @@
 #include <ompl/config.h>
 #include <ompl/control/SimpleSetup.h>
 #include <ompl/tools/benchmark/Benchmark.h>
-#include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "planner/driving/margin_draws.h"
 #include "planner/ompl/iteration_termination.h"
-#include "planner/ompl/ompl_planners.h"
+#include "planner/ompl/muted_ompl.h"
 #include "planner/ompl/ompl_problem.h"
 #include "planner/verdict/verified_path.h"
 #include "terramech/basics/input_error.h"
@@ -124,8 +123,9 @@ Properties counted_properties(const OmplProblem& problem) {
 
 }  // namespace
 
-BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run) {
-  ompl::msg::noOutputHandler();
+BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run,
+                          const OwnPlanners& own) {
+  const MutedOmpl muted;
   SearchGuidance guidance = run.guidance;
   Properties parameters = run.parameters;
   if (const auto improve = parameters.extract("improve")) {
@@ -136,7 +136,7 @@ BenchmarkRecord benchmark(const World& searched, const World& verdict, const Ben
     guidance.improve = improve.mapped() == "1";
   }
   OmplProblem problem(searched, guidance);
-  ob::PlannerPtr planner = make_planner(run.planner, problem);
+  ob::PlannerPtr planner = make_planner(run.planner, problem, own);
   set_parameters(*planner, run.planner, parameters);
   if (run.iterations) planner = std::make_shared<BoundedPlanner>(planner, *run.iterations);
 

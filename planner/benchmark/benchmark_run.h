@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "planner/ompl/ompl_planners.h"
 #include "planner/ompl/search_run.h"
 #include "planner/problem/world.h"
 
@@ -13,7 +14,7 @@ namespace regoplan {
 
 /// One run of one planner under OMPL's own benchmark tool.
 struct BenchmarkRun {
-  std::string planner;  ///< one of `planner_names()`, not `auto`
+  std::string planner;  ///< one of `planner_names()`, not `auto`, or one's own
   /// Of the planner, as OMPL names them; and `improve`, 0 or 1, of those that go on for a better
   /// path until the bound (Lattice, StableSparse, SST).
   std::map<std::string, std::string> parameters;
@@ -36,10 +37,11 @@ struct BenchmarkRecord {
 };
 
 /// Runs the planner in this process, which must not have drawn from OMPL's random numbers before.
-/// The solution is then driven again with the exact model; margins, length, energy are of that.
-/// \param searched, verdict the two worlds of one problem
-/// \throws InputError for a parameter that the planner does not have or take
-BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run);
+/// OMPL's log is muted meanwhile. The solution is then driven again with the exact model; margins,
+/// length, energy are of that. \param searched, verdict the two worlds of one problem \throws
+/// InputError for a planner that is not known, or a parameter that it does not have or take
+BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run,
+                          const OwnPlanners& own = {});
 
 /// OMPL's status of a planner that crashed.
 int ompl_crash_status();

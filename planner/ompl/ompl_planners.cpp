@@ -59,7 +59,12 @@ double longest_first_motion_m(const OmplProblem& problem) {
 
 }  // namespace
 
-ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
+ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem, const OwnPlanners& own) {
+  if (const auto mine = own.find(name); mine != own.end()) {
+    ob::PlannerPtr planner = mine->second ? mine->second(problem) : nullptr;
+    if (!planner) throw InputError(name + ": its maker gives no planner");
+    return planner;
+  }
   const oc::SpaceInformationPtr& si = problem.space();
   const double map_size_m = problem.diagonal_m();
   if (name == "Lattice") return std::make_shared<Lattice>(problem);
@@ -94,8 +99,11 @@ ob::PlannerPtr make_planner(const std::string& name, OmplProblem& problem) {
     pdst->setGoalBias(0.1);
     return pdst;
   }
-  throw InputError(fmt::format("planner.name: {} is not known (allowed: {})", name,
-                               fmt::join(planner_names(), ", ")));
+  std::vector<std::string> known = planner_names();
+  std::erase(known, "auto");
+  for (const auto& [mine, maker] : own) known.push_back(mine);
+  throw InputError(
+      fmt::format("planner.name: {} is not known (allowed: {})", name, fmt::join(known, ", ")));
 }
 
 }  // namespace regoplan

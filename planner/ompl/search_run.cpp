@@ -1,11 +1,11 @@
 #include "planner/ompl/search_run.h"
 
-#include <ompl/util/Console.h>
 
 #include <chrono>
 #include <limits>
 
 #include "planner/ompl/iteration_termination.h"
+#include "planner/ompl/muted_ompl.h"
 #include "planner/ompl/ompl_planners.h"
 #include "planner/ompl/ompl_problem.h"
 
@@ -15,7 +15,7 @@ namespace ob = ompl::base;
 
 SearchOutcome search(const World& world, const SearchRun& run) {
   const auto start = std::chrono::steady_clock::now();
-  ompl::msg::noOutputHandler();
+  const MutedOmpl muted;
   OmplProblem problem(world, run.guidance);
   const ob::PlannerPtr planner = make_planner(run.planner, problem);
   const auto definition = std::make_shared<ob::ProblemDefinition>(problem.space());

@@ -47,8 +47,8 @@ void each_field(Archive& archive, Outcome& outcome) {
   archive(outcome.time_s);
 }
 
-/// Runs a planner of OMPL in this process. Planners of OMPL's own draw from random numbers that the
-/// process shares: one at a time.
+/// Runs a planner of OMPL in this process, OMPL's log muted meanwhile (`MutedOmpl`). Planners of
+/// OMPL's own draw from random numbers that the process shares: one at a time.
 SearchOutcome search(const World& world, const SearchRun& run);
 
 }  // namespace regoplan

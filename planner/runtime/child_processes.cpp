@@ -192,7 +192,7 @@ class Brood {
 void run_in_children(int processes, AnswerOrder order,
                      const std::function<std::optional<ChildTask>()>& next,
                      const std::function<void(const ChildAnswer&)>& on_answer,
-                     const std::stop_token& stop) {
+                     const std::stop_token& stop, const SingleThread& /*alone*/) {
   Brood brood;
   std::deque<Child>& children = brood.children;
   std::size_t given = 0;

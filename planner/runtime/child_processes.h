@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "planner/runtime/single_thread.h"
+
 namespace regoplan {
 
 /// Work for a process of its own.
@@ -31,14 +33,13 @@ enum class AnswerOrder {
   kAsEnded   ///< at once
 };
 
-/// Runs tasks in child processes, several at once: a crash or a leak of one costs one task. Call it
-/// while the process has one thread. Ends early, killing what runs and giving no answer for it,
-/// when stop is requested.
-/// \param next gives the next task, nothing where there is none at the moment: it is asked again
-/// when an answer has come, and the end is reached when nothing runs and there is none
+/// Runs tasks in child processes, several at once: a crash or a leak of one costs one task. Ends
+/// early, killing what runs and giving no answer for it, when stop is requested. \param next gives
+/// the next task, nothing where there is none at the moment: it is asked again when an answer has
+/// come, and the end is reached when nothing runs and there is none
 void run_in_children(int processes, AnswerOrder order,
                      const std::function<std::optional<ChildTask>()>& next,
                      const std::function<void(const ChildAnswer&)>& on_answer,
-                     const std::stop_token& stop);
+                     const std::stop_token& stop, const SingleThread& alone = {});
 
 }  // namespace regoplan

@@ -7,7 +7,7 @@ namespace regoplan {
 void search_in_processes(
     const World& world, int processes, const std::function<std::optional<SearchRun>()>& next,
     const std::function<void(const SearchRun&, const std::optional<SearchOutcome>&)>& on_outcome,
-    const std::stop_token& stop) {
+    const std::stop_token& stop, const SingleThread& alone) {
   std::vector<SearchRun> runs;
   run_in_children(
       processes, AnswerOrder::kAsGiven,
@@ -21,7 +21,7 @@ void search_in_processes(
         on_outcome(runs[answer.task],
                    answer.bytes ? from_bytes<SearchOutcome>(*answer.bytes) : std::nullopt);
       },
-      stop);
+      stop, alone);
 }
 
 }  // namespace regoplan
