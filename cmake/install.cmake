@@ -54,6 +54,32 @@ install(FILES ${PROJECT_BINARY_DIR}/regoplanConfig.cmake
 if(REGOPLAN_PROGRAM)
   install(FILES ${PROJECT_SOURCE_DIR}/scenarios/demo/soils.yaml
           DESTINATION ${CMAKE_INSTALL_DATADIR}/regoplan/scenarios/demo)
+  install(FILES ${PROJECT_SOURCE_DIR}/examples/scenario.yaml
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/regoplan/examples)
+  # What the program says of itself: completion for two shells and, with help2man, manual pages.
+  set(bash_completion ${PROJECT_BINARY_DIR}/completion/regoplan)
+  set(zsh_completion ${PROJECT_BINARY_DIR}/completion/_regoplan)
+  add_custom_command(
+    OUTPUT ${bash_completion} ${zsh_completion}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/completion
+    COMMAND regoplan completion bash > ${bash_completion}
+    COMMAND regoplan completion zsh > ${zsh_completion}
+    DEPENDS regoplan
+    VERBATIM)
+  add_custom_target(regoplan_completion ALL DEPENDS ${bash_completion} ${zsh_completion})
+  install(FILES ${bash_completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  install(FILES ${zsh_completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  find_program(HELP2MAN help2man)
+  if(HELP2MAN)
+    set(manuals ${PROJECT_BINARY_DIR}/manuals)
+    add_custom_command(
+      OUTPUT ${manuals}/regoplan.1
+      COMMAND ${PROJECT_SOURCE_DIR}/cmake/manuals.sh $<TARGET_FILE:regoplan> ${PROJECT_VERSION} ${manuals}
+      DEPENDS regoplan ${PROJECT_SOURCE_DIR}/cmake/manuals.sh
+      VERBATIM)
+    add_custom_target(regoplan_manuals ALL DEPENDS ${manuals}/regoplan.1)
+    install(DIRECTORY ${manuals}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  endif()
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
   set(CPACK_GENERATOR DEB)
   set(CPACK_PACKAGE_CONTACT "the authors of regoplan <regoplan@localhost>")

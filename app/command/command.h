@@ -33,6 +33,10 @@ Command add_map_make_command(CLI::App& map);
 Command add_map_info_command(CLI::App& map);
 Command add_map_import_command(CLI::App& map);
 Command add_demo_command(CLI::App& program);
+Command add_vehicle_command(CLI::App& program);
+Command add_soil_command(CLI::App& program);
+Command add_scenario_command(CLI::App& program);
+Command add_completion_command(CLI::App& program);
 
 /// An option takes finite numbers in this range only.
 CLI::Validator in_range(const ValueRange& allowed);

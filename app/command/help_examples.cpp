@@ -1,0 +1,68 @@
+#include "app/command/help_examples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace regoplan {
+namespace {
+
+constexpr auto kExamples = std::to_array<HelpExamples>(
+    {{"demo", {"regoplan demo", "regoplan demo --time 60 --out my-demo"}},
+     {"plan",
+      {"regoplan plan scenario.yaml --out result",
+       "regoplan plan scenario.yaml --iterations 2000 --seed 7 --out result --json"}},
+     {"evaluate",
+      {"regoplan evaluate scenario.yaml path.csv --out result",
+       "regoplan evaluate scenario.yaml result/candidate-1.csv result/candidate-2.csv --out "
+       "judged"}},
+     {"benchmark",
+      {"regoplan benchmark suite.yaml --out part-1 --shard 1/4",
+       "regoplan benchmark merge part-1 part-2 --out whole"}},
+     {"diagnose",
+      {"regoplan diagnose recording.csv --setup setup.yaml --out result",
+       "regoplan diagnose test.csv --reference before.csv --setup setup.yaml --out result"}},
+     {"wheel",
+      {"regoplan wheel conditions.csv --model model.yaml --out forces.csv",
+       "regoplan wheel --figures figures"}},
+     {"mechanisms", {"regoplan mechanisms slip_sinkage", "regoplan mechanisms --json"}},
+     {"map make",
+      {"regoplan map make --out my-map", "regoplan map make --width-m 300 --seed 3 --out my-map"}},
+     {"map import",
+      {"regoplan map import --elevation dem.tif --soils soils.yaml --gravity-mps2 1.62 --vehicle "
+       "lrv "
+       "--out my-map",
+       "regoplan map import --elevation points.csv --soils soils.yaml --gravity-mps2 9.81 --out "
+       "my-map"}},
+     {"map info", {"regoplan map info my-map/scenario.yaml", "regoplan map info dem.tif --json"}},
+     {"vehicle", {"regoplan vehicle lrv > vehicle.yaml", "regoplan vehicle curiosity"}},
+     {"soil", {"regoplan soil firm_regolith > soils.yaml", "regoplan soil soft_patch"}},
+     {"scenario", {"regoplan scenario > scenario.yaml", "regoplan scenario --json"}},
+     {"completion",
+      {"regoplan completion bash > ~/.local/share/bash-completion/completions/regoplan",
+       "regoplan completion zsh > ~/.zfunc/_regoplan"}}});
+
+/// `map make` of the command `make` of the command `map` of the program.
+std::string name_of(const CLI::App& program, const CLI::App& command) {
+  const CLI::App* house = command.get_parent();
+  return house == nullptr || house == &program ? command.get_name()
+                                               : house->get_name() + " " + command.get_name();
+}
+
+}  // namespace
+
+const HelpExamples* help_examples(std::string_view command) {
+  const auto found = std::ranges::find(kExamples, command, &HelpExamples::command);
+  return found == kExamples.end() ? nullptr : &*found;
+}
+
+void add_help_examples(const CLI::App& program, const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    if (const HelpExamples* examples = help_examples(name_of(program, *command.parser))) {
+      command.parser->footer(
+          fmt::format("Examples:\n  {}\n  {}", examples->lines[0], examples->lines[1]));
+    }
+  }
+}
+
+}  // namespace regoplan

@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/command/command.h"
+#include "app/command/plan_options.h"
+#include "app/io/share_files.h"
+#include "app/settings/soil_settings.h"
+#include "app/settings/vehicle_settings.h"
+#include "app/starter_files/commented_yaml.h"
+
+namespace regoplan {
+namespace {
+
+struct PrintOptions {
+  std::string name;
+  bool json = false;
+  bool quiet = false;
+};
+
+ExitStatus print_file(const std::string& yaml, const PrintOptions& options) {
+  if (options.json) {
+    fmt::print("{}\n", nlohmann::json{{"yaml", yaml}}.dump(2));
+  } else {
+    fmt::print("{}", yaml);
+  }
+  return kYes;
+}
+
+std::string vehicle_file(const std::string& name) {
+  return fmt::format(
+      "# A vehicle's file, after the preset {}: `vehicle: FILE.yaml` in a scenario. Frame: x "
+      "forward, "
+      "y left,\n# origin on the ground below the centre of gravity.\n{}",
+      name, commented_yaml(vehicle_text(preset_vehicle(name))));
+}
+
+SoilCatalogue demo_soils() {
+  return read_soil_catalogue(read_settings(share_file("scenarios/demo/soils.yaml")),
+                             WheelVariant::kIshigami2007);
+}
+
+std::string soil_file(const std::string& name) {
+  const SoilCatalogue known = demo_soils();
+  const auto soil = std::ranges::find(known.soils, name, &MapSoil::name);
+  if (soil == known.soils.end()) {
+    std::vector<std::string> names;
+    for (const MapSoil& each : known.soils) names.push_back(each.name);
+    throw InputError(
+        fmt::format("soil: {} is not known (allowed: {})", name, fmt::join(names, " | ")));
+  }
+  const SoilCatalogue one{.soils = {*soil}, .classes = {{1, 0}}, .unmapped = 0};
+  return "# A soils file: `map: {soils: FILE.yaml}` in a scenario. A number, or {mean, std} where "
+         "it "
+         "is uncertain.\n" +
+         commented_yaml(soil_catalogue_text(one));
+}
+
+std::string scenario_file() {
+  const std::string file = share_file("examples/scenario.yaml");
+  std::ifstream stream(file, std::ios::binary);
+  std::stringstream text;
+  if (!stream || !(text << stream.rdbuf())) throw InputError(file + ": cannot be read");
+  return text.str();
+}
+
+Command print_command(CLI::App& parser, const std::shared_ptr<PrintOptions>& options,
+                      const std::function<std::string()>& text) {
+  add_output_flags(parser, options->json, options->quiet);
+  return {&parser, [options, text] { return print_file(text(), *options); }};
+}
+
+}  // namespace
+
+Command add_vehicle_command(CLI::App& program) {
+  const auto options = std::make_shared<PrintOptions>();
+  CLI::App* parser =
+      program.add_subcommand("vehicle", "Print a vehicle's file to copy, with comments.");
+  parser
+      ->add_option("NAME", options->name,
+                   fmt::format("{}", fmt::join(preset_vehicle_names(), ", ")))
+      ->required()
+      ->check(one_of(preset_vehicle_names()));
+  return print_command(*parser, options, [options] { return vehicle_file(options->name); });
+}
+
+Command add_soil_command(CLI::App& program) {
+  const auto options = std::make_shared<PrintOptions>();
+  CLI::App* parser =
+      program.add_subcommand("soil", "Print a soils file to copy, with comments and sources.");
+  parser->add_option("NAME", options->name, "firm_regolith, loose_regolith, soft_patch")
+      ->required();
+  return print_command(*parser, options, [options] { return soil_file(options->name); });
+}
+
+Command add_scenario_command(CLI::App& program) {
+  CLI::App* parser = program.add_subcommand(
+      "scenario", "Print a scenario to copy, with comments; it states its own ground and soil.");
+  return print_command(*parser, std::make_shared<PrintOptions>(), scenario_file);
+}
+
+}  // namespace regoplan
