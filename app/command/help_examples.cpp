@@ -11,7 +11,7 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
     {{"demo", {"regoplan demo", "regoplan demo --time 60 --out my-demo"}},
      {"plan",
       {"regoplan plan scenario.yaml --out result",
-       "regoplan plan scenario.yaml --iterations 2000 --seed 7 --out result --json"}},
+       "regoplan plan --again result/plan.json --out repeated"}},
      {"evaluate",
       {"regoplan evaluate scenario.yaml path.csv --out result",
        "regoplan evaluate scenario.yaml result/candidate-1.csv result/candidate-2.csv --out "

@@ -116,9 +116,21 @@ Json crs_json(const std::string& wkt) {
   return {{"type", "name"}, {"properties", {{"name", crs_name}}}};
 }
 
+/// What a repeated plan has in common with the earlier one; null where it repeats none.
+Json again_json(const PlanOrigin& origin, const Json& candidates,
+                const std::filesystem::path& folder) {
+  if (!origin.again) return nullptr;
+  std::error_code none;
+  const std::filesystem::path near = std::filesystem::proximate(origin.again->file, folder, none);
+  return {{"file", (none ? origin.again->file : near).generic_string()},
+          {"changed", changes_since(*origin.again, origin.inputs)},
+          {"same_candidates", candidates.dump() == origin.again->candidates}};
+}
+
 }  // namespace
 
-std::string plan_json(const PlanningProblem& problem, const PlanResult& result) {
+std::string plan_json(const PlanningProblem& problem, const PlanResult& result,
+                      const PlanOrigin& origin, const std::filesystem::path& folder) {
   Json rejected = Json::object();
   for (int i = 0; i < kRejectionCount; ++i) {
     rejected[std::string(name(static_cast<Rejection>(i)))] =
@@ -153,6 +165,8 @@ std::string plan_json(const PlanningProblem& problem, const PlanResult& result) 
             {"limits", limits_json(problem.limits)},
             {"objective", objective_json(problem.search.objective)},
             {"settings", effective_settings(problem)},
+            {"inputs", inputs_json(origin.inputs, folder)},
+            {"again", again_json(origin, candidates, folder)},
             {"overturned", list_json(result.overturned, overturned_json)},
             {"what_ifs", list_json(result.what_ifs, what_if_json)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -228,14 +242,15 @@ std::vector<std::string> plan_file_names(const PlanningProblem& problem) {
 }
 
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
-                      const ResultFolder& folder) {
+                      const ResultFolder& folder, const PlanOrigin& origin) {
   std::vector<RenderedFile> files{{"report.html", plan_report(problem, result)}};
   for (const Candidate& candidate : result.candidates) {
     files.push_back({candidate_file(candidate.rank, "csv"), candidate_csv(problem, candidate)});
     files.push_back(
         {candidate_file(candidate.rank, "geojson"), candidate_geojson(problem, candidate)});
   }
-  files.push_back({"plan.json", plan_json(problem, result)});  // last: it speaks for the others
+  files.push_back({"plan.json", plan_json(problem, result, origin,
+                                          folder.path)});  // last: it speaks for the others
   StagedFiles staged(folder);
   if (result.rasters) write_rasters(*result.rasters, staged);
   for (const RenderedFile& file : files) staged.write(file);

@@ -5,14 +5,22 @@
 #include <vector>
 
 #include "app/io/staged_files.h"
+#include "app/plan/earlier_plan.h"
 #include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
 
 namespace regoplan {
 
-/// The text of plan.json. Two runs of the same problem under an iteration budget differ in
-/// `planning_time_s`, `verification_time_s` and `first_verified_s` only.
-std::string plan_json(const PlanningProblem& problem, const PlanResult& result);
+/// Where a plan came from.
+struct PlanOrigin {
+  std::vector<InputFile> inputs = {};
+  std::optional<EarlierPlan> again = {};  ///< the plan that it repeats
+};
+
+/// The text of plan.json, to lie in `folder`. Two runs of the same problem under an iteration
+/// budget differ in `planning_time_s`, `verification_time_s` and `first_verified_s` only.
+std::string plan_json(const PlanningProblem& problem, const PlanResult& result,
+                      const PlanOrigin& origin = {}, const std::filesystem::path& folder = {});
 
 /// The table of a candidate's points: candidate-K.csv.
 std::string candidate_csv(const PlanningProblem& problem, const Candidate& candidate);
@@ -29,6 +37,6 @@ std::vector<std::string> plan_file_names(const PlanningProblem& problem);
 /// the same folder that are not written again.
 /// \throws InputError where the folder takes no files
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
-                      const ResultFolder& folder);
+                      const ResultFolder& folder, const PlanOrigin& origin = {});
 
 }  // namespace regoplan

@@ -1,6 +1,7 @@
 #include "app/plan/plan_run.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cstdio>
@@ -59,6 +60,14 @@ std::string summary(const PlanResult& result, const Limits& limits) {
   return text + fmt::format("rejected states: {}\n", rejected.empty() ? "none" : rejected);
 }
 
+std::string again_notice(const PlanOrigin& origin) {
+  const std::vector<std::string> changed = changes_since(*origin.again, origin.inputs);
+  return fmt::format("repeats {}: {}", origin.again->file.string(),
+                     changed.empty()
+                         ? "its inputs are as they were"
+                         : fmt::format("changed since then: {}", fmt::join(changed, ", ")));
+}
+
 ExitStatus status_of(const PlanResult& result) {
   if (result.interrupted) return kInterrupted;
   return result.status == PlanStatus::kFeasible ? kYes : kNo;
@@ -69,6 +78,8 @@ ExitStatus status_of(const PlanResult& result) {
 ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
   require_results_fit(output.folder, plan_file_names(scenario.problem));
   for (const std::string& notice : scenario.notices) notify(notice, output.quiet);
+  const PlanOrigin origin{.inputs = scenario.inputs, .again = output.again};
+  if (origin.again) notify(again_notice(origin), output.quiet);
   ProgressLine line(output.quiet);
   const auto say = [&](const std::string& text) {
     if (output.quiet || output.json) return;
@@ -86,8 +97,10 @@ ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
             .stop = stop_on_interrupt(),
             .started = kProgramStart});
   line.wipe();
-  write_plan_files(scenario.problem, result, output.folder);
-  if (output.json) fmt::print("{}", plan_json(scenario.problem, result));
+  write_plan_files(scenario.problem, result, output.folder, origin);
+  if (output.json) {
+    fmt::print("{}", plan_json(scenario.problem, result, origin, output.folder.path));
+  }
   say(fmt::format("report: {}\n", (output.folder.path / "report.html").string()));
   return status_of(result);
 }

@@ -2,14 +2,16 @@
 
 #include "app/command/command.h"
 #include "app/io/staged_files.h"
+#include "app/plan/earlier_plan.h"
 #include "app/settings/scenario_settings.h"
 
 namespace regoplan {
 
 struct PlanOutput {
   ResultFolder folder;
-  bool json = false;   ///< plan.json to standard output as well
-  bool quiet = false;  ///< neither notices, progress nor the table of candidates
+  bool json = false;                      ///< plan.json to standard output as well
+  std::optional<EarlierPlan> again = {};  ///< the plan that this one repeats
+  bool quiet = false;                     ///< neither notices, progress nor the table of candidates
 };
 
 /// Plans, shows progress, writes the result files and prints what came out.

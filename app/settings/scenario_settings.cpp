@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <thread>
 
 #include "app/settings/map_notices.h"
@@ -151,6 +152,24 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
                                                      : named_vehicle(node, folder);
 }
 
+/// The files of a scenario beside those of its map.
+std::vector<InputFile> inputs_of(const std::string& file, const SettingsNode& vehicle,
+                                 const std::filesystem::path& folder,
+                                 const ScenarioOverrides& overrides) {
+  std::vector<InputFile> inputs{input_file("scenario", file, file)};
+  if (vehicle.kind() != SettingsNode::Kind::kMapping) {
+    const std::vector<std::string> presets = preset_vehicle_names();
+    if (std::ranges::find(presets, vehicle.text()) == presets.end()) {
+      const NamedFile named = named_file(vehicle, folder);
+      inputs.push_back(input_file(vehicle.path(), named.path, named.shown));
+    }
+  }
+  if (overrides.model_file) {
+    inputs.push_back(input_file("model", *overrides.model_file, *overrides.model_file));
+  }
+  return inputs;
+}
+
 }  // namespace
 
 Search overridden(Search search, const ScenarioOverrides& overrides) {
@@ -171,8 +190,14 @@ Search overridden(Search search, const ScenarioOverrides& overrides) {
 ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& folder,
                      WheelVariant variant) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
-    const auto read_named = [&folder](const SettingsNode& name, auto read) {
-      return placed(name, [&] { return with_named_file(name, folder, read); });
+    std::vector<InputFile> inputs;
+    const auto read_named = [&](const SettingsNode& name, auto read) {
+      return placed(name, [&] {
+        return with_named_file(name, folder, [&](const NamedFile& file) {
+          inputs.push_back(input_file(name.path(), file.path, file.shown));
+          return read(file);
+        });
+      });
     };
     std::vector<std::string> notices;
 
@@ -191,7 +216,8 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
       SyntheticTerrain terrain = placed(*drawn, [&] { return draw_terrain(read_terrain(*drawn)); });
       return ScenarioMap{.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
                                            std::move(catalogue), std::move(terrain.rocks)),
-                         .notices = {}};
+                         .notices = {},
+                         .inputs = std::move(inputs)};
     }
     const SettingsNode& elevation_file = mapping.required("elevation");
     ElevationRaster elevation = read_named(
@@ -217,7 +243,8 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
     }
     return ScenarioMap{.map = TerrainMap(std::move(elevation), std::move(classes),
                                          std::move(catalogue), std::move(rocks)),
-                       .notices = std::move(notices)};
+                       .notices = std::move(notices),
+                       .inputs = std::move(inputs)};
   });
 }
 
@@ -260,7 +287,9 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
                     .limits = kept,
                     .search = search},
         .notices = std::move(read.notices),
-        .expectation = {}};
+        .expectation = {},
+        .inputs = inputs_of(file, vehicle_node, folder, overrides)};
+    std::ranges::move(read.inputs, std::back_inserter(scenario.inputs));
     if (expectation) {
       scenario.expectation = expectation->choice({"feasible", "infeasible"}) == 0
                                  ? PlanStatus::kFeasible

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/settings/input_files.h"
 #include "app/settings/settings_node.h"
 #include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
@@ -37,11 +38,13 @@ struct Scenario {
   PlanningProblem problem;
   std::vector<std::string> notices;       ///< for the person: what was taken to be so
   std::optional<PlanStatus> expectation;  ///< what the scenario says that it should come to
+  std::vector<InputFile> inputs = {};     ///< what it was read from, the scenario first
 };
 
 struct ScenarioMap {
   TerrainMap map;
   std::vector<std::string> notices;
+  std::vector<InputFile> inputs = {};
 };
 
 /// Reads SCENARIO.yaml and every file that it names, relative to it, and checks the whole.

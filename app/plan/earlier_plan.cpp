@@ -1,0 +1,101 @@
+#include "app/plan/earlier_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace regoplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kScenario = "scenario";
+constexpr const char* kModel = "model";
+
+/// `name` as it is found from here, where it stands in a file of `folder`.
+std::string from_here(const std::filesystem::path& folder, const std::string& name) {
+  return (folder / name).lexically_normal().string();
+}
+
+ScenarioOverrides overrides_of(const Json& planner) {
+  ScenarioOverrides overrides{.planner = planner.at("name").get<std::string>(),
+                              .seed = planner.at("seed").get<std::uint64_t>(),
+                              .candidates = planner.at("candidates").get<int>(),
+                              .improve = planner.at("improve").get<bool>()};
+  if (planner.contains("time_s")) overrides.time_s = planner["time_s"].get<double>();
+  if (planner.contains("iterations")) {
+    overrides.iterations = planner["iterations"].get<std::int64_t>();
+  }
+  return overrides;
+}
+
+EarlierPlan earlier_plan_of(const Json& json, const std::filesystem::path& file) {
+  EarlierPlan earlier{.file = file,
+                      .scenario = {},
+                      .overrides = overrides_of(json.at("settings").at("planner")),
+                      .version = json.at("version").get<std::string>(),
+                      .inputs = {},
+                      .candidates = json.at("candidates").dump()};
+  for (const Json& input : json.at("inputs")) {
+    const std::string name = from_here(file.parent_path(), input.at("file").get<std::string>());
+    const Json& digest = input.at("digest");
+    earlier.inputs.push_back({.key = input.at("key").get<std::string>(),
+                              .shown = name,
+                              .digest = digest.is_null() ? "" : digest.get<std::string>()});
+    if (earlier.inputs.back().key == kScenario) earlier.scenario = name;
+    if (earlier.inputs.back().key == kModel) earlier.overrides.model_file = name;
+  }
+  return earlier;
+}
+
+}  // namespace
+
+EarlierPlan read_earlier_plan(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file + ": cannot be read");
+  EarlierPlan earlier;
+  try {
+    earlier = earlier_plan_of(Json::parse(stream), file);
+  } catch (const Json::exception&) {
+    throw InputError(file + ": is no plan.json that says how it came about");
+  }
+  if (earlier.scenario.empty()) {
+    throw InputError(file + ": names no scenario (a demo is repeated by demo itself)");
+  }
+  return earlier;
+}
+
+std::vector<std::string> changes_since(const EarlierPlan& earlier,
+                                       const std::vector<InputFile>& inputs) {
+  std::vector<std::string> changed;
+  const auto differs = [](const std::vector<InputFile>& others, const InputFile& input) {
+    const auto other = std::ranges::find(others, input.key, &InputFile::key);
+    return other == others.end() || other->digest != input.digest;
+  };
+  for (const InputFile& input : earlier.inputs) {
+    if (differs(inputs, input)) changed.push_back(input.key);
+  }
+  for (const InputFile& input : inputs) {
+    if (std::ranges::find(earlier.inputs, input.key, &InputFile::key) == earlier.inputs.end()) {
+      changed.push_back(input.key);
+    }
+  }
+  if (earlier.version != REGOPLAN_VERSION) changed.emplace_back("version");
+  return changed;
+}
+
+Json inputs_json(const std::vector<InputFile>& inputs, const std::filesystem::path& folder) {
+  Json list = Json::array();
+  for (const InputFile& input : inputs) {
+    std::error_code none;
+    const std::filesystem::path near = std::filesystem::proximate(input.shown, folder, none);
+    list.push_back({{"key", input.key},
+                    {"file", (none ? input.shown : near).generic_string()},
+                    {"digest", input.digest.empty() ? Json(nullptr) : Json(input.digest)}});
+  }
+  return list;
+}
+
+}  // namespace regoplan

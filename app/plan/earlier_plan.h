@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "app/settings/scenario_settings.h"
+
+namespace regoplan {
+
+/// A plan that is to be repeated: what its plan.json says of how it came about.
+struct EarlierPlan {
+  std::filesystem::path file;
+  std::string scenario;         ///< its file, as it is found from here
+  ScenarioOverrides overrides;  ///< planner, seed, budget, candidates and model that it had
+  std::string version;
+  std::vector<InputFile> inputs;
+  std::string candidates;  ///< as plan.json has them
+};
+
+/// \throws InputError where the file is no plan.json, or names no scenario
+EarlierPlan read_earlier_plan(const std::string& file);
+
+/// Which inputs are not as they were, by their keys; `version` where the program is not.
+std::vector<std::string> changes_since(const EarlierPlan& earlier,
+                                       const std::vector<InputFile>& inputs);
+
+/// The inputs as plan.json states them, files relative to the folder that it lies in.
+nlohmann::ordered_json inputs_json(const std::vector<InputFile>& inputs,
+                                   const std::filesystem::path& folder);
+
+}  // namespace regoplan
