@@ -14,6 +14,8 @@ namespace regoplan {
 class GroundFinder {
  public:
   GroundFinder(const TerrainMap& map, const Vehicle& vehicle);
+  GroundFinder(TerrainMap&& gone, const Vehicle& vehicle) = delete;
+  GroundFinder(const TerrainMap& map, Vehicle&& gone) = delete;
 
   /// \param x_m, y_m below the centre of gravity \param yaw_rad heading from +x toward +y
   GroundPatch at(double x_m, double y_m, double yaw_rad) const;

@@ -1,6 +1,5 @@
 #include "planner/ompl/search_run.h"
 
-
 #include <chrono>
 #include <limits>
 

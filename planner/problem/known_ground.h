@@ -14,6 +14,7 @@ class KnownGround {
  public:
   /// \param map must outlive it
   explicit KnownGround(const TerrainMap& map);
+  explicit KnownGround(TerrainMap&& gone) = delete;
 
   /// Whether all of a square is; false also where a tile beside it is not.
   bool around(double x_m, double y_m, double half_m) const;

@@ -24,6 +24,8 @@ class Obstacles {
   /// is by as much, but no more than a tenth of its height over the ground
   /// \note map and vehicle must outlive it
   Obstacles(const TerrainMap& map, const Vehicle& vehicle, double clearance_m);
+  Obstacles(TerrainMap&& gone, const Vehicle& vehicle, double clearance_m) = delete;
+  Obstacles(const TerrainMap& map, Vehicle&& gone, double clearance_m) = delete;
   ~Obstacles();
   Obstacles(const Obstacles&) = delete;
   Obstacles& operator=(const Obstacles&) = delete;

@@ -28,6 +28,10 @@ class MarginJudge {
   /// Solves every manoeuvre with the wheels' laws. \param dynamics \param soil_laws must outlive it
   MarginJudge(const VehicleDynamics& dynamics, std::span<const WheelLaw> soil_laws,
               const StrainLimits& strain);
+  MarginJudge(VehicleDynamics&& gone, std::span<const WheelLaw> soil_laws,
+              const StrainLimits& strain) = delete;
+  MarginJudge(const VehicleDynamics& dynamics, std::vector<WheelLaw>&& gone,
+              const StrainLimits& strain) = delete;
 
   /// From now on looks supply up in tables where they know the manoeuvre (forward, without crab):
   /// as fast as searches need it, within the bound that `SupplyTable` documents.

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "terramech/parameters/ground_patch.h"
 #include "terramech/parameters/vehicle.h"
@@ -79,6 +80,8 @@ class VehicleDynamics {
   VehicleDynamics(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws, Ground ground,
                   double gravity_mps2);
   VehicleDynamics(Vehicle&& gone, std::span<const WheelLaw> soil_laws, Ground ground,
+                  double gravity_mps2) = delete;
+  VehicleDynamics(const Vehicle& vehicle, std::vector<WheelLaw>&& gone, Ground ground,
                   double gravity_mps2) = delete;
 
   /// The state after `duration_s` under a constant control. Second order in the duration.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+
 #include "terramech/wheel/sloped_forces.h"
 #include "terramech/wheel/wheel_model.h"
 
@@ -21,6 +23,9 @@ class WheelLaw {
       };
     }
   }
+
+  template <class Source>
+  requires(!std::same_as<Source, WheelLaw>) explicit WheelLaw(const Source&& gone) = delete;
 
   /// \param load_n above 0
   WheelForces forces(double load_n, const WheelMotion& motion) const {

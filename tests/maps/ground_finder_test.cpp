@@ -55,7 +55,8 @@ TEST(GroundFinder, TellsTheCurvatureAlongTheHeading) {
   EXPECT_NEAR(finder.at(0, 0, 0).curvature_1pm, 0.04, 0.002);
   EXPECT_NEAR(finder.at(0, 0, 180 * kDegree).curvature_1pm, 0.04, 0.002);
   EXPECT_NEAR(finder.at(0, 0, 90 * kDegree).curvature_1pm, 0, 1e-5);
-  EXPECT_NEAR(GroundFinder(map_with(sloping), vehicle).at(1, 2, 0.4).curvature_1pm, 0, 1e-5);
+  const TerrainMap slope = map_with(sloping);
+  EXPECT_NEAR(GroundFinder(slope, vehicle).at(1, 2, 0.4).curvature_1pm, 0, 1e-5);
 }
 
 TEST(GroundFinder, ReproducesAPlaneAtEveryHeading) {

@@ -1,7 +1,6 @@
 // What somebody else's program relies on: the same verdict as plan's, OMPL's log and the process's
 // threads left alone, no reference to what is gone.
 #include <gtest/gtest.h>
-#include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/util/Console.h>
 
@@ -10,6 +9,7 @@
 #include <thread>
 #include <type_traits>
 
+#include "planner/ompl/iteration_termination.h"
 #include "planner/ompl/ompl_planners.h"
 #include "planner/ompl/ompl_problem.h"
 #include "planner/plan.h"
@@ -120,6 +120,27 @@ TEST(LibraryUse, APlanAmongThreadsIsRefusedWithTheReason) {
   other.request_stop();
   other.join();
   EXPECT_NO_THROW(SingleThread());
+}
+
+TEST(LibraryUse, NothingThatIsKeptByReferenceBindsToATemporary) {
+  using Laws = std::vector<WheelLaw>;
+  static_assert(std::is_constructible_v<WheelLaw, const WheelModel&>);
+  static_assert(!std::is_constructible_v<WheelLaw, WheelModel>);
+  static_assert(std::is_copy_constructible_v<WheelLaw> && std::is_move_constructible_v<WheelLaw>);
+  using Ground = VehicleDynamics::Ground;
+  static_assert(std::is_constructible_v<VehicleDynamics, Vehicle&, Laws&, Ground, double>);
+  static_assert(!std::is_constructible_v<VehicleDynamics, Vehicle, Laws&, Ground, double>);
+  static_assert(!std::is_constructible_v<VehicleDynamics, Vehicle&, Laws, Ground, double>);
+  static_assert(std::is_constructible_v<MarginJudge, VehicleDynamics&, Laws&, StrainLimits>);
+  static_assert(!std::is_constructible_v<MarginJudge, VehicleDynamics, Laws&, StrainLimits>);
+  static_assert(!std::is_constructible_v<MarginJudge, VehicleDynamics&, Laws, StrainLimits>);
+  static_assert(std::is_constructible_v<GroundFinder, TerrainMap&, Vehicle&>);
+  static_assert(!std::is_constructible_v<GroundFinder, TerrainMap, Vehicle&>);
+  static_assert(!std::is_constructible_v<GroundFinder, TerrainMap&, Vehicle>);
+  static_assert(!std::is_constructible_v<Obstacles, TerrainMap, Vehicle&, double>);
+  static_assert(!std::is_constructible_v<Obstacles, TerrainMap&, Vehicle, double>);
+  static_assert(!std::is_constructible_v<World, PlanningProblem, WorldUse, int>);
+  static_assert(!std::is_constructible_v<OmplProblem, World, SearchGuidance>);
 }
 
 }  // namespace
