@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/error_text.h"
+#include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
 
 namespace regoplan {
@@ -49,6 +50,7 @@ TEST_F(Diagnose, TheBuiltInRecordingIsExplainedTheSameWhateverTheThreads) {
   ASSERT_EQ(run.status, 0) << run.errors;
   const auto d = nlohmann::json::parse(run.output);
   EXPECT_EQ(folder_.read("out/diagnosis.json"), run.output);
+  EXPECT_EQ(schema("diagnosis").errors(d), std::vector<std::string>());
   EXPECT_TRUE(d["verdict"] == "named" || d["verdict"] == "class") << d["verdict"];
   ASSERT_EQ(d["mechanisms"].size(), 1u);
   std::vector<std::string> ids = d["mechanisms"][0]["equivalent"];
