@@ -37,6 +37,7 @@ Command add_vehicle_command(CLI::App& program);
 Command add_soil_command(CLI::App& program);
 Command add_scenario_command(CLI::App& program);
 Command add_completion_command(CLI::App& program);
+Command add_export_command(CLI::App& program);
 
 /// An option takes finite numbers in this range only.
 CLI::Validator in_range(const ValueRange& allowed);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/io/staged_files.h"
-#include "app/plan/earlier_plan.h"
+#include "app/settings/earlier_plan.h"
 #include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
 

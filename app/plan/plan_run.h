@@ -2,7 +2,7 @@
 
 #include "app/command/command.h"
 #include "app/io/staged_files.h"
-#include "app/plan/earlier_plan.h"
+#include "app/settings/earlier_plan.h"
 #include "app/settings/scenario_settings.h"
 
 namespace regoplan {

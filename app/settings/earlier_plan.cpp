@@ -1,4 +1,4 @@
-#include "app/plan/earlier_plan.h"
+#include "app/settings/earlier_plan.h"
 
 #include <fmt/format.h>
 

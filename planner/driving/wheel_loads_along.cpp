@@ -36,7 +36,7 @@ std::vector<std::vector<double>> wheel_loads_along_n(const PlanningProblem& prob
                                                      std::span<const TrajectoryPoint> points) {
   const GroundFinder ground(problem.map, problem.vehicle);
   const VehicleDynamics dynamics(
-      problem.vehicle, {},
+      problem.vehicle, std::span<const WheelLaw>(),
       [&](double x_m, double y_m, double yaw_rad) { return ground.at(x_m, y_m, yaw_rad); },
       problem.gravity_mps2);
   std::vector<std::vector<double>> loads;

@@ -31,9 +31,7 @@ PlanningProblem across_open_ground(const std::string& planner) {
 /// verdict of what it finds.
 Candidate own_verdict(const World& searched, const World& verdict, const SearchRun& run) {
   OmplProblem ours(searched, run.guidance);
-  const auto definition = std::make_shared<ompl::base::ProblemDefinition>(ours.space());
-  ours.pose(*definition);
-  ompl::base::PlannerPtr planner;
+  ompl::base::PlannerPtr planner;  // first, as in plan: OMPL hands out seeds in order of creation
   if (run.planner == "RRT") {
     auto rrt = std::make_shared<ompl::control::RRT>(ours.space());
     rrt->setGoalBias(0.1);
@@ -42,6 +40,8 @@ Candidate own_verdict(const World& searched, const World& verdict, const SearchR
   } else {
     planner = make_planner(run.planner, ours);
   }
+  const auto definition = std::make_shared<ompl::base::ProblemDefinition>(ours.space());
+  ours.pose(*definition);
   planner->setProblemDefinition(definition);
   planner->setup();
   ompl::base::IterationTerminationCondition bound(static_cast<unsigned int>(*run.iterations));
