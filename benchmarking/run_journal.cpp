@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "terramech/basics/input_error.h"
 
@@ -122,6 +124,17 @@ std::string errno_text() {
   return std::strerror(errno);
 }
 
+/// \returns whether the file is this process's. The runs of a benchmark that was just killed hold
+/// its file until they, too, have ended: they are waited for.
+bool lock(int descriptor) {
+  constexpr int kTries = 40;
+  for (int i = 0; i < kTries; ++i) {
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
 }  // namespace
 
 RunJournal::RunJournal(const std::filesystem::path& folder, const JournalOrigin& origin)
@@ -133,7 +146,7 @@ RunJournal::RunJournal(const std::filesystem::path& folder, const JournalOrigin&
     throw InputError(fmt::format("{}: cannot be opened ({})", file_.string(), errno_text()));
   }
   try {
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (!lock(descriptor_)) {
       throw InputError(file_.string() + ": another benchmark is writing to it");
     }
     const ParsedJournal before = parse(file_);
