@@ -15,7 +15,7 @@ page() {  # words of the command, none for the program itself
 }
 
 commands_of() {  # those that the help of a command lists
-  "$program" "$@" --help | sed -n '/^Subcommands:/,$s/^  \([a-z]\+\) .*/\1/p'
+  "$program" "$@" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\+\) .*/\1/p'
 }
 
 page

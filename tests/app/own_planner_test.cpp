@@ -24,6 +24,7 @@ class OwnPlanner : public testing::Test {
         fmt::format("name: own\nscenarios: [scenario.yaml]\nplanners: [{}]\nseeds: 2\ntime_s: 30\n"
                     "iterations: 60\nsoil_draws: 2\n",
                     planners));
+    std::filesystem::remove_all(folder_.path("out"));
     const std::string out = folder_.path("out");
     const std::array<const char*, 5> arguments{"mine", suite.c_str(), "--out", out.c_str(),
                                                "--quiet"};

@@ -28,6 +28,7 @@ TEST(Schemas, HoldWhatTheWritersWriteOfEverything) {
   expect_kept("plan", plan_json(problem, report_test_result(problem)));
 
   PathEvaluation evaluation{.name = "path", .refusal = Refusal{.reason = Rejection::kSlope}};
+  evaluation.rank = 1;
   evaluation.cornering_limit = CorneringLimit{.wheel = "front_left", .fold_n = 1};
   evaluation.spread.influences = {{.soil = "mare", .parameter = "kphi"}};
   const EvaluatedPath given{.evaluation = evaluation, .recorded_margin_min = 0.5};

@@ -88,7 +88,7 @@ deb)
   trap 'chmod -R u+w "$folder/root"' EXIT
   work=$(mktemp -d)
   chmod 777 "$work"
-  (cd "$work" && another_user "$folder/root/usr/bin/regoplan" demo --time 3 --quiet --out result)
+  (cd "$work" && another_user "$folder/root/usr/bin/regoplan" demo --planner Lattice --iterations 20000 --candidates 1 --quiet --out result)
   test -s "$work/result/report.html"
   rm -r "$work"
   chmod -R u+w "$folder/root/usr"
