@@ -16,6 +16,7 @@
 #include "diagnosis/names/name_contest.h"
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -30,7 +31,7 @@ class Diagnosing {
   Diagnosing(const Recording& recording, const DiagnosisSetup& setup,
              const DiagnosisOptions& options)
       : options_(options),
-        calibrated_(recording, setup),
+        calibrated_(recording, setup, options.stop),
         effects_(effects_for(calibrated_.bed(), recording)),
         effects_in_part_(effects_for(calibrated_.bed(), recording, EffectsOf::kPart)) {
     found_.soil = calibrated_.soil_pulls();
@@ -39,36 +40,51 @@ class Diagnosing {
     add_notes(instrument_checks(calibrated_.recording()));
   }
 
+  /// Interrupted, the stages that are complete.
   Diagnosis run() {
-    tell("testing for lack of fit", 0.05);
-    detect();
-    tell("locating the mismatch", 0.1);
-    if (rejected_ && !stopped()) {
-      found_.where = locate(calibrated_.recording(), calibrated_.remainder_of(calibrated_.base()),
-                            options_.seed + 1);
-      tell_when();
+    complete_ = found_;
+    complete_.verdict = Verdict::kUndecided;
+    try {
+      find();
+    } catch (const Interrupted&) {
+      found_ = std::move(complete_);
+      found_.interrupted = true;
     }
-    tell("scoring what may be wrong", 0.15);
-    score();
-    tell("proving it on held-out conditions", 0.85);
-    decide();
-    list_ranking();
-    const bool nothing_missing =
-        found_.verdict == Verdict::kConsistent || found_.verdict == Verdict::kParameters;
-    if (nothing_missing && !stopped()) {
-      found_.smallest_detectable = smallest_detectable(calibrated_.problem(), calibrated_.base(),
-                                                       effects_, found_.before.critical);
-    }
-    tell("choosing the next experiment", 0.95);
-    if (!nothing_missing && !stopped()) found_.next_experiments = experiments();
-    found_.interrupted = stopped();
     found_.sentence = sentence_of(found_);
-    tell("done", 1);
     return std::move(found_);
   }
 
  private:
-  bool stopped() const { return options_.stop.stop_requested(); }
+  void find() {
+    tell("testing for lack of fit", 0.05);
+    detect();
+    tell("locating the mismatch", 0.1);
+    if (rejected_) {
+      found_.where = locate(calibrated_.recording(), calibrated_.remainder_of(calibrated_.base()),
+                            options_.seed + 1);
+      tell_when();
+    }
+    complete_.before = found_.before;
+    complete_.after = found_.before;
+    complete_.where = found_.where;
+    tell("scoring what may be wrong", 0.15);
+    score();
+    complete_.ranking = ranking();
+    tell("proving it on held-out conditions", 0.85);
+    decide();
+    found_.ranking = found_.verdict == Verdict::kPartly ? std::move(partial_ranking_) : ranking();
+    complete_ = found_;
+    const bool nothing_missing =
+        found_.verdict == Verdict::kConsistent || found_.verdict == Verdict::kParameters;
+    if (nothing_missing) {
+      found_.smallest_detectable = smallest_detectable(calibrated_.problem(), calibrated_.base(),
+                                                       effects_, found_.before.critical);
+    }
+    tell("choosing the next experiment", 0.95);
+    if (!nothing_missing) found_.next_experiments = experiments();
+    tell("done", 1);
+  }
+
   void tell(std::string_view what, double share) const {
     if (options_.progress) options_.progress(what, share);
   }
@@ -137,11 +153,10 @@ class Diagnosing {
   }
 
   void score() {
-    scored_ = score_candidates(
-        calibrated_.problem(), calibrated_.wide_problem(), effects_,
-        {.threads = options_.threads, .stop = options_.stop, .progress = [&](double share) {
-           tell("scoring what may be wrong", 0.15 + 0.7 * share);
-         }});
+    scored_ = score_candidates(calibrated_.problem(), calibrated_.wide_problem(), effects_,
+                               {.threads = options_.threads, .progress = [&](double share) {
+                                  tell("scoring what may be wrong", 0.15 + 0.7 * share);
+                                }});
     double parameters = -INFINITY, named = -INFINITY;
     for (const ScoredId& s : scored_) {
       if (s.id == "parameters") parameters = s.score;
@@ -200,8 +215,8 @@ class Diagnosing {
   /// Names that stand beside an unnamed remainder.
   bool named_in_part() {
     tell("scoring names beside a remainder", 0.88);
-    PartialDecision part = decide_partly(calibrated_, effects_in_part_, options_.seed + 2,
-                                         options_.threads, options_.stop);
+    PartialDecision part =
+        decide_partly(calibrated_, effects_in_part_, options_.seed + 2, options_.threads);
     found_.chance_nats = part.chance_nats;
     if (!part.claim) {
       if (!part.refused.empty()) found_.notes.push_back("no name in part: " + part.refused);
@@ -272,16 +287,14 @@ class Diagnosing {
     }
   }
 
-  void list_ranking() {
-    if (found_.verdict == Verdict::kPartly) {
-      found_.ranking = partial_ranking_;
-      return;
-    }
+  std::vector<ScoredCandidate> ranking() const {
+    std::vector<ScoredCandidate> all;
     const auto parameters =
         std::ranges::find_if(scored_, [](const ScoredId& s) { return s.id == "parameters"; });
     for (const ScoredId& s : scored_) {
-      found_.ranking.push_back({s.id, s.probability, s.score - parameters->score});
+      all.push_back({s.id, s.probability, s.score - parameters->score});
     }
+    return all;
   }
 
   /// Between the names of the claim, or else the likeliest.
@@ -307,6 +320,7 @@ class Diagnosing {
   bool rejected_ = false;      // that, or a name far better than calibration alone
   bool consistent_ = false;
   Diagnosis found_;
+  Diagnosis complete_;  // the stages of it that are
 };
 
 }  // namespace
@@ -314,7 +328,11 @@ class Diagnosing {
 Diagnosis diagnose(const Recording& recording, const DiagnosisSetup& setup,
                    const DiagnosisOptions& options) {
   if (options.progress) options.progress("calibrating the soil numbers", 0.02);
-  return Diagnosing(recording, setup, options).run();
+  try {
+    return Diagnosing(recording, setup, options).run();
+  } catch (const Interrupted&) {  // before there was a calibrated model
+    return undecided(recording);
+  }
 }
 
 }  // namespace regoplan

@@ -14,6 +14,8 @@ namespace regoplan {
 struct DiagnosisOptions {
   std::uint64_t seed = 1;
   int threads = 2;
+  /// A request ends the diagnosis within a second with the stages that are complete, marked
+  /// interrupted.
   std::stop_token stop = {};
   /// Told what is being done and how much of it is, in [0, 1].
   std::function<void(std::string_view, double)> progress = {};

@@ -17,11 +17,12 @@
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
 
-constexpr std::size_t kFewestConditions = 3;
+constexpr std::size_t kFewestToCompare = 3;
 constexpr double kSignificance = 1e-3;  // of a difference, under every setting of the base
 constexpr int kWorlds = 79;             // nameless differences
 
@@ -112,7 +113,7 @@ class Differing {
       condense_reference(restricted(reference.recording, channels), reference);
       lend_noise(references_.back(), test_setup);
     }
-    test_ = condense(test_recording_, test_setup, kFewestConditions);
+    test_ = condense(test_recording_, test_setup, kFewestToCompare, options_.stop);
     std::vector<CondensedRecording*> all{&test_};
     for (CondensedRecording& reference : references_) all.push_back(&reference);
     pool_noise(all);
@@ -124,7 +125,22 @@ class Differing {
     choose_effects(setup, references);
   }
 
+  /// Interrupted, the stages that are complete.
   Diagnosis run() {
+    complete_ = found_;
+    complete_.verdict = Verdict::kUndecided;
+    try {
+      find();
+    } catch (const Interrupted&) {
+      found_ = std::move(complete_);
+      found_.interrupted = true;
+    }
+    found_.sentence = sentence_of(found_);
+    return std::move(found_);
+  }
+
+ private:
+  void find() {
     tell("taking off what test and reference share", 0.05);
     for (const SharedBase base :
          {SharedBase::kPriorMeans, SharedBase::kCalibrated, SharedBase::kSinkageImposed}) {
@@ -141,19 +157,17 @@ class Differing {
       found_.where = locate(primary().calibrated->recording(),
                             primary().calibrated->remainder_of(primary().calibrated->base()),
                             options_.seed + 1);
+      complete_.before = found_.before;
+      complete_.after = found_.before;
+      complete_.where = found_.where;
       tell("scoring what may differ", 0.15);
       contest();
       tell("proving it on held-out conditions", 0.8);
       decide();
     }
-    found_.interrupted = stopped();
-    found_.sentence = sentence_of(found_);
     tell("done", 1);
-    return std::move(found_);
   }
 
- private:
-  bool stopped() const { return options_.stop.stop_requested(); }
   void tell(std::string_view what, double share) const {
     if (options_.progress) options_.progress(what, share);
   }
@@ -163,7 +177,7 @@ class Differing {
     DiagnosisSetup setup = reference.setup;
     for (const CondensedRecording& before : references_) lend_noise(before, setup);
     try {
-      references_.push_back(condense(recording, setup, kFewestConditions));
+      references_.push_back(condense(recording, setup, kFewestToCompare, options_.stop));
     } catch (const InputError& bad) {
       throw InputError(fmt::format("reference {}: {}", reference.name, bad.what()));
     }
@@ -201,12 +215,10 @@ class Differing {
 
   void contest() {
     for (Treatment& t : treatments_) {
-      if (stopped()) return;
       t.contest = std::make_unique<CappedContest>(*t.calibrated);
-      t.names = t.contest->score(effects_, nullptr, options_.threads, options_.stop);
+      t.names = t.contest->score(effects_, nullptr, options_.threads);
       tell("scoring what may differ", 0.2 + 0.15 * static_cast<double>(&t - treatments_.data()));
     }
-    if (stopped()) return;
     tell("simulating nameless differences", 0.6);
     reached_ =
         primary().contest->by_chance(primary().names, kWorlds, options_.seed + 2, options_.threads);
@@ -268,11 +280,8 @@ class Differing {
   }
 
   void decide() {
-    if (!stopped()) found_.ranking = capped_ranking(primary().names, chance_p());
-    if (stopped()) {
-      no_name();
-      return;
-    }
+    found_.ranking = capped_ranking(primary().names, chance_p());
+    complete_.ranking = found_.ranking;
     const auto order = in_order();
     NameClass claimed;
     for (const auto& [sum, id] : order) {
@@ -307,7 +316,7 @@ class Differing {
         first_claim(*t.calibrated, t.names, claimed.ids, chance_p(), options_.threads);
     if (claimed.ids.size() == 1) {
       add_further_names(*t.calibrated, *t.contest, effects_, t.find(claimed.ids.front())->gain_nats,
-                        options_.threads, options_.stop, partial);
+                        options_.threads, partial);
     }
     const CandidateFit& fit = partial.fit;
     found_.names_added = steps_of(*t.calibrated, partial, options_.threads);
@@ -348,9 +357,7 @@ class Differing {
       if (rivals.size() == kMostRivals) break;
       rivals.push_back({.id = name.id, .score = name.gain_nats, .fit = name.fit});
     }
-    if (!stopped()) {
-      found_.next_experiments = next_experiments(primary().calibrated->problem(), rivals);
-    }
+    found_.next_experiments = next_experiments(primary().calibrated->problem(), rivals);
   }
 
   /// Figures are of the difference; the model handed out is of the test as it was measured, with
@@ -404,6 +411,7 @@ class Differing {
   std::vector<Treatment> treatments_;
   std::vector<ByChance> reached_;  // by names in nameless differences, the soil calibrated
   Diagnosis found_;
+  Diagnosis complete_;  // the stages of it that are
 };
 
 }  // namespace
@@ -412,7 +420,11 @@ Diagnosis diagnose_difference(const Recording& test, const DiagnosisSetup& setup
                               const std::vector<Reference>& references,
                               const DiagnosisOptions& options) {
   if (options.progress) options.progress("reading test and reference alike", 0.02);
-  return Differing(test, setup, references, options).run();
+  try {
+    return Differing(test, setup, references, options).run();
+  } catch (const Interrupted&) {  // before test and references could be compared
+    return undecided(test);
+  }
 }
 
 }  // namespace regoplan

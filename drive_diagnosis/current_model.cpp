@@ -9,6 +9,7 @@
 
 #include "drive_diagnosis/robust_statistics.h"
 #include "drive_diagnosis/sensor_checks.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -85,10 +86,12 @@ struct Predictions {
   std::vector<std::array<double, 2>> model_a, constant_a;
 };
 
-Predictions held_out_predictions(const Windows& windows, const Groups& groups) {
+Predictions held_out_predictions(const Windows& windows, const Groups& groups,
+                                 const std::stop_token& stop) {
   Predictions result{std::vector<std::array<double, 2>>(windows.size()),
                      std::vector<std::array<double, 2>>(windows.size())};
   for (const int group : std::set<int>(groups.begin(), groups.end())) {
+    throw_if_stopped(stop);
     std::vector<double> weights(windows.size());
     for (std::size_t i = 0; i < windows.size(); ++i) weights[i] = groups[i] == group ? 0 : 1;
     const CurrentModel model = fit(windows, weights);
@@ -187,7 +190,7 @@ std::optional<DriveEstimate> standing_excess(const std::vector<DriveRecording>& 
 
 Windows steady_windows(const std::vector<DriveRecording>& drives,
                        const std::vector<DriveWindow>& windows,
-                       const std::vector<Mounting>& mountings, double yaw_sign, bool swapped) {
+                       const std::vector<Mounting>& mountings, bool swapped) {
   Windows chosen;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const DriveWindow& window = windows[i];
@@ -210,7 +213,7 @@ Windows steady_windows(const std::vector<DriveRecording>& drives,
                                                            : 1;
     }
     at.sin_pitch = std::sin(window.pitch_rad - pitch_offset_rad(mountings, drive.day));
-    at.yaw_rate_rad_s = yaw_sign * window.yaw_rate_rad_s;
+    at.yaw_rate_rad_s = window.yaw_rate_rad_s;
     const double all = at.current_a[0] + at.current_a[1] + at.sin_pitch + at.yaw_rate_rad_s;
     if (!std::isnan(all)) chosen.push_back(at);
   }
@@ -219,7 +222,7 @@ Windows steady_windows(const std::vector<DriveRecording>& drives,
 
 /// Draws whole clusters of windows again and again (the drives; of a few drives, their stretches).
 void draw_excess(const Windows& windows, const Groups& clusters, std::uint64_t seed,
-                 CurrentDiagnosis& result) {
+                 const std::stop_token& stop, CurrentDiagnosis& result) {
   const std::set<int> distinct(clusters.begin(), clusters.end());
   const std::vector<int> ids(distinct.begin(), distinct.end());
   result.clusters = static_cast<int>(ids.size());
@@ -227,6 +230,7 @@ void draw_excess(const Windows& windows, const Groups& clusters, std::uint64_t s
   constexpr int kDraws = 400;
   std::vector<double> excess, ratio;
   for (int draw = 0; draw < kDraws; ++draw) {
+    throw_if_stopped(stop);
     std::map<int, double> times;
     for (std::size_t i = 0; i < ids.size(); ++i) times[ids[random() % ids.size()]] += 1;
     std::vector<double> weights;
@@ -292,9 +296,9 @@ double CurrentModel::current_a(int side, const CurrentWindow& window) const {
 std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecording>& drives,
                                                   const std::vector<DriveWindow>& windows,
                                                   const std::vector<Mounting>& mountings,
-                                                  double yaw_sign, bool sides_swapped,
-                                                  std::uint64_t seed) {
-  const Windows chosen = steady_windows(drives, windows, mountings, yaw_sign, sides_swapped);
+                                                  bool sides_swapped, std::uint64_t seed,
+                                                  const std::stop_token& stop) {
+  const Windows chosen = steady_windows(drives, windows, mountings, sides_swapped);
   constexpr std::size_t kLeast = 30;
   if (chosen.size() < kLeast) return {};
   CurrentDiagnosis result;
@@ -302,14 +306,14 @@ std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecordi
   result.model = fit(chosen, std::vector<double>(chosen.size(), 1.0));
   std::string kind;
   const Groups groups = groups_of(chosen, drives, windows, kind);
-  const Predictions predicted = held_out_predictions(chosen, groups);
+  const Predictions predicted = held_out_predictions(chosen, groups, stop);
   result.held_out = judge(chosen, predicted);
   result.held_out.held_out = kind;
   Groups clusters = groups;
   if (kind == "day") {
     for (std::size_t i = 0; i < chosen.size(); ++i) clusters[i] = static_cast<int>(chosen[i].drive);
   }
-  draw_excess(chosen, clusters, seed, result);
+  draw_excess(chosen, clusters, seed, stop, result);
   result.standing_excess_a = standing_excess(drives, windows, sides_swapped);
   name_excess(result);
   return result;

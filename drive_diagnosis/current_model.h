@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -74,11 +75,11 @@ struct CurrentDiagnosis {
 
 /// Fits and judges the currents of both sides. Nothing where fewer than 30 windows drive steadily
 /// with currents and attitude.
-/// \param mountings by day, as `find_mountings` gives them
+/// \param mountings by day, as `find_mountings` gives them \throws Interrupted
 std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecording>& drives,
                                                   const std::vector<DriveWindow>& windows,
                                                   const std::vector<Mounting>& mountings,
-                                                  double yaw_sign, bool sides_swapped,
-                                                  std::uint64_t seed);
+                                                  bool sides_swapped, std::uint64_t seed,
+                                                  const std::stop_token& stop = {});
 
 }  // namespace regoplan

@@ -8,6 +8,7 @@
 #include "drive_diagnosis/time_checks.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -183,21 +184,15 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
        "(up to 23 deg), with sinkage recorded"});
 }
 
-}  // namespace
-
-DriveDiagnosis diagnose_drives(std::vector<DriveRecording> drives, const DriveSetup& setup,
-                               const DriveDiagnosisOptions& options) {
-  DriveDiagnosis result;
+void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
+                  const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
   const double speed_max_mps = setup.vehicle ? setup.vehicle->speed_max_mps : 10;
   for (std::size_t i = 0; i < drives.size(); ++i) {
     if (options.progress) {
       options.progress("reading windows",
                        static_cast<double>(i) / static_cast<double>(drives.size()));
     }
-    if (options.stop.stop_requested()) {
-      result.interrupted = true;
-      break;
-    }
+    throw_if_stopped(options.stop);
     mend_positions(drives[i], speed_max_mps);
     std::vector<DriveWindow> windows = drive_windows(drives[i], i, setup.window_s);
     if (windows.empty()) {
@@ -223,21 +218,40 @@ DriveDiagnosis diagnose_drives(std::vector<DriveRecording> drives, const DriveSe
     throw InputError(fmt::format("{}: no {:.0f} s of driving without a gap in {} samples",
                                  drives.front().file, setup.window_s, drives.front().size()));
   }
+}
+
+/// What the windows of all drives say together.
+void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
+             const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
   SensorChecks checks = check_sensors(drives, result.windows, sides_of(setup.vehicle));
   mend_yaw(checks, setup.window_s, drives, result.windows);
   for (DriveWindow& window : result.windows) window.sensed_speed_mps /= checks.sensed_speed_per_mps;
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
+  throw_if_stopped(options.stop);
   check_place(setup, drives, result);
   result.mountings = find_mountings(drives, result.windows, setup.map);
+  throw_if_stopped(options.stop);
   judge_mounting(setup, result);
-  result.currents = diagnose_currents(drives, result.windows, result.mountings, 1,
-                                      checks.current_sides_swapped, options.seed);
+  result.currents = diagnose_currents(drives, result.windows, result.mountings,
+                                      checks.current_sides_swapped, options.seed, options.stop);
   if (result.currents) claim_side_drag(result);
-  result.interrupted = result.interrupted || options.stop.stop_requested();
   say_what_is_silent(setup, drives, result);
   const bool a_class = std::ranges::any_of(
       result.claims, [](const DriveClaim& claim) { return claim.equivalent.size() > 1; });
   result.verdict = result.claims.empty() ? "consistent" : a_class ? "class" : "named";
+}
+
+}  // namespace
+
+DriveDiagnosis diagnose_drives(std::vector<DriveRecording> drives, const DriveSetup& setup,
+                               const DriveDiagnosisOptions& options) {
+  DriveDiagnosis result;
+  try {
+    read_windows(drives, setup, options, result);
+    compare(drives, setup, options, result);
+  } catch (const Interrupted&) {
+    result.interrupted = true;
+  }
   return result;
 }
 

@@ -58,7 +58,7 @@ struct SilentEffect {
 };
 
 struct DriveDiagnosis {
-  std::string verdict;  ///< consistent | parameters | named | class
+  std::string verdict = "undecided";  ///< | consistent | parameters | named | class
   std::vector<DriveClaim> claims;
   std::vector<DriveMismatch> where;
   std::vector<DriveFinding> findings;
@@ -72,6 +72,7 @@ struct DriveDiagnosis {
 
 struct DriveDiagnosisOptions {
   std::uint64_t seed = 1;
+  /// A request ends the diagnosis within a second with what was found by then, marked interrupted.
   std::stop_token stop = {};
   std::function<void(std::string_view stage, double share)> progress = {};
 };

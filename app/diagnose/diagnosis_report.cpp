@@ -114,6 +114,8 @@ std::string verdict_sentence(Verdict verdict) {
     case Verdict::kPartly:
       return "Partly: names, or a class of them, explain part of what was found; the rest has no "
              "name.";
+    case Verdict::kUndecided:
+      return "Undecided: no verdict was reached.";
   }
   return "";
 }

@@ -36,13 +36,11 @@ ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
       command.columns ? read_drive_columns_file(*command.columns) : DriveColumnMap{};
   for (const std::string& notice : run.setup.notices) notify(notice, command.quiet);
   require_results_fit(command.folder, drive_diagnosis_file_names());
-  const std::stop_token stop = stop_on_interrupt();
   ProgressLine line(command.quiet);
   std::vector<DriveRecording> drives;
   for (const std::string& file : command.drives) {
     line.show("reading drives",
               static_cast<double>(drives.size()) / static_cast<double>(command.drives.size()));
-    if (stop.stop_requested()) return kInterrupted;
     drives.push_back(read_drive(file, columns));
   }
   make_ids_distinct(drives);
@@ -56,6 +54,7 @@ ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
                        fmt::join(drives.front().ignored, ", ")),
            command.quiet);
   }
+  const std::stop_token stop = stop_on_interrupt();
   run.diagnosis = diagnose_drives(
       std::move(drives), run.setup.setup,
       {.seed = command.seed,

@@ -11,6 +11,9 @@
 #include "app/diagnose/diagnosis_setup.h"
 #include "app/diagnose/recording_checks.h"
 #include "app/diagnose/recording_file.h"
+#include "app/diagnose_drive/drive_columns.h"
+#include "app/diagnose_drive/drive_file.h"
+#include "app/diagnose_drive/drive_setup.h"
 #include "app/evaluate/path_files.h"
 #include "app/settings/manoeuvre_settings.h"
 #include "app/settings/model_settings.h"
@@ -76,6 +79,10 @@ const std::vector<Reader>& readers() {
          doubtful_values(read_recording(file), setup.setup);
        }},
       {"rocks", "in.csv", [](const std::string& file) { RockIndex(read_rocks(file)); }},
+      {"drive", "in.csv", [](const std::string& file) { read_drive(file, {}); }},
+      {"drive_columns", "in.yaml", [](const std::string& file) { read_drive_columns_file(file); }},
+      {"drive_setup", "in.yaml",
+       [](const std::string& file) { read_drive_setup("flat.yaml", file); }},
       {"points", "in.csv", [](const std::string& file) { read_elevation(file); }},
       {"raster", "in.tif", [](const std::string& file) {
          try {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -22,13 +23,15 @@ struct Usable {
   int untrusted = 0, without_forces = 0;
 };
 
-Usable usable_runs(const Recording& recording, const WheelModel& model) {
+Usable usable_runs(const Recording& recording, const WheelModel& model,
+                   const std::stop_token& stop) {
   Usable usable;
   ChannelValues none;
   none.fill(WheelRun::kNotMeasured);
   usable.model.assign(recording.runs.size(), none);
   for (std::size_t i = 0; i < recording.runs.size(); ++i) {
     const WheelRun& run = recording.runs[i];
+    throw_if_stopped(stop);
     const bool trusted = run.slip_ratio >= -0.9 && run.slip_ratio <= 0.95 &&
                          std::abs(run.slip_angle_rad) <= std::numbers::pi / 3 + 1e-9;
     if (!trusted) {
@@ -168,7 +171,8 @@ Grouped group(const Recording& recording, const Usable& usable, const WheelModel
 /// What may change in the course of a recording: every channel by as much, by a share of itself, or
 /// as other soil numbers would have it.
 std::vector<CourseKind> course_kinds(const Recording& recording, const Usable& usable,
-                                     const Grouped& grouped, const DiagnosisSetup& setup) {
+                                     const Grouped& grouped, const DiagnosisSetup& setup,
+                                     const std::stop_token& stop) {
   CourseKind offset{.name = "offset"}, gain{.name = "gain"};
   for (const ChannelRuns& channel : grouped.channels) {
     offset.of_channel.emplace_back(recording.runs.size(), 1.0);
@@ -189,6 +193,7 @@ std::vector<CourseKind> course_kinds(const Recording& recording, const Usable& u
     for (const ChannelRuns& channel : grouped.channels) {
       std::vector<double> change(recording.runs.size(), 0.0);
       for (const std::size_t run : usable.runs) {
+        throw_if_stopped(stop);
         const WheelRun& at = recording.runs[run];
         const auto value =
             channels_at(changed, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions);
@@ -284,14 +289,15 @@ ChannelData means_of(const Recording& recording, const std::vector<Condition>& c
   return data;
 }
 
-CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, std::size_t fewest) {
+CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, std::size_t fewest,
+                            std::stop_token stop) {
   CondensedRecording result;
   Recording recording = with_times(raw);
   const WheelModel model({.variant = setup.variant,
                           .wheel = setup.wheel,
                           .soil = setup.soil.mean,
                           .gravity_mps2 = setup.gravity_mps2});
-  const Usable usable = usable_runs(recording, model);
+  const Usable usable = usable_runs(recording, model, stop);
   if (usable.untrusted > 0) {
     result.notes.push_back(
         fmt::format("{} runs lie where the model is not trusted (slip outside "
@@ -322,12 +328,12 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
                     grouped.conditions.size(), fewest));
   }
   result.course = course_of(recording, grouped.conditions, grouped.channels,
-                            course_kinds(recording, usable, grouped, setup), setup);
+                            course_kinds(recording, usable, grouped, setup, stop), setup, stop);
   for (std::size_t c = 0; c < grouped.channels.size(); ++c) {
     const ChannelRuns& runs = grouped.channels[c];
     result.noise.push_back(
-        estimate_noise(recording, grouped.conditions, runs.channel, runs.adjusted, runs.modelled,
-                       setup, result.course ? result.course->trend[c] : std::vector<double>{}));
+        estimate_noise(recording, grouped.conditions, runs, setup,
+                       result.course ? result.course->trend[c] : std::vector<double>{}, stop));
   }
   if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
   if (result.course && result.course->in_time()) {
@@ -351,6 +357,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
         means_of(recording, bed.conditions, result.noise[c], result.adjusted[c]));
   }
   bed.accuracy = sufficient_accuracy(bed);
+  bed.stop = std::move(stop);
   result.correlation = noise_correlation(result.noise, bed.conditions, result.adjusted);
   return result;
 }

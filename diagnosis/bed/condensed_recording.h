@@ -8,6 +8,9 @@
 
 namespace regoplan {
 
+/// Different conditions that a recording needs to be diagnosed.
+inline constexpr std::size_t kFewestConditions = 8;
+
 /// A recording as it is analysed.
 struct CondensedRecording {
   TestBed bed;
@@ -25,11 +28,13 @@ struct CondensedRecording {
 /// cannot be trusted for (slip outside [-0.9, 0.95], slip angle beyond 60 deg, no forces at the
 /// prior means) are left out and noted. Where replicates differ by a course in time, time is a
 /// place: runs of different times are no replicates, and the noise is what the course leaves. A
-/// side force whose sign opposes the convention is turned and noted. \param fewest different
-/// conditions that are needed \throws InputError with fewer different conditions, no channel, or
-/// replicates that are all identical
+/// side force whose sign opposes the convention is turned and noted.
+/// \param fewest different conditions that are needed
+/// \param stop of this work, and of all work on the bed that comes of it
+/// \throws InputError with fewer different conditions, no channel, or replicates that are all
+/// identical; Interrupted
 CondensedRecording condense(const Recording& recording, const DiagnosisSetup& setup,
-                            std::size_t fewest = 8);
+                            std::size_t fewest = kFewestConditions, std::stop_token stop = {});
 
 /// Means of one channel over the replicates, and their covariance: each run's own scatter, outliers
 /// weighted down, and what the runs of one day share.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "terramech/basics/interruption.h"
+
 namespace regoplan {
 namespace {
 
@@ -76,6 +78,7 @@ Discrepancy::Discrepancy(const TestBed& bed) {
     }
     std::vector<ChannelCovariance>& all = channels_.emplace_back();
     for (const DiscrepancySetting& setting : discrepancy_settings()) {
+      throw_if_stopped(bed.stop);
       ChannelCovariance& at = all.emplace_back();
       Eigen::MatrixXd whole = data.noise;
       if (setting.amplitude > 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 
@@ -52,6 +53,7 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
     std::vector<std::array<double, kChannelCount>> values;
     values.reserve(bed.conditions.size());
     for (const Condition& at : bed.conditions) {
+      throw_if_stopped(bed.stop);
       const auto value =
           channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions);
       if (!value) return std::nullopt;

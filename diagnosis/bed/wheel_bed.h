@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "diagnosis/recording/condition_groups.h"
@@ -31,6 +32,7 @@ struct TestBed {
   std::vector<Condition> conditions;
   std::vector<ChannelData> channels;
   WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise
+  std::stop_token stop = {};  ///< all work on this bed throws Interrupted once it says so
 
   Eigen::Index size() const;
   Eigen::Index offset(std::size_t channel) const;  ///< where its values begin
@@ -38,7 +40,7 @@ struct TestBed {
 };
 
 /// Model values in the order of TestBed::measured(); nothing where a condition has no forces or
-/// the soil is not valid.
+/// the soil is not valid. \throws Interrupted as all that is computed of a bed
 std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
                                        const std::vector<Mechanism>& mechanisms);
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "diagnosis/bed/whitening.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -50,6 +51,7 @@ class WhitenedFit {
 
   Draw draw(std::mt19937_64& random) const {
     const TestBed& bed = recording_.bed;
+    throw_if_stopped(bed.stop);
     std::normal_distribution<double> normal;
     const auto channels = static_cast<Eigen::Index>(bed.channels.size());
     Eigen::MatrixXd together(channels, static_cast<Eigen::Index>(bed.conditions.size()));

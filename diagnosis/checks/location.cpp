@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/bed/condition_axes.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -79,6 +80,7 @@ class Scan {
   void add(const std::vector<const ConditionAxis*>& axes, const std::vector<std::size_t>& inside) {
     constexpr std::size_t kFewest = 2;
     if (inside.size() < kFewest) return;
+    throw_if_stopped(bed_.stop);
     for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
       const ChannelData& data = bed_.channels[c];
       Region region{.channel = c,

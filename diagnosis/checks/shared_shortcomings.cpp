@@ -8,6 +8,7 @@
 #include "diagnosis/bed/discrepancy.h"
 #include "diagnosis/fit/calibration.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -71,7 +72,7 @@ Eigen::MatrixXd kernel_of(const DiscrepancyScales& scales, Channel channel,
 
 /// Every setting of the discrepancy by its likelihood: the mean over them all, and their spread.
 Surface surface_through(const Points& points, Channel channel,
-                        const std::vector<const Condition*>& wanted) {
+                        const std::vector<const Condition*>& wanted, const std::stop_token& stop) {
   const auto n = static_cast<Eigen::Index>(wanted.size());
   Surface sum{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   if (points.at.empty()) {
@@ -87,6 +88,7 @@ Surface surface_through(const Points& points, Channel channel,
     const Eigen::MatrixXd cross = kernel_of(scales, channel, wanted, points.at);
     const Eigen::MatrixXd own = kernel_of(scales, channel, wanted, wanted);
     for (const double amplitude : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+      throw_if_stopped(stop);
       const double variance = std::pow(amplitude * points.scale, 2);
       const Eigen::LLT<Eigen::MatrixXd> factor(points.noise + variance * kernel);
       const double fit = factor.matrixL().solve(points.residual).squaredNorm();
@@ -153,12 +155,13 @@ Soil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& r
 /// four fifths of the radius.
 void impose_sinkage(TestBed& bed, const Soil& soil, const Points& sinkage) {
   constexpr double kLeast = 0.1, kMost = 0.8;
-  const Surface surface = surface_through(sinkage, Channel::kSinkage, conditions_of(bed));
+  const Surface surface = surface_through(sinkage, Channel::kSinkage, conditions_of(bed), bed.stop);
   const WheelModel model({.variant = bed.setup.variant,
                           .wheel = bed.setup.wheel,
                           .soil = soil,
                           .gravity_mps2 = bed.setup.gravity_mps2});
   for (std::size_t k = 0; k < bed.conditions.size(); ++k) {
+    throw_if_stopped(bed.stop);
     Condition& at = bed.conditions[k];
     const auto base =
         channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions);
@@ -233,7 +236,7 @@ DifferenceBed difference_bed(const CondensedRecording& test,
     std::vector<const Condition*> wanted;
     for (const std::size_t k : data.conditions) wanted.push_back(&places[k]);
     const Surface surface =
-        surface_through(points_of(told, predictions, data.channel), data.channel, wanted);
+        surface_through(points_of(told, predictions, data.channel), data.channel, wanted, bed.stop);
     const Eigen::Index from = bed.offset(c), n = data.mean.size();
     result.noise_variance.segment(from, n) = data.noise.diagonal();
     result.shared.segment(from, n) = surface.mean;

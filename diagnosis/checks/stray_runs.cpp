@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/bed/discrepancy.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -103,6 +104,7 @@ CondensedRecording strays_weighed_down(const Recording& recording, CondensedReco
     std::string strays;
     std::set<std::size_t> settled;  // conditions whose neighbours have been heard
     for (Eigen::Index done = 0; done < model.size() / kShare; ++done) {
+      throw_if_stopped(bed.stop);
       const ChannelData& data = bed.channels[c];
       const LeftOut left = left_out(discrepancy, c, data, data.mean - model);
       Eigen::Index worst = -1;

@@ -20,9 +20,10 @@ enum class Verdict {
   kClass,        ///< by names that these data cannot tell apart
   kUnexplained,  ///< a real mismatch that no name fits
   kPartly,       ///< by names, or a class, that stand beside an unnamed remainder
+  kUndecided,    ///< interrupted before there was one
 };
 
-/// `consistent`, `parameters`, `named`, `class`, `unexplained`, `partly`.
+/// `consistent`, `parameters`, `named`, `class`, `unexplained`, `partly`, `undecided`.
 std::string_view name(Verdict verdict);
 
 struct Estimate {
@@ -149,5 +150,8 @@ struct Diagnosis {
   std::vector<std::string> references;  ///< what the recording was compared with
   bool interrupted = false;
 };
+
+/// A diagnosis that was interrupted before it had found anything.
+Diagnosis undecided(const Recording& recording);
 
 }  // namespace regoplan

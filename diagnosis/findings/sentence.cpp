@@ -198,6 +198,8 @@ std::string sentence_of(const Diagnosis& diagnosis) {
              " is real and no known name explains it; it is modelled without a "
              "name, within the conditions measured only." +
              experiment_words(diagnosis);
+    case Verdict::kUndecided:
+      return "The diagnosis was interrupted before it had a verdict.";
   }
   return "";
 }

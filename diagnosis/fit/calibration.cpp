@@ -7,6 +7,7 @@
 #include "diagnosis/bed/whitening.h"
 #include "diagnosis/fit/candidate_fit.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -22,28 +23,47 @@ class SoilResiduals : public ceres::CostFunction {
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
+    try {
+      return evaluate(parameters[0], residuals, jacobians == nullptr ? nullptr : jacobians[0]);
+    } catch (const Interrupted&) {  // not through the solver, which ends where nothing evaluates
+      return false;
+    }
+  }
+
+ private:
+  bool evaluate(const double* parameters, double* residuals, double* jacobian) const {
     const auto p = static_cast<Eigen::Index>(soil_.size());
-    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters[0], p);
+    const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(parameters, p);
     const auto prediction = predict(bed_, soil_, {}, x);
     if (!prediction) return false;
     Eigen::Map<Eigen::VectorXd> r(residuals, bed_.size() + p);
     r.head(bed_.size()) = whitened(bed_, factor_, Eigen::VectorXd(*prediction - measured_));
     r.tail(p) = x;
-    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    if (jacobian == nullptr) return true;
     const auto columns = jacobian_of(bed_, soil_, {}, x, *prediction, 0, true);
     if (!columns) return false;
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::Map<RowMajor> j(jacobians[0], bed_.size() + p, p);
+    Eigen::Map<RowMajor> j(jacobian, bed_.size() + p, p);
     j.topRows(bed_.size()) = whitened(bed_, factor_, *columns);
     j.bottomRows(p).setIdentity();
     return true;
   }
 
- private:
   const TestBed& bed_;
   const std::vector<SoilCoordinate>& soil_;
   Eigen::VectorXd measured_;
   NoiseFactors factor_;
+};
+
+class StopWhenAsked : public ceres::IterationCallback {
+ public:
+  explicit StopWhenAsked(std::stop_token stop) : stop_(std::move(stop)) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return stop_.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  std::stop_token stop_;
 };
 
 }  // namespace
@@ -71,8 +91,11 @@ Calibration calibrate(const TestBed& bed, const std::vector<SoilCoordinate>& soi
     options.function_tolerance = 1e-8;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
+    StopWhenAsked stop_when_asked(bed.stop);
+    options.callbacks.push_back(&stop_when_asked);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
+    throw_if_stopped(bed.stop);
   }
   result.prediction = *predict(bed, soil, {}, result.x);
   result.jacobian.resize(bed.size(), p);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "diagnosis/bed/whitening.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -155,6 +156,7 @@ Eigen::MatrixXd smooth_functions(const TestBed& bed) {
   const auto n = static_cast<Eigen::Index>(bed.conditions.size());
   Eigen::MatrixXd kernel(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
+    throw_if_stopped(bed.stop);
     for (Eigen::Index k = 0; k < n; ++k) {
       kernel(i, k) = discrepancy_kernel(discrepancy_scales()[kMiddling], Channel::kFx,
                                         bed.conditions[static_cast<std::size_t>(i)],
@@ -175,6 +177,7 @@ Evidence evidence_of(const TestBed& bed, const Discrepancy& discrepancy, const L
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
     for (std::size_t k = 0; k < settings; ++k) {
+      throw_if_stopped(bed.stop);
       if (weights.excludes(c, k)) {
         parts[c].emplace_back();
         continue;
@@ -194,6 +197,7 @@ Evidence evidence_of(const TestBed& bed, const Discrepancy& discrepancy, const L
   double best = value_of(sum, p, n).log_marginal + prior;
   double spread = 0;
   for (int sweep = 0; sweep < 6; ++sweep) {
+    throw_if_stopped(bed.stop);
     bool changed = false;
     spread = 0;
     for (std::size_t c = 0; c < parts.size(); ++c) {

@@ -155,7 +155,7 @@ std::vector<Hypothesis> promising_pairs(const FitProblem& problem,
   return pairs;
 }
 
-/// Fits candidates in parallel; what is stopped stays empty.
+/// Fits candidates in parallel; what has no forces stays empty.
 std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
                                                  const std::vector<Hypothesis>& candidates,
                                                  const ScoringOptions& options, double from,
@@ -164,7 +164,6 @@ std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
   std::mutex progress_mutex;
   std::size_t done = 0;
   parallel_for(candidates.size(), options.threads, [&](std::size_t i) {
-    if (options.stop.stop_requested()) return;
     fits[i] = fit_candidate(problem, candidates[i], SettingWeights::of_named(),
                             start_of(problem, candidates[i]));
     const std::scoped_lock lock(progress_mutex);
@@ -216,11 +215,9 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
   for (const Effect& effect : effects) singles.push_back({{effect}});
   const std::vector<ScoredId> alone = gather(singles, fit_all(problem, singles, options, 0, 0.5));
   all.insert(all.end(), alone.begin(), alone.end());
-  if (!options.stop.stop_requested()) {
-    const std::vector<Hypothesis> pairs = promising_pairs(problem, alone, effects);
-    const std::vector<ScoredId> together = gather(pairs, fit_all(problem, pairs, options, 0.5, 1));
-    all.insert(all.end(), together.begin(), together.end());
-  }
+  const std::vector<Hypothesis> pairs = promising_pairs(problem, alone, effects);
+  const std::vector<ScoredId> together = gather(pairs, fit_all(problem, pairs, options, 0.5, 1));
+  all.insert(all.end(), together.begin(), together.end());
   return all;
 }
 

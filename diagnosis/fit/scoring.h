@@ -20,7 +20,6 @@ struct ScoredId {
 
 struct ScoringOptions {
   int threads = 2;
-  std::stop_token stop = {};
   std::function<void(double)> progress = {};
 };
 

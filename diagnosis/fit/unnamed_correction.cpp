@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/bed/span.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -30,6 +31,7 @@ std::vector<std::size_t> remainder_settings(const FitProblem& problem, const Can
       const Eigen::VectorXd part = left.segment(bed.offset(c), bed.channels[c].mean.size());
       double top = -INFINITY;
       std::size_t at = 0;
+      throw_if_stopped(bed.stop);
       for (std::size_t k = 0; k < discrepancy_settings().size(); ++k) {
         const DiscrepancySetting& setting = discrepancy_settings()[k];
         if (setting.amplitude > 0 && setting.scales != scales) continue;

@@ -10,16 +10,18 @@ namespace regoplan {
 namespace {
 
 /// The recording condensed, strays weighed down.
-CondensedRecording prepared(const Recording& recording, const DiagnosisSetup& setup) {
-  CondensedRecording condensed = condense(recording, setup);
+CondensedRecording prepared(const Recording& recording, const DiagnosisSetup& setup,
+                            std::stop_token stop) {
+  CondensedRecording condensed = condense(recording, setup, kFewestConditions, std::move(stop));
   const Calibration first = calibrate(condensed.bed, soil_coordinates(setup.soil));
   return strays_weighed_down(recording, std::move(condensed), first.prediction);
 }
 
 }  // namespace
 
-CalibratedRecording::CalibratedRecording(const Recording& recording, const DiagnosisSetup& setup)
-    : CalibratedRecording(prepared(recording, setup)) {}
+CalibratedRecording::CalibratedRecording(const Recording& recording, const DiagnosisSetup& setup,
+                                         std::stop_token stop)
+    : CalibratedRecording(prepared(recording, setup, std::move(stop))) {}
 
 CalibratedRecording::CalibratedRecording(CondensedRecording condensed)
     : recording_(std::move(condensed)),

@@ -15,7 +15,8 @@ namespace regoplan {
 class CalibratedRecording {
  public:
   /// \throws InputError as condense() and calibrate()
-  CalibratedRecording(const Recording& recording, const DiagnosisSetup& setup);
+  CalibratedRecording(const Recording& recording, const DiagnosisSetup& setup,
+                      std::stop_token stop = {});
   /// Of runs condensed already; soil numbers without prior deviation stay as they are.
   explicit CalibratedRecording(CondensedRecording condensed);
   CalibratedRecording(const CalibratedRecording&) = delete;

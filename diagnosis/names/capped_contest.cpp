@@ -76,12 +76,10 @@ CappedContest::Cap CappedContest::cap_for(const Eigen::VectorXd& residual) const
 }
 
 std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
-                                             const CandidateFit* beside, int threads,
-                                             std::stop_token stop) const {
+                                             const CandidateFit* beside, int threads) const {
   const FitProblem problem = calibrated_.problem();
   std::vector<std::optional<CandidateFit>> fits(effects.size());
   parallel_for(effects.size(), threads, [&](std::size_t i) {
-    if (stop.stop_requested()) return;
     Hypothesis candidate = beside == nullptr ? Hypothesis{} : beside->candidate;
     candidate.effects.push_back(effects[i]);
     fits[i] = fit_candidate(problem, candidate, weights_, start_of(problem, candidate, beside));
@@ -97,7 +95,6 @@ std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
     names.push_back(marginal(id, of_id, tried[id], alone_nats_));
   }
   std::ranges::stable_sort(names, std::greater{}, &CappedName::gain_nats);
-  if (stop.stop_requested()) return names;
   std::vector<CappedName*> leading;
   for (CappedName& name : names) {
     if (name.gain_nats > names.front().gain_nats - kLeading_nats) leading.push_back(&name);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -37,7 +36,7 @@ class CappedContest {
 
   /// Best first. \param beside effects that stand already; start from their fit
   std::vector<CappedName> score(const std::vector<Effect>& effects, const CandidateFit* beside,
-                                int threads, std::stop_token stop) const;
+                                int threads) const;
 
   /// What the best of the names reaches in worlds whose misfit has no name: draws of the remainder
   /// that the base model alone needs, with noise, under the same cap. Names are linear in their

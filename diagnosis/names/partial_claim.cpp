@@ -141,16 +141,16 @@ std::vector<NameStep> steps_of(const CalibratedRecording& calibrated, const Part
 
 void add_further_names(const CalibratedRecording& calibrated, const CappedContest& contest,
                        const std::vector<Effect>& effects, double gain_nats, int threads,
-                       std::stop_token stop, PartialClaim& claim) {
-  while (claim.claims.size() < kMostNames && !stop.stop_requested()) {
+                       PartialClaim& claim) {
+  while (claim.claims.size() < kMostNames) {
     std::vector<Effect> further = effects;
     std::erase_if(further, [&](const Effect& e) {
       return is_instrument(e.id) || std::ranges::any_of(claim.claims, [&](const Claim& c) {
                return c.id == e.id || std::ranges::find(c.equivalent, e.id) != c.equivalent.end();
              });
     });
-    const auto names = contest.score(further, &claim.fit, threads, stop);
-    if (names.empty() || stop.stop_requested()) return;
+    const auto names = contest.score(further, &claim.fit, threads);
+    if (names.empty()) return;
     const CappedName& best = names.front();
     if (best.gain_nats - gain_nats < kOverRemainder_nats) return;
     if (!objection(calibrated.problem(), best.fit).empty()) return;
@@ -174,12 +174,11 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
 }
 
 PartialDecision decide_partly(const CalibratedRecording& calibrated,
-                              const std::vector<Effect>& effects, std::uint64_t seed, int threads,
-                              std::stop_token stop) {
+                              const std::vector<Effect>& effects, std::uint64_t seed, int threads) {
   const CappedContest contest(calibrated);
-  const std::vector<CappedName> names = contest.score(effects, nullptr, threads, stop);
+  const std::vector<CappedName> names = contest.score(effects, nullptr, threads);
   PartialDecision decision;
-  if (names.empty() || stop.stop_requested()) {
+  if (names.empty()) {
     decision.ranking = capped_ranking({}, 1);
     return decision;
   }
@@ -217,7 +216,7 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
     return decision;
   }
   decision.claim = first_claim(calibrated, names, ids, p, threads);
-  add_further_names(calibrated, contest, effects, top, threads, stop, *decision.claim);
+  add_further_names(calibrated, contest, effects, top, threads, *decision.claim);
   return decision;
 }
 

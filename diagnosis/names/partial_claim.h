@@ -49,7 +49,7 @@ PartialClaim first_claim(const CalibratedRecording& calibrated,
 /// however these are held out: at most three. Names that fit alike join as a class.
 void add_further_names(const CalibratedRecording& calibrated, const CappedContest& contest,
                        const std::vector<Effect>& effects, double gain_nats, int threads,
-                       std::stop_token stop, PartialClaim& claim);
+                       PartialClaim& claim);
 
 /// A claim for what stands beside a remainder of a recording's misfit, if anything does. A single
 /// name must do better than it may by chance (kByChance); a class of names that
@@ -61,7 +61,6 @@ struct PartialDecision {
   std::string refused;  ///< why there is none
 };
 PartialDecision decide_partly(const CalibratedRecording& calibrated,
-                              const std::vector<Effect>& effects, std::uint64_t seed, int threads,
-                              std::stop_token stop);
+                              const std::vector<Effect>& effects, std::uint64_t seed, int threads);
 
 }  // namespace regoplan

@@ -5,6 +5,8 @@
 #include <optional>
 #include <set>
 
+#include "terramech/basics/interruption.h"
+
 namespace regoplan {
 namespace {
 
@@ -50,11 +52,11 @@ std::vector<Column> columns_of(const Recording& recording) {
 std::optional<Course> course_of(const Recording& recording,
                                 const std::vector<Condition>& conditions,
                                 const std::vector<ChannelRuns>& channels,
-                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup) {
+                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup,
+                                const std::stop_token& stop) {
   std::vector<std::optional<ReplicateContrasts>> contrasts;
   for (const ChannelRuns& c : channels) {
-    const ChannelNoise plain =
-        estimate_noise(recording, conditions, c.channel, c.adjusted, c.modelled, setup);
+    const ChannelNoise plain = estimate_noise(recording, conditions, c, setup, {}, stop);
     auto& of_channel = contrasts.emplace_back();
     if (plain.source == NoiseSource::kReplicates) {
       of_channel.emplace(recording, conditions, c.adjusted, plain);
@@ -69,6 +71,7 @@ std::optional<Course> course_of(const Recording& recording,
                     .low = column.low,
                     .high = column.high};
       for (std::size_t c = 0; c < channels.size(); ++c) {
+        throw_if_stopped(stop);
         std::vector<double> trend(recording.runs.size(), 0.0);
         for (std::size_t i = 0; i < trend.size(); ++i) {
           const double size = kind.of_channel[c][i];

@@ -22,12 +22,6 @@ struct Course {
   bool in_time() const { return column != "after_slip_ratio" && column != "after_load_n"; }
 };
 
-/// One channel as estimate_noise() takes it.
-struct ChannelRuns {
-  Channel channel = Channel::kFx;
-  std::vector<double> adjusted, modelled;
-};
-
 /// Changes of the model values of one channel that a course may follow, per run.
 struct CourseKind {
   std::string name;
@@ -39,7 +33,8 @@ struct CourseKind {
 std::optional<Course> course_of(const Recording& recording,
                                 const std::vector<Condition>& conditions,
                                 const std::vector<ChannelRuns>& channels,
-                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup);
+                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup,
+                                const std::stop_token& stop = {});
 
 /// Runs in blocks of the course: days where there are at most six, else quarters.
 std::vector<int> blocks_of(const Course& course);

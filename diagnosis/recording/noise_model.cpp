@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -112,14 +113,16 @@ Contrasts contrasts_of(const Replicates& replicates) {
   return all;
 }
 
-struct Shares {
-  double proportional = 0, day_offset = 0, day_gain = 0;  // over the constant part
+/// What scatter may come from besides each run itself.
+struct Explained {
+  bool days = false;
+  const std::vector<double>& trend;  // empty: none
+  const std::stop_token& stop;
 };
 
 /// Restricted maximum likelihood of the constant part, and of the others over it on a grid.
 void fit_variances(const Recording& recording, const Replicates& replicates,
-                   const std::vector<double>& value, bool days, const std::vector<double>& trend,
-                   ChannelNoise& noise) {
+                   const std::vector<double>& value, const Explained& by, ChannelNoise& noise) {
   const Contrasts contrasts = contrasts_of(replicates);
   const auto n = static_cast<Eigen::Index>(contrasts.runs.size());
   Eigen::VectorXd y(n), signal(n), inverse_weight(n), along = Eigen::VectorXd::Zero(n);
@@ -129,7 +132,7 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
     for (const std::size_t run : group) {
       y[i] = value[run];
       signal[i] = centre(group, value);
-      if (!trend.empty()) along[i] = trend[run];
+      if (!by.trend.empty()) along[i] = by.trend[run];
       inverse_weight[i++] = 1 / noise.weight[run];
     }
   }
@@ -149,7 +152,7 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
                                     contrasts.matrix.transpose();
   double best = -INFINITY;
   const std::vector<double> grid{0, 0.35, 0.7, 1.4, 2.8};
-  const std::vector<double> day_grid = days ? grid : std::vector<double>{0};
+  const std::vector<double> day_grid = by.days ? grid : std::vector<double>{0};
   for (const double p : grid) {
     const Eigen::VectorXd variance =
         (inverse_weight.array() * (1 + p * p * signal.array().square())).matrix();
@@ -157,6 +160,7 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
         contrasts.matrix * variance.asDiagonal() * contrasts.matrix.transpose();
     for (const double d : day_grid) {
       for (const double g : day_grid) {
+        throw_if_stopped(by.stop);
         const Eigen::LLT<Eigen::MatrixXd> factor(own + d * d * offset_part + g * g * gain_part);
         const Eigen::VectorXd solved = factor.solve(column);
         const double weight = column.dot(solved);
@@ -234,9 +238,9 @@ double run_deviation(const ChannelNoise& noise, double y) {
 }
 
 ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
-                            Channel channel, const std::vector<double>& adjusted,
-                            const std::vector<double>& model, const DiagnosisSetup& setup,
-                            const std::vector<double>& trend) {
+                            const ChannelRuns& runs, const DiagnosisSetup& setup,
+                            const std::vector<double>& trend, const std::stop_token& stop) {
+  const auto& [channel, adjusted, model] = runs;
   ChannelNoise noise{.channel = channel, .weight = std::vector<double>(adjusted.size(), 1.0)};
   const Replicates replicates = replicates_of(conditions, adjusted);
   noise.degrees_of_freedom = replicates.contrasts;
@@ -269,8 +273,8 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
                     name(channel)));
   }
   const bool days_seen = runs_on_two_days(recording, replicates) >= 3;
-  const bool days = several_days(recording) && days_seen;
-  const auto fit = [&] { fit_variances(recording, replicates, adjusted, days, trend, noise); };
+  const Explained by{.days = several_days(recording) && days_seen, .trend = trend, .stop = stop};
+  const auto fit = [&] { fit_variances(recording, replicates, adjusted, by, noise); };
   // An outlier is one beside the trend: what follows the trend lies far from its fellows and
   // belongs.
   std::vector<double> beside = adjusted;

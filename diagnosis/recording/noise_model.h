@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -29,18 +30,24 @@ struct ChannelNoise {
   double trend = 0;                   ///< factor of the trend column that was given
 };
 
+/// One channel of every run: its value moved to its condition's mean load, slip and slip angle, and
+/// what the model has for the run itself.
+struct ChannelRuns {
+  Channel channel = Channel::kFx;
+  std::vector<double> adjusted, modelled;
+};
+
 /// Noise from replicates: restricted maximum likelihood over the contrasts within conditions, with
 /// outliers (3.5 standard deviations from their fellows) weighted down. Without replicates (fewer
 /// than 4 degrees of freedom) the setup's number; without that the scatter between neighbouring
 /// conditions, which counts some of the signal as noise and so errs on the cautious side.
-/// \param adjusted per run: the value moved to its condition's mean load, slip and slip angle
 /// \param trend per run: a column that explains part of what replicates differ by, its factor
 /// fitted along; empty: none
-/// \throws InputError where all replicates of the channel are identical
+/// \throws InputError where all replicates of the channel are identical; Interrupted
 ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
-                            Channel channel, const std::vector<double>& adjusted,
-                            const std::vector<double>& model, const DiagnosisSetup& setup,
-                            const std::vector<double>& trend = {});
+                            const ChannelRuns& runs, const DiagnosisSetup& setup,
+                            const std::vector<double>& trend = {},
+                            const std::stop_token& stop = {});
 
 /// What replicates of one channel say of a trend, the noise model's parts held at those of a
 /// channel's plain noise, or its days given up for the trend.

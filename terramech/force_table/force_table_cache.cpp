@@ -3,6 +3,9 @@
 #include <unistd.h>
 
 #include <bit>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -79,6 +82,28 @@ std::string whole_file(const std::filesystem::path& file) {
   return content.str();
 }
 
+/// A folder is shared by processes: each writes beside, under its number.
+constexpr std::string_view kSuffix = ".force-table";
+
+/// Removes what processes left that were killed while they wrote. On a disk shared by machines it
+/// may take away another's unfinished file: that one then keeps its table to itself.
+void sweep_leftovers(const std::filesystem::path& folder) {
+  std::error_code failed;
+  for (std::filesystem::directory_iterator at(folder, failed), end; !failed && at != end;
+       at.increment(failed)) {
+    const std::string name = at->path().filename().string();
+    const std::size_t dot = name.rfind('.');
+    if (dot == std::string::npos || !std::string_view(name).substr(0, dot).ends_with(kSuffix)) {
+      continue;
+    }
+    pid_t process = 0;
+    const char* last = name.data() + name.size();
+    if (std::from_chars(name.data() + dot + 1, last, process).ptr != last || process <= 0) continue;
+    std::error_code ignored;
+    if (kill(process, 0) != 0 && errno == ESRCH) std::filesystem::remove(at->path(), ignored);
+  }
+}
+
 }  // namespace
 
 void ForceTable::write(std::ostream& stream) const {
@@ -117,7 +142,7 @@ std::filesystem::path ForceTable::default_cache_folder() {
 ForceTable ForceTable::cached(const ForceTableSpec& spec, const std::filesystem::path& folder) {
   if (folder.empty()) return ForceTable(spec);
   const std::string head = inputs(spec);
-  const std::filesystem::path file = folder / fmt::format("{:016x}.force-table", fnv1a(head));
+  const std::filesystem::path file = folder / fmt::format("{:016x}{}", fnv1a(head), kSuffix);
   const std::string content = whole_file(file);
   constexpr std::size_t kHashSize = sizeof(std::uint64_t);
   if (content.size() > head.size() + kHashSize && content.starts_with(head)) {
@@ -136,6 +161,7 @@ ForceTable ForceTable::cached(const ForceTableSpec& spec, const std::filesystem:
   // Written beside and renamed: whoever reads meanwhile sees a whole file or none.
   std::error_code error;
   std::filesystem::create_directories(folder, error);
+  sweep_leftovers(folder);
   const std::filesystem::path beside = file.string() + fmt::format(".{}", ::getpid());
   std::ofstream stream(beside, std::ios::binary);
   stream << body.str();

@@ -42,8 +42,9 @@ Bed bed(int conditions, int days, double noise, double proportional, double day_
 }
 
 ChannelNoise noise_of(const Bed& made, const DiagnosisSetup& setup = {}) {
-  return estimate_noise(made.recording, made.conditions, Channel::kFx, made.value,
-                        std::vector<double>(made.value.size(), 0.0), setup);
+  return estimate_noise(made.recording, made.conditions,
+                        {Channel::kFx, made.value, std::vector<double>(made.value.size(), 0.0)},
+                        setup);
 }
 
 TEST(NoiseModel, FindsTheScatterOfReplicates) {

@@ -1,6 +1,7 @@
 #include "terramech/force_table/force_table.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -288,6 +289,25 @@ TEST(ForceTable, ACorruptFileIsBuiltAgain) {
   std::filesystem::resize_file(file, size / 3);
   EXPECT_NO_THROW(ForceTable::cached(simulant(), folder.path()));
   EXPECT_EQ(std::filesystem::file_size(file), size);
+}
+
+TEST(ForceTable, WhatAKilledProcessLeftHalfWrittenIsSwept) {
+  const Folder folder;
+  std::filesystem::create_directories(folder.path());
+  const pid_t ended = fork();
+  if (ended == 0) _exit(0);
+  waitpid(ended, nullptr, 0);
+  const auto file = [&](const std::string& name) {
+    std::ofstream(folder.path() / name) << "half";
+    return folder.path() / name;
+  };
+  const auto left = file("0123456789abcdef.force-table." + std::to_string(ended));
+  const auto of_a_neighbour = file("0123456789abcdef.force-table." + std::to_string(getppid()));
+  const auto of_somebody = file("notes.force-table.txt");
+  ForceTable::cached(simulant(), folder.path());
+  EXPECT_FALSE(std::filesystem::exists(left));
+  EXPECT_TRUE(std::filesystem::exists(of_a_neighbour));
+  EXPECT_TRUE(std::filesystem::exists(of_somebody));
 }
 
 TEST(ForceTable, AFolderThatCannotBeWrittenOnlyCostsTime) {
