@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 import regoplan
 
-# Differ between two runs of the program as well.
-CLOCKS = ("planning_time_s", "verification_time_s", "first_verified_s", "evaluation_time_s")
+# Differ between two runs of the program as well: times, and in what files the input stood.
+CLOCKS = ("planning_time_s", "verification_time_s", "first_verified_s", "evaluation_time_s",
+          "inputs")
 
 
 def without_clocks(found):
