@@ -16,14 +16,11 @@
 #include "diagnosis/names/name_contest.h"
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kWorstPull = 4.5;     // prior standard deviations that calibration may need
-constexpr double kBeyondDoubt = 1e-3;  // p of a lack of fit that needs no held-out proof
-constexpr double kClearEvidence = 9;   // nats by which a name must beat `parameters` unprompted
 
 /// One diagnosis under way: what has been found, and the parts that later steps build on.
 class Diagnosing {
@@ -103,8 +100,8 @@ class Diagnosing {
     found_.before = lack_of_fit(recording, remainder, options_.seed);
     found_.after = found_.before;
     unfit_ = found_.before.f > found_.before.critical;
-    beyond_doubt_ = found_.before.p_value < kBeyondDoubt;
-    if (loose && !unfit_ && kWide * loose->x.lpNorm<Eigen::Infinity>() > kWorstPull) {
+    beyond_doubt_ = found_.before.p_value < Thresholds::kBeyondDoubt_p;
+    if (loose && !unfit_ && kWide * loose->x.lpNorm<Eigen::Infinity>() > Thresholds::kWorstPull) {
       // too far, unless numbers nearer to their tests fit as well
       const LackOfFit near = lack_of_fit(recording, calibrated_.remainder_of(base), options_.seed);
       unfit_ = near.f > near.critical;
@@ -116,7 +113,8 @@ class Diagnosing {
       unfit_ = true;
       beyond_doubt_ = true;
     }
-    stands_out_ = p_value_along(recording, remainder, directions(), options_.seed) < 0.005;
+    stands_out_ =
+        p_value_along(recording, remainder, directions(), options_.seed) < Thresholds::kLackOfFit_p;
     rejected_ = unfit_ || stands_out_;
     const FitRemainder fixed{
         .residual = calibrated_.bed().measured() - calibrated_.prediction_at_prior_means(),
@@ -164,7 +162,7 @@ class Diagnosing {
         named = std::max(named, s.score);
       }
     }
-    rejected_ = unfit_ || stands_out_ || named > parameters + kClearEvidence;
+    rejected_ = unfit_ || stands_out_ || named > parameters + Thresholds::kUnprompted_nats;
     weigh(scored_, plain_model());
   }
 
@@ -194,8 +192,8 @@ class Diagnosing {
     if (unfit_ && named_in_part()) return;
     if (unfit_) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);
-      const bool proven =
-          correction.refused.empty() && correction.proof.share_explained > kWorthCorrecting;
+      const bool proven = correction.refused.empty() &&
+                          correction.proof.share_explained > Thresholds::kWorthCorrecting;
       if (proven || beyond_doubt_) {
         found_.verdict = Verdict::kUnexplained;
         found_.remainder_share = 1;
@@ -240,11 +238,10 @@ class Diagnosing {
   /// Names without which a soil number would have to lie far from its tests, and that do as well
   /// with that number near to them.
   void list_suspects() {
-    constexpr double kFar = 3, kNear = 2, kAsGood_nats = 3;
     constexpr std::size_t kMost = 3;
     std::vector<Eigen::Index> far;
     for (Eigen::Index i = 0; i < calibrated_.base().x.size(); ++i) {
-      if (std::abs(calibrated_.base().x[i]) > kFar) far.push_back(i);
+      if (std::abs(calibrated_.base().x[i]) > Thresholds::kSuspectPull) far.push_back(i);
     }
     if (far.empty()) return;
     double parameters = -INFINITY;
@@ -254,9 +251,9 @@ class Diagnosing {
     std::vector<const ScoredId*> singles;
     for (const ScoredId& s : scored_) {
       if (s.fit.candidate.effects.size() != 1 || is_instrument(s.id)) continue;
-      const bool near =
-          std::ranges::all_of(far, [&](Eigen::Index i) { return std::abs(s.fit.x[i]) < kNear; });
-      if (near && s.score > parameters - kAsGood_nats) singles.push_back(&s);
+      const bool near = std::ranges::all_of(
+          far, [&](Eigen::Index i) { return std::abs(s.fit.x[i]) < Thresholds::kUnsuspectPull; });
+      if (near && s.score > parameters - Thresholds::kAsGood_nats) singles.push_back(&s);
     }
     std::ranges::stable_sort(singles, std::greater{}, &ScoredId::score);
     for (std::size_t i = 0; i < std::min(kMost, singles.size()); ++i) {

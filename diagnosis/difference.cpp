@@ -16,6 +16,7 @@
 #include "diagnosis/names/name_share.h"
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
 
@@ -23,8 +24,7 @@ namespace regoplan {
 namespace {
 
 constexpr std::size_t kFewestToCompare = 3;
-constexpr double kSignificance = 1e-3;  // of a difference, under every setting of the base
-constexpr int kWorlds = 79;             // nameless differences
+constexpr int kWorlds = 79;  // nameless differences
 
 /// The test and what it is compared with, under one setting of the base model.
 struct Treatment {
@@ -209,7 +209,7 @@ class Differing {
     treatment.calibrated = std::make_unique<CalibratedRecording>(std::move(bed.test));
     const CalibratedRecording& calibrated = *treatment.calibrated;
     treatment.lack = lack_of_fit(calibrated.recording(), calibrated.remainder_of(calibrated.base()),
-                                 options_.seed, kSignificance);
+                                 options_.seed, Thresholds::kDifference_p);
     return treatment;
   }
 
@@ -230,12 +230,12 @@ class Differing {
     for (const Treatment& t : treatments_) {
       const CappedName* name = t.find(id);
       if (name == nullptr) return "it has no forces";
-      if (name->gain_nats < kOverRemainder_nats) {
+      if (name->gain_nats < Thresholds::kOverRemainder_nats) {
         return fmt::format("with {} it gains {:.0f} nats over an unnamed remainder",
                            regoplan::name(t.base), name->gain_nats);
       }
       const NameShare share = name_share(*t.calibrated, name->fit, options_.threads);
-      if (share.share.low < kWorthANameAlone) {
+      if (share.share.low < Thresholds::kWorthANameAlone) {
         return fmt::format("with {} it explains {:.0f} % of the held-out difference",
                            regoplan::name(t.base), 100 * share.share.low);
       }
@@ -245,7 +245,7 @@ class Differing {
       }
       if (t.base == SharedBase::kCalibrated) {
         const double p = chance_of(reached_, name->gain_nats, share.share.low);
-        if (p > kByChance) {
+        if (p > Thresholds::kByChance_p) {
           return fmt::format(
               "nameless differences let some name do as well with a probability of {:.2f}", p);
         }
@@ -275,7 +275,8 @@ class Differing {
   bool rivals(const std::string& id, const std::string& leader) const {
     return std::ranges::any_of(treatments_, [&](const Treatment& t) {
       const CappedName *a = t.find(id), *b = t.find(leader);
-      return a != nullptr && b != nullptr && a->gain_nats > b->gain_nats - kOverOthers_nats;
+      return a != nullptr && b != nullptr &&
+             a->gain_nats > b->gain_nats - Thresholds::kOverOthers_nats;
     });
   }
 
@@ -298,7 +299,8 @@ class Differing {
     }
     const bool instruments = std::ranges::any_of(claimed.ids, is_instrument);
     const bool physics = !std::ranges::all_of(claimed.ids, is_instrument);
-    if (claimed.ids.empty() || claimed.ids.size() > kLargestClass || (instruments && physics)) {
+    if (claimed.ids.empty() || claimed.ids.size() > Thresholds::kLargestClass ||
+        (instruments && physics)) {
       if (!claimed.ids.empty()) {
         found_.notes.push_back(
             "names that fit alike are too many, or of wheel and instrument both");

@@ -4,6 +4,7 @@
 
 #include "diagnosis/bed/condensed_recording.h"
 #include "diagnosis/findings/findings.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 
@@ -20,7 +21,7 @@ struct FitRemainder {
 /// the noise is known no better than from its degrees of freedom and channels scatter together as
 /// replicates do. The worst of them counts; `critical` is at `significance` for all together.
 LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
-                      std::uint64_t seed, double significance = 0.005);
+                      std::uint64_t seed, double significance = Thresholds::kLackOfFit_p);
 
 /// One way in which a recording may differ from a model: what some effect would add.
 struct Direction {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/recording/thresholds.h"
+
 namespace regoplan {
 namespace {
 
@@ -47,7 +49,6 @@ struct Mean {
 }  // namespace
 
 std::vector<std::string> instrument_checks(const CondensedRecording& recording) {
-  constexpr double kClear = 4;
   const TestBed& bed = recording.bed;
   std::vector<std::string> findings;
   for (const ChannelData& data : bed.channels) {
@@ -62,7 +63,7 @@ std::vector<std::string> instrument_checks(const CondensedRecording& recording) 
         difference.add(left->mean + odd * right->mean, left->variance + right->variance);
       }
     }
-    if (difference.deviations() > kClear) {
+    if (difference.deviations() > Thresholds::kImpossible_deviations) {
       findings.push_back(fmt::format(
           "{} is not mirror-symmetric in the slip angle: {:+.3g} in {} "
           "pairs, {:.1f} standard errors; no level soil does that",
@@ -82,9 +83,9 @@ std::vector<std::string> instrument_checks(const CondensedRecording& recording) 
     const double arm = bed.setup.wheel.radius_m * (1 - at.slip_ratio);
     const double lost = torque->mean - fx->mean * arm;
     const double variance = torque->variance + fx->variance * arm * arm;
-    if (lost < -kClear * std::sqrt(variance)) power.add(lost, variance);
+    if (lost < -Thresholds::kImpossible_deviations * std::sqrt(variance)) power.add(lost, variance);
   }
-  if (straight.deviations() > kClear) {
+  if (straight.deviations() > Thresholds::kImpossible_deviations) {
     findings.push_back(
         fmt::format("fy_n straight ahead is {:+.3g} N, {:.1f} standard errors from 0",
                     straight.value(), straight.deviations()));

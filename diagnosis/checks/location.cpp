@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/bed/condition_axes.h"
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
@@ -129,7 +130,6 @@ bool mostly_shared(const Region& a, const Region& b) {
 std::vector<MismatchRegion> locate(const CondensedRecording& recording, const FitRemainder& fit,
                                    std::uint64_t seed) {
   constexpr int kDraws = 400;
-  constexpr double kSignificance = 0.05;
   constexpr std::size_t kMostShown = 8;
   const std::vector<Region> regions = Scan(recording.bed).regions();
   const auto count = static_cast<Eigen::Index>(regions.size());
@@ -156,7 +156,7 @@ std::vector<MismatchRegion> locate(const CondensedRecording& recording, const Fi
   for (const Eigen::Index i : order) {
     const auto beyond = largest.end() - std::ranges::lower_bound(largest, score(i));
     const double p = (1.0 + static_cast<double>(beyond)) / (kDraws + 1.0);
-    if (p > kSignificance || found.size() == kMostShown) break;
+    if (p > Thresholds::kLocation_p || found.size() == kMostShown) break;
     const Region& region = regions[static_cast<std::size_t>(i)];
     if (std::ranges::any_of(kept, [&](const Region* k) { return mostly_shared(*k, region); })) {
       continue;

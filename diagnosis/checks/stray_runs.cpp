@@ -7,13 +7,11 @@
 #include <set>
 
 #include "diagnosis/bed/discrepancy.h"
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kStray = 4;       // standard deviations of the prediction from the others
-constexpr double kDoubtful = 2.5;  // the same, for a condition whose own runs are at odds
 
 /// What all other conditions predict of each one's residual.
 struct LeftOut {
@@ -62,7 +60,8 @@ bool at_odds(const ChannelNoise& noise, const std::vector<std::size_t>& runs,
   const auto [low, high] =
       std::ranges::minmax(runs, {}, [&](std::size_t run) { return adjusted[run]; });
   const double middle = (adjusted[low] + adjusted[high]) / 2;
-  return adjusted[high] - adjusted[low] > kStray * std::sqrt(2.0) * scatter_of(noise, middle);
+  return adjusted[high] - adjusted[low] >
+         Thresholds::kStray_deviations * std::sqrt(2.0) * scatter_of(noise, middle);
 }
 
 /// Weights of a condition's runs once its neighbours are heard. Of two the one farther from what
@@ -85,7 +84,7 @@ std::vector<double> weights_by_neighbours(const ChannelNoise& noise,
   std::vector<double> sided;
   for (const std::size_t run : runs) {
     const double far = away(run) / scatter_of(noise, expected);
-    sided.push_back(far < kStray ? 1 : stray_weight(far));
+    sided.push_back(far < Thresholds::kStray_deviations ? 1 : stray_weight(far));
   }
   return std::ranges::count(sided, 1.0) > 0 ? sided : weights;
 }
@@ -112,9 +111,11 @@ CondensedRecording strays_weighed_down(const Recording& recording, CondensedReco
       for (Eigen::Index i = 0; i < model.size(); ++i) {
         const std::size_t at = data.conditions[static_cast<std::size_t>(i)];
         const double z = std::abs(left.error[i]) / left.deviation[i];
-        if (z <= std::max(most, kDoubtful) || settled.contains(at)) continue;
+        if (z <= std::max(most, Thresholds::kDoubtfulStray_deviations) || settled.contains(at))
+          continue;
         const std::vector<std::size_t> runs = measured_runs(bed.conditions[at], adjusted);
-        if (runs.size() <= 2 ? z <= kStray : !at_odds(noise, runs, adjusted)) continue;
+        if (runs.size() <= 2 ? z <= Thresholds::kStray_deviations : !at_odds(noise, runs, adjusted))
+          continue;
         most = z;
         worst = i;
       }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/bed/condition_axes.h"
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
@@ -289,16 +290,15 @@ double gain_in_errors(const TestBed& bed, std::size_t channel, const Eigen::Vect
 }
 
 std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof) {
-  constexpr double kClear = 2;
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const double gain = gain_in_errors(bed, c, proof.corrected, proof.calibrated);
-    if (gain < -kClear) {
+    if (gain < -Thresholds::kClear_errors) {
       return fmt::format("held out by {}, it predicts {} worse by {:.1f} standard errors",
                          proof.families.by, name(bed.channels[c].channel), -gain);
     }
   }
   const double gain = gain_in_errors(bed, proof.corrected, proof.calibrated);
-  if (gain > kClear) return "";
+  if (gain > Thresholds::kClear_errors) return "";
   return fmt::format("held out by {}, it gains {:.1f} standard errors, and 2 are asked for",
                      proof.families.by, gain);
 }

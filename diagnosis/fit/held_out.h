@@ -28,10 +28,6 @@ struct CorrectedModel {
   std::vector<std::size_t> remainder;
 };
 
-/// Share of the excess misfit on held-out conditions below which a correction is worth nothing: no
-/// name is claimed for it, and a doubtful lack of fit is taken for chance.
-inline constexpr double kWorthCorrecting = 1.0 / 3.0;
-
 /// How models do on conditions that they were not fitted to.
 struct HeldOut {
   Families families;

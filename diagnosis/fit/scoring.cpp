@@ -12,12 +12,9 @@ namespace {
 
 /// Forms are only proxies of what acts: what a name loses by that grows with the signal, and so
 /// does the temperature that scores are divided by. A weak signal's scores are worth what they say.
-/// Temperature and priors were fitted to the log likelihood of the true names of 420 generated
-/// challenges (1.2 + 0.22 log(...), pairs -5.8, unexplained 3.3); names are a little likelier here,
-/// as held-out conditions try them once more.
-double temperature_of(double gain_nats) {
-  return 1 + 0.2 * std::log1p(std::max(0.0, gain_nats) / 10);
-}
+/// Priors were fitted to the log likelihood of the true names of 420 generated challenges (pairs
+/// -5.8, unexplained 3.3); names are a little likelier here, as held-out conditions try them once
+/// more.
 constexpr double kPairLogPrior = -5;        // each
 constexpr double kUnexplainedLogPrior = 3;  // of things on no list there are many
 constexpr double kHoldsLogPrior = 12;
@@ -198,6 +195,10 @@ std::vector<ScoredId> gather(const std::vector<Hypothesis>& candidates,
 }
 
 }  // namespace
+
+double temperature_of(double gain_nats) {
+  return 1 + 0.2 * std::log1p(std::max(0.0, gain_nats) / 10);
+}
 
 std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProblem& wide,
                                        const std::vector<Effect>& effects,

@@ -7,6 +7,7 @@
 
 #include "diagnosis/bed/whitening.h"
 #include "diagnosis/names/name_share.h"
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
@@ -27,12 +28,6 @@ Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate,
   }
   return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
-
-/// Forms are chosen among for names that come so near the best.
-constexpr double kLeading_nats = 20;
-/// Forms are proxies of one effect: of those whose evidence lies no farther apart than a name must
-/// beat the remainder by, the one that predicts best stands for the effect.
-constexpr double kNearForm_nats = 10;
 
 /// Forms of one id, marginalised.
 CappedName marginal(const std::string& id, const std::vector<CandidateFit>& forms,
@@ -97,7 +92,8 @@ std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
   std::ranges::stable_sort(names, std::greater{}, &CappedName::gain_nats);
   std::vector<CappedName*> leading;
   for (CappedName& name : names) {
-    if (name.gain_nats > names.front().gain_nats - kLeading_nats) leading.push_back(&name);
+    if (name.gain_nats > names.front().gain_nats - Thresholds::kLeading_nats)
+      leading.push_back(&name);
   }
   parallel_for(leading.size(), threads, [&](std::size_t i) {
     leading[i]->fit = best_predicting(forms.at(leading[i]->id), beside);
@@ -112,7 +108,7 @@ CandidateFit CappedContest::best_predicting(const std::vector<CandidateFit>& for
   const CandidateFit* best = nullptr;
   double best_share = -INFINITY;
   for (const CandidateFit& fit : forms) {
-    if (fit.evidence.log_marginal < top - kNearForm_nats) continue;
+    if (fit.evidence.log_marginal < top - Thresholds::kNearForm_nats) continue;
     const NameShare share = beside == nullptr ? name_share(calibrated_, fit, 1)
                                               : added_share(calibrated_, fit, *beside, 1);
     if (share.share.low > best_share) {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/recording/thresholds.h"
+
 namespace regoplan {
 namespace {
-
-constexpr double kSure = 0.9;
 
 std::set<std::string> parts_of(const std::string& id) {
   const std::size_t plus = id.find('+');
@@ -29,7 +29,7 @@ NameClass cover(const std::vector<Weighted>& candidates) {
   const auto hit = [&](const Weighted& w) {
     return std::ranges::any_of(chosen.ids, [&](const auto& id) { return w.ids.contains(id); });
   };
-  while (chosen.probability < kSure && chosen.ids.size() < kLargestClass) {
+  while (chosen.probability < Thresholds::kSure && chosen.ids.size() < Thresholds::kLargestClass) {
     std::map<std::string, double> gain;
     for (const Weighted& w : candidates) {
       if (hit(w)) continue;
@@ -50,7 +50,7 @@ std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
   std::vector<Weighted> all;
   for (const ScoredId& s : scored) all.push_back({parts_of(s.id), s.probability});
   const NameClass first = cover(all);
-  if (first.probability < kSure) return {};
+  if (first.probability < Thresholds::kSure) return {};
   std::vector<NameClass> claimed{first};
   // given the first effect: is there a second?
   std::vector<Weighted> partners;
@@ -65,7 +65,7 @@ std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
   }
   for (Weighted& w : partners) w.probability /= whole;
   const NameClass second = cover(partners);
-  if (second.probability >= kSure) claimed.push_back(second);
+  if (second.probability >= Thresholds::kSure) claimed.push_back(second);
   return claimed;
 }
 
@@ -87,10 +87,9 @@ const ScoredId* best_of(const std::vector<ScoredId>& scored,
 }
 
 std::string objection(const FitProblem& problem, const CandidateFit& fit) {
-  constexpr double kSoilBack = 4.0, kPlausible = 3.5, kWrongWay = 2;
   for (std::size_t i = 0; i < problem.soil.size(); ++i) {
     const double pull = fit.x[static_cast<Eigen::Index>(i)];
-    if (std::abs(pull) > kSoilBack) {
+    if (std::abs(pull) > Thresholds::kSoilBack) {
       return fmt::format("{} would still lie {:.1f} prior standard deviations from its soil tests",
                          problem.soil[i].coordinate.name, std::abs(pull));
     }
@@ -100,7 +99,7 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
     const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
     for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
       const double x = fit.x[first + static_cast<Eigen::Index>(i)];
-      if (std::abs(x) < kPlausible) continue;
+      if (std::abs(x) < Thresholds::kPlausible) continue;
       return fmt::format("{} would need {} = {:.3g}, far from what is usual", effect.id,
                          effect.coordinates[i].name, effect.coordinates[i].value(x));
     }
@@ -116,7 +115,7 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
         const Eigen::VectorXd own = part->segment(from, n);
         const Eigen::VectorXd left = data.mean - fit.prediction.segment(from, n) + own;
         const double own_size = std::sqrt(own.dot(weight.cwiseProduct(own)));
-        if (own.dot(weight.cwiseProduct(left)) < -kWrongWay * own_size) {
+        if (own.dot(weight.cwiseProduct(left)) < -Thresholds::kWrongWay_deviations * own_size) {
           return fmt::format("{} would move {} the wrong way", effect.id, name(channel));
         }
       }

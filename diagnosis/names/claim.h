@@ -5,9 +5,6 @@
 
 namespace regoplan {
 
-/// More names that fit alike say nothing: then there is no claim.
-inline constexpr std::size_t kLargestClass = 4;
-
 /// Names that stand for one effect: the likeliest first, then those the data cannot tell from it.
 struct NameClass {
   std::vector<std::string> ids;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/fit/unnamed_correction.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
@@ -147,12 +148,11 @@ Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surfa
 /// Why a calibrated model is not handed on; empty where it is: soil numbers that fit some channels
 /// at the cost of another tell nothing of the soil.
 std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof) {
-  constexpr double kClear = 2;
   const TestBed& bed = calibrated.bed();
   const Eigen::VectorXd means = calibrated.prediction_at_prior_means();
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const double loss = gain_in_errors(bed, c, means, proof.calibrated);
-    if (loss > kClear) {
+    if (loss > Thresholds::kClear_errors) {
       return fmt::format(
           "held out by {}, calibrated soil numbers predict {} worse than the prior means by {:.1f} "
           "standard errors",

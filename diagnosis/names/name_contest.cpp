@@ -7,11 +7,10 @@
 #include <cmath>
 
 #include "diagnosis/fit/unnamed_correction.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kClearGain = 2;  // standard errors of the held-out gain
 
 /// What a claim explains on held-out conditions, and of the pulls on the soil numbers.
 struct Worth {
@@ -19,7 +18,9 @@ struct Worth {
   double share = 0;  ///< of the excess misfit
   double slack = 0;  ///< noise alone moves that share by so much
 
-  bool proven() const { return gain > kClearGain && share + slack > kWorthCorrecting; }
+  bool proven() const {
+    return gain > Thresholds::kClear_errors && share + slack > Thresholds::kWorthCorrecting;
+  }
 };
 
 Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
@@ -146,7 +147,7 @@ std::optional<NameContest::IdleEffect> NameContest::idle_effect(
     }
   }
   const std::size_t least = gain[0] < gain[1] ? 0 : 1;
-  if (gain[least] > kClearGain) return std::nullopt;
+  if (gain[least] > Thresholds::kClear_errors) return std::nullopt;
   return IdleEffect{least, gain[least]};
 }
 

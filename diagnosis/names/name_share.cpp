@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "diagnosis/fit/unnamed_correction.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kClearlyWorse = 2;  // standard errors
 
 /// Of a prediction against one that it is to better, per kind of families.
 NameShare compare(const CalibratedRecording& calibrated, const CandidateFit& with,
@@ -40,7 +39,7 @@ NameShare compare(const CalibratedRecording& calibrated, const CandidateFit& wit
     }
   }
   const auto worst = std::ranges::min_element(gains);
-  if (*worst < -kClearlyWorse) {
+  if (*worst < -Thresholds::kClear_errors) {
     result.worsened = bed.channels[static_cast<std::size_t>(worst - gains.begin())].channel;
   }
   return result;

@@ -5,22 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/recording/thresholds.h"
+
 namespace regoplan {
 namespace {
 
 constexpr std::size_t kMostNames = 3;
 constexpr int kWorlds = 39;
 
-/// Forms are proxies: what names lose by that grows with the signal.
-double temperature(double gain_nats) {
-  return 1 + 0.2 * std::log1p(std::max(gain_nats, 0.0) / 10);
-}
-
 std::vector<double> weights_of(const std::vector<CappedName>& names) {
   std::vector<double> weights;
   const double top = names.empty() ? 0 : names.front().gain_nats;
   for (const CappedName& name : names) {
-    weights.push_back(std::exp((name.gain_nats - top) / temperature(top)));
+    weights.push_back(std::exp((name.gain_nats - top) / temperature_of(top)));
   }
   return weights;
 }
@@ -53,7 +50,7 @@ Claim claim_for_last(const CalibratedRecording& calibrated, const CandidateFit& 
 std::vector<std::string> ids_near(const std::vector<CappedName>& names, double gain_nats) {
   std::vector<std::string> ids;
   for (const CappedName& name : names) {
-    if (name.gain_nats > gain_nats - kOverOthers_nats) ids.push_back(name.id);
+    if (name.gain_nats > gain_nats - Thresholds::kOverOthers_nats) ids.push_back(name.id);
   }
   return ids;
 }
@@ -65,13 +62,13 @@ bool mixes_wheel_and_instrument(const std::vector<std::string>& ids) {
 /// Why a name may not stand, by itself or in a class; empty where it may.
 std::string objection_to(const CalibratedRecording& calibrated, const CappedContest& contest,
                          const CappedName& name, int threads) {
-  if (name.gain_nats < kOverRemainder_nats) {
+  if (name.gain_nats < Thresholds::kOverRemainder_nats) {
     return fmt::format("it gains {:.1f} nats over an unnamed remainder", name.gain_nats);
   }
   std::string doubt = objection(calibrated.problem(), name.fit);
   if (!doubt.empty()) return doubt;
   const NameShare share = name_share(calibrated, name.fit, threads);
-  if (share.share.low < kWorthANameAlone) {
+  if (share.share.low < Thresholds::kWorthANameAlone) {
     return fmt::format("held out it explains {:.0f} % of the excess misfit only",
                        100 * share.share.low);
   }
@@ -152,12 +149,14 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
     const auto names = contest.score(further, &claim.fit, threads);
     if (names.empty()) return;
     const CappedName& best = names.front();
-    if (best.gain_nats - gain_nats < kOverRemainder_nats) return;
+    if (best.gain_nats - gain_nats < Thresholds::kOverRemainder_nats) return;
     if (!objection(calibrated.problem(), best.fit).empty()) return;
     const NameShare added = added_share(calibrated, best.fit, claim.fit, threads);
-    if (added.share.low < kWorthAnother || added.gain_in_errors < 2 || added.worsened) return;
+    if (added.share.low < Thresholds::kWorthAnother ||
+        added.gain_in_errors < Thresholds::kClear_errors || added.worsened)
+      return;
     const std::vector<std::string> ids = ids_near(names, best.gain_nats);
-    if (ids.size() > kLargestClass) return;
+    if (ids.size() > Thresholds::kLargestClass) return;
     Claim next = claim_for_last(calibrated, best.fit, ids);
     next.evidence_nats = best.gain_nats - gain_nats;
     next.probability = probability_of(names, ids);
@@ -188,7 +187,9 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
   std::vector<std::string> ids;
   double top = 0, p = 1;
   for (const CappedName& name : names) {
-    if (name.gain_nats < std::max(kOverRemainder_nats, top - kOverOthers_nats)) break;
+    if (name.gain_nats <
+        std::max(Thresholds::kOverRemainder_nats, top - Thresholds::kOverOthers_nats))
+      break;
     const std::string doubt = objection_to(calibrated, contest, name, threads);
     if (!doubt.empty()) {
       if (ids.empty())
@@ -204,14 +205,14 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
   }
   decision.ranking = capped_ranking(names, p);
   if (ids.empty()) return decision;
-  if (ids.size() == 1 && p > kByChance) {
+  if (ids.size() == 1 && p > Thresholds::kByChance_p) {
     decision.refused = fmt::format(
         "{} gains {:.0f} nats over an unnamed remainder; nameless worlds let some name do as well "
         "with a probability of {:.2f}",
         ids.front(), top, p);
     return decision;
   }
-  if (ids.size() > kLargestClass || mixes_wheel_and_instrument(ids)) {
+  if (ids.size() > Thresholds::kLargestClass || mixes_wheel_and_instrument(ids)) {
     decision.refused = "names that fit alike are too many, or of wheel and instrument both";
     return decision;
   }

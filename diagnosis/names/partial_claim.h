@@ -9,12 +9,6 @@
 
 namespace regoplan {
 
-/// Rules by which names stand beside an unnamed remainder.
-inline constexpr double kOverRemainder_nats = 10;  ///< by which a name beats the remainder alone
-inline constexpr double kOverOthers_nats = 5;      ///< and every other name, or they are a class
-inline constexpr double kWorthANameAlone = 1.0 / 3.0;  ///< held-out share of the first name
-inline constexpr double kWorthAnother = 0.02;          ///< that a further name adds
-
 /// Names that explain part of a misfit, the likeliest form of each fitted together.
 struct PartialClaim {
   std::vector<Claim> claims;
@@ -33,9 +27,6 @@ std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names
 /// How often a nameless world lets some name gain as much and explain as large a share, or more.
 double chance_of(const std::vector<ByChance>& reached, double gain_nats, double share);
 
-/// Above this a single name is taken for chance.
-inline constexpr double kByChance = 1.0 / 40;
-
 /// Gain that one nameless world in forty reaches.
 double reached_by_chance(const std::vector<ByChance>& reached);
 
@@ -52,7 +43,7 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
                        PartialClaim& claim);
 
 /// A claim for what stands beside a remainder of a recording's misfit, if anything does. A single
-/// name must do better than it may by chance (kByChance); a class of names that
+/// name must do better than it may by chance (Thresholds::kByChance_p); a class of names that
 /// fit alike need not, as none of them is claimed alone.
 struct PartialDecision {
   std::optional<PartialClaim> claim;

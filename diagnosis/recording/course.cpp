@@ -5,12 +5,11 @@
 #include <optional>
 #include <set>
 
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
-
-constexpr double kWorthACourse_nats = 12;
 
 struct Column {
   std::string name;
@@ -82,7 +81,7 @@ std::optional<Course> course_of(const Recording& recording,
         if (contrasts[c]) course.gain_nats += contrasts[c]->gain(trend) - kCost_nats;
         course.trend.push_back(std::move(trend));
       }
-      if (course.gain_nats > (best ? best->gain_nats : kWorthACourse_nats)) best = course;
+      if (course.gain_nats > (best ? best->gain_nats : Thresholds::kCourse_nats)) best = course;
     }
   }
   return best;

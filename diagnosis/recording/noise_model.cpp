@@ -7,13 +7,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kOutlier = 3.5;
 constexpr int kFewest = 4;  // degrees of freedom to trust replicates
 
 double median(std::vector<double> values) {
@@ -78,7 +78,9 @@ void weigh_outliers(const Replicates& replicates, const std::vector<double>& val
         const double n = static_cast<double>(group.size());
         const double z =
             std::abs(value[run] - middle) / (deviation(middle) * std::sqrt((n - 1) / n));
-        weight[run] = z < kOutlier ? 1 : std::pow(kOutlier / z, 4);
+        weight[run] = z < Thresholds::kOutlier_deviations
+                          ? 1
+                          : std::pow(Thresholds::kOutlier_deviations / z, 4);
         sum += weight[run] * value[run];
         weights += weight[run];
       }

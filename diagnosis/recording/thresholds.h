@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+
+namespace regoplan {
+
+/// The numbers at which a diagnosis decides, each with its origin. `benchmarks/diagnosis` measures
+/// what they cost; who changes one states its campaign anew.
+struct Thresholds {
+  // How sure a finding must be.
+
+  /// Of the lack of fit of a single recording: chosen so that no more than one in a hundred
+  /// recordings without mismatch is taken for one with it, other tests beside it counted.
+  static constexpr double kLackOfFit_p = 0.005;
+  /// Of a lack of fit that needs no proof on held-out conditions: chosen, a fifth of the above.
+  static constexpr double kBeyondDoubt_p = 1e-3;
+  /// Of a difference between recordings: as above, since it must hold under three settings of the
+  /// base model.
+  static constexpr double kDifference_p = 1e-3;
+  /// Of any place at all being shown where nothing differs: the usual one in twenty.
+  static constexpr double kLocation_p = 0.05;
+  /// Standard errors by which one prediction must beat another, or may be worse: the usual 95 %.
+  static constexpr double kClear_errors = 2;
+  /// Standard deviations by which a recording must break a law that no soil can break: chosen far
+  /// out, as the finding accuses an instrument.
+  static constexpr double kImpossible_deviations = 4;
+
+  // What replicates say.
+
+  /// Standard deviations from its fellows beyond which a run is an outlier: one in 2000 of normal
+  /// noise.
+  static constexpr double kOutlier_deviations = 3.5;
+  /// The same for a condition against its neighbours, whose surface is itself uncertain: chosen
+  /// wider. The second where its own runs are at odds as well.
+  static constexpr double kStray_deviations = 4;
+  static constexpr double kDoubtfulStray_deviations = 2.5;
+  /// That a course must gain over days and scatter: chosen above what 25 columns and kinds tried on
+  /// replicates without a course reach (Course tests).
+  static constexpr double kCourse_nats = 12;
+
+  // What calibration may do.
+
+  /// Prior standard deviations that a soil number may be pulled by: asked of the verdict.
+  static constexpr double kWorstPull = 4.5;
+  /// From here on other physics is looked for that would do instead, asked of the verdict; it must
+  /// bring the number back below the second and score as well but for the third.
+  static constexpr double kSuspectPull = 3;
+  static constexpr double kUnsuspectPull = 2;
+  static constexpr double kAsGood_nats = 3;
+
+  // What a name needs.
+
+  /// Over `parameters`, where no test spoke up: chosen from 420 generated challenges.
+  static constexpr double kUnprompted_nats = 9;
+  /// Together the names of a claim must reach it; a class of more names says nothing.
+  static constexpr double kSure = 0.9;
+  static constexpr std::size_t kLargestClass = 4;
+  /// Share of the excess misfit on held-out conditions that is worth a correction, or a name that
+  /// stands alone: a third is worth a name, a thousandth is not.
+  static constexpr double kWorthCorrecting = 1.0 / 3.0;
+  static constexpr double kWorthANameAlone = 1.0 / 3.0;
+  /// That a further name adds: chosen, above what noise adds in the challenges.
+  static constexpr double kWorthAnother = 0.02;
+  /// By which a name beats an unnamed remainder alone: asked of the verdict `partly`; and every
+  /// other name, or they are a class: half of it.
+  static constexpr double kOverRemainder_nats = 10;
+  static constexpr double kOverOthers_nats = 5;
+  /// Of forms whose evidence is no farther apart the one that predicts best stands for its name;
+  /// asked for names that come so near the leading one. As one and twice the gain over a remainder.
+  static constexpr double kNearForm_nats = 10;
+  static constexpr double kLeading_nats = 20;
+  /// How often nameless worlds may let some name do as well: asked, one in forty.
+  static constexpr double kByChance_p = 1.0 / 40;
+  /// A fitted claim is not believed with a soil number this far from its tests, a parameter this
+  /// far from what is usual, or a channel moved the wrong way by so many deviations: chosen, the
+  /// first below the pull that calibration alone may need.
+  static constexpr double kSoilBack = 4;
+  static constexpr double kPlausible = 3.5;
+  static constexpr double kWrongWay_deviations = 2;
+};
+
+}  // namespace regoplan
