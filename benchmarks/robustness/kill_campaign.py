@@ -170,7 +170,7 @@ def campaign(program, name, folder, kills, chance):
     killed = written = 0
     while killed < kills and not findings:
         if name == "benchmark":  # else nothing would be left to run
-            shutil.rmtree(out)
+            shutil.rmtree(out, ignore_errors=True)
         if chance.random() < 0.3:  # tables are written anew
             shutil.rmtree(folder / "cache", ignore_errors=True)
         while_writing = killed % 2 == 1
