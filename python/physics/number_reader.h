@@ -43,11 +43,11 @@ class NumberReader {
 
   Copy copy_;
   const char* data_;
-  std::vector<std::size_t> lengths_;      ///< of the shape
-  std::vector<std::ptrdiff_t> strides_;   ///< in bytes, 0 where broadcast
-  std::size_t run_ = 1;                   ///< rows of one constant stride
-  std::ptrdiff_t run_stride_ = 0;         ///< within them
-  std::size_t outer_axes_ = 0;            ///< axes before those that make a run
+  std::vector<std::size_t> lengths_;     ///< of the shape
+  std::vector<std::ptrdiff_t> strides_;  ///< in bytes, 0 where broadcast
+  std::size_t run_ = 1;                  ///< rows of one constant stride
+  std::ptrdiff_t run_stride_ = 0;        ///< within them
+  std::size_t outer_axes_ = 0;           ///< axes before those that make a run
 };
 
 }  // namespace regoplan::python
