@@ -8,7 +8,6 @@
 #include "diagnosis/checks/location.h"
 #include "diagnosis/checks/smallest_detectable.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/findings/sentence.h"
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/names/calibrated_recording.h"
 #include "diagnosis/names/claim.h"
@@ -17,6 +16,7 @@
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
 #include "diagnosis/recording/thresholds.h"
+#include "diagnosis/stages.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
@@ -37,18 +37,8 @@ class Diagnosing {
     add_notes(instrument_checks(calibrated_.recording()));
   }
 
-  /// Interrupted, the stages that are complete.
   Diagnosis run() {
-    complete_ = found_;
-    complete_.verdict = Verdict::kUndecided;
-    try {
-      find();
-    } catch (const Interrupted&) {
-      found_ = std::move(complete_);
-      found_.interrupted = true;
-    }
-    found_.sentence = sentence_of(found_);
-    return std::move(found_);
+    return run_stages(found_, complete_, [&] { find(); });
   }
 
  private:

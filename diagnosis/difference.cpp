@@ -8,7 +8,6 @@
 
 #include "diagnosis/checks/location.h"
 #include "diagnosis/checks/shared_shortcomings.h"
-#include "diagnosis/findings/sentence.h"
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/names/capped_contest.h"
 #include "diagnosis/names/claim.h"
@@ -17,6 +16,7 @@
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
 #include "diagnosis/recording/thresholds.h"
+#include "diagnosis/stages.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
 
@@ -125,18 +125,8 @@ class Differing {
     choose_effects(setup, references);
   }
 
-  /// Interrupted, the stages that are complete.
   Diagnosis run() {
-    complete_ = found_;
-    complete_.verdict = Verdict::kUndecided;
-    try {
-      find();
-    } catch (const Interrupted&) {
-      found_ = std::move(complete_);
-      found_.interrupted = true;
-    }
-    found_.sentence = sentence_of(found_);
-    return std::move(found_);
+    return run_stages(found_, complete_, [&] { find(); });
   }
 
  private:

@@ -65,8 +65,11 @@ std::string diagnosis_summary(const DiagnosisRun& run) {
   }
   if (!diagnosis.next_experiments.empty()) {
     const Experiment& next = diagnosis.next_experiments.front();
-    text += fmt::format("{:>8} {} (separates {}; {:.2g} nats)\n", "next:", conditions_text(next),
-                        fmt::join(next.separates, ", "), next.expected_gain_nats);
+    const std::string parts = next.separates.empty()
+                                  ? ""
+                                  : fmt::format("separates {}; ", fmt::join(next.separates, ", "));
+    text += fmt::format("{:>8} {} ({}{:.2g} nats)\n", "next:", conditions_text(next), parts,
+                        next.expected_gain_nats);
   }
   return text;
 }

@@ -50,6 +50,21 @@ Usable usable_runs(const Recording& recording, const WheelModel& model,
   return usable;
 }
 
+void note_left_out(const Usable& usable, std::vector<std::string>& notes) {
+  if (usable.untrusted > 0) {
+    notes.push_back(
+        fmt::format("{} runs lie where the model is not trusted (slip outside "
+                    "-0.9 to 0.95, slip angle beyond 60 deg) and are not judged",
+                    usable.untrusted));
+  }
+  if (usable.without_forces > 0) {
+    notes.push_back(
+        fmt::format("{} runs have no model forces at the prior means and are "
+                    "not judged",
+                    usable.without_forces));
+  }
+}
+
 /// The day as a time where no time is recorded.
 Recording with_times(Recording recording) {
   if (recording.runs.empty()) return recording;
@@ -226,6 +241,15 @@ std::string course_note(const Course& course, const std::vector<ChannelNoise>& n
   return text;
 }
 
+/// Each condition stands where its runs do in the mean.
+void place_in_time(const Course& course, std::vector<Condition>& conditions) {
+  for (Condition& at : conditions) {
+    for (const std::size_t run : at.runs) {
+      at.when += course.value[run] / static_cast<double>(at.runs.size());
+    }
+  }
+}
+
 /// Moves every run to the mean of what it follows.
 void take_off(const Course& course, const std::vector<ChannelNoise>& noise,
               std::vector<ChannelRuns>& channels) {
@@ -298,18 +322,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
                           .soil = setup.soil.mean,
                           .gravity_mps2 = setup.gravity_mps2});
   const Usable usable = usable_runs(recording, model, stop);
-  if (usable.untrusted > 0) {
-    result.notes.push_back(
-        fmt::format("{} runs lie where the model is not trusted (slip outside "
-                    "-0.9 to 0.95, slip angle beyond 60 deg) and are not judged",
-                    usable.untrusted));
-  }
-  if (usable.without_forces > 0) {
-    result.notes.push_back(
-        fmt::format("{} runs have no model forces at the prior means and are "
-                    "not judged",
-                    usable.without_forces));
-  }
+  note_left_out(usable, result.notes);
   result.used = usable.runs;
   if (side_is_turned(recording, usable.runs)) {
     result.side_sign = -1;
@@ -338,11 +351,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
   if (result.course && result.course->in_time()) {
     grouped = group(recording, usable, model, blocks_of(*result.course));
-    for (Condition& at : grouped.conditions) {
-      for (const std::size_t run : at.runs) {
-        at.when += result.course->value[run] / static_cast<double>(at.runs.size());
-      }
-    }
+    place_in_time(*result.course, grouped.conditions);
   } else if (result.course) {
     take_off(*result.course, result.noise, grouped.channels);
   }

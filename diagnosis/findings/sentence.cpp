@@ -115,14 +115,18 @@ std::string share_words(const Share& share) {
   return text;
 }
 
+std::vector<std::string> names_of(const Claim& claim) {
+  std::vector<std::string> names{claim.id};
+  names.insert(names.end(), claim.equivalent.begin(), claim.equivalent.end());
+  return names;
+}
+
 /// "slip_sinkage explains 45 %; max_stress_angle or rear_contact explains 30 %".
 std::string partial_words(const Diagnosis& diagnosis) {
   std::string what;
   for (const Claim& claim : diagnosis.claims) {
-    std::vector<std::string> names{claim.id};
-    names.insert(names.end(), claim.equivalent.begin(), claim.equivalent.end());
-    what += fmt::format("{}{} explains {} of it", what.empty() ? "" : "; ", list_of(names),
-                        share_words(claim.share));
+    what += fmt::format("{}{} explains {} of it", what.empty() ? "" : "; ",
+                        list_of(names_of(claim)), share_words(claim.share));
   }
   return what + fmt::format("; {:.0f} % has no name.", 100 * diagnosis.remainder_share);
 }
@@ -130,6 +134,46 @@ std::string partial_words(const Diagnosis& diagnosis) {
 /// What the mismatch is to the measured: one of the model, or one between two recordings.
 std::string against(const Diagnosis& diagnosis) {
   return diagnosis.references.empty() ? "mismatch" : "difference from the reference";
+}
+
+/// Whose soil number was pulled most, and how far.
+std::string parameters_words(const Diagnosis& diagnosis) {
+  std::string text = "Other soil numbers explain the recording to within its noise";
+  const auto worst = std::ranges::max_element(
+      diagnosis.soil, {}, [](const SoilPull& one) { return std::abs(one.pull); });
+  if (worst != diagnosis.soil.end()) {
+    text += fmt::format(" (most: {} {:.4g} instead of {:.4g}, {:+.1f} prior standard deviations)",
+                        worst->parameter, worst->calibrated.value, worst->prior.value, worst->pull);
+  }
+  if (diagnosis.suspects.empty()) {
+    return text + "; no physics is missing that these data could show.";
+  }
+  return text +
+         "; a number that far from its tests is no clean bill: " + list_of(diagnosis.suspects) +
+         " would do instead.";
+}
+
+/// The names of the claims, and what they leave.
+std::string named_words(const Diagnosis& diagnosis) {
+  std::string what;
+  for (const Claim& claim : diagnosis.claims) {
+    what += fmt::format("{}{}, {}", what.empty() ? "" : "; and ", list_of(names_of(claim)),
+                        percent(claim.probability));
+  }
+  std::string text = "the data say " + what + ".";
+  const double left = 1 - diagnosis.share_explained;
+  if (left > 0.1) {
+    text += fmt::format(" Named, but {:.0f} % of the excess misfit remains.",
+                        100 * std::min(left, 1.0));
+  }
+  return text;
+}
+
+/// What would part names that fit alike; empty where there are none.
+std::string class_words(const Diagnosis& diagnosis) {
+  const bool apart = std::ranges::all_of(
+      diagnosis.claims, [](const Claim& claim) { return claim.equivalent.empty(); });
+  return apart ? "" : " These data cannot tell the names apart." + experiment_words(diagnosis);
 }
 
 }  // namespace
@@ -147,52 +191,14 @@ std::string sentence_of(const Diagnosis& diagnosis) {
         return "The recording and its reference do not differ beyond their noise.";
       }
       return "The recording agrees with the model at the prior soil numbers: nothing beyond noise.";
-    case Verdict::kParameters: {
-      const auto worst = std::ranges::max_element(diagnosis.soil, [](const auto& a, const auto& b) {
-        return std::abs(a.pull) < std::abs(b.pull);
-      });
-      std::string most;
-      if (worst != diagnosis.soil.end()) {
-        most =
-            fmt::format(" (most: {} {:.4g} instead of {:.4g}, {:+.1f} prior standard deviations)",
-                        worst->parameter, worst->calibrated.value, worst->prior.value, worst->pull);
-      }
-      if (!diagnosis.suspects.empty()) {
-        return "Other soil numbers explain the recording to within its noise" + most +
-               "; a number that far from its tests is no clean bill: " +
-               list_of(diagnosis.suspects) + " would do instead.";
-      }
-      return "Other soil numbers explain the recording to within its noise" + most +
-             "; no physics is missing that these data could show.";
-    }
+    case Verdict::kParameters:
+      return parameters_words(diagnosis);
     case Verdict::kNamed:
-    case Verdict::kClass: {
-      std::string what;
-      for (const Claim& claim : diagnosis.claims) {
-        std::vector<std::string> names{claim.id};
-        names.insert(names.end(), claim.equivalent.begin(), claim.equivalent.end());
-        what += fmt::format("{}{}, {}", what.empty() ? "" : "; and ", list_of(names),
-                            percent(claim.probability));
-      }
-      std::string text = where + "the data say " + what + ".";
-      const double left = 1 - diagnosis.share_explained;
-      if (left > 0.1) {
-        text += fmt::format(" Named, but {:.0f} % of the excess misfit remains.",
-                            100 * std::min(left, 1.0));
-      }
-      if (diagnosis.verdict == Verdict::kClass) {
-        text += " These data cannot tell the names apart." + experiment_words(diagnosis);
-      }
-      return text;
-    }
-    case Verdict::kPartly: {
-      const bool apart = std::ranges::all_of(
-          diagnosis.claims, [](const Claim& claim) { return claim.equivalent.empty(); });
+    case Verdict::kClass:
+      return where + named_words(diagnosis) + class_words(diagnosis);
+    case Verdict::kPartly:
       return where + "part of the " + against(diagnosis) +
-             " has a name: " + partial_words(diagnosis) +
-             (apart ? ""
-                    : " These data cannot tell the names apart." + experiment_words(diagnosis));
-    }
+             " has a name: " + partial_words(diagnosis) + class_words(diagnosis);
     case Verdict::kUnexplained:
       return where + "the " + against(diagnosis) +
              " is real and no known name explains it; it is modelled without a "
