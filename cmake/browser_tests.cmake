@@ -18,3 +18,5 @@ foreach(file ${browser_tests})
 endforeach()
 set_tests_properties(Browser.MakesThePages ${browser_names}
                      PROPERTIES LABELS browser TIMEOUT 300 SKIP_RETURN_CODE 77)
+# It holds in how long a page opens: beside other tests that would say how busy the machine is.
+set_tests_properties(Browser.every_report PROPERTIES RUN_SERIAL ON)
