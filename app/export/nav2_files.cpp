@@ -48,7 +48,8 @@ void add_rock(const GridFrame& frame, const Rock& rock, Pixels& pixels) {
       const double gap_m =
           std::hypot(std::max(0.0, away_x_m - cell_m / 2), std::max(0.0, away_y_m - cell_m / 2));
       if (gap_m > rock.radius_m) continue;
-      pixels[static_cast<std::size_t>(r * frame.columns + c)] = kOccupied;
+      pixels[static_cast<std::size_t>(r) * static_cast<std::size_t>(frame.columns) +
+             static_cast<std::size_t>(c)] = kOccupied;
     }
   }
 }
