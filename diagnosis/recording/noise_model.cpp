@@ -242,7 +242,9 @@ double run_deviation(const ChannelNoise& noise, double y) {
 ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
                             const ChannelRuns& runs, const DiagnosisSetup& setup,
                             const std::vector<double>& trend, const std::stop_token& stop) {
-  const auto& [channel, adjusted, model] = runs;
+  // Names of their own: clang 14 lets no lambda see what a structured binding names.
+  const Channel channel = runs.channel;
+  const std::vector<double>&adjusted = runs.adjusted, &model = runs.modelled;
   ChannelNoise noise{.channel = channel, .weight = std::vector<double>(adjusted.size(), 1.0)};
   const Replicates replicates = replicates_of(conditions, adjusted);
   noise.degrees_of_freedom = replicates.contrasts;
