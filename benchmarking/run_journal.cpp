@@ -19,8 +19,6 @@
 namespace regoplan {
 namespace {
 
-constexpr const char* kFileName = "runs.jsonl";
-
 nlohmann::json to_json(const JournalOrigin& origin) {
   nlohmann::json planners = nlohmann::json::array();
   for (const SuitePlanner& planner : origin.planners) {
@@ -138,7 +136,7 @@ bool lock(int descriptor) {
 }  // namespace
 
 RunJournal::RunJournal(const std::filesystem::path& folder, const JournalOrigin& origin)
-    : file_(folder / kFileName) {
+    : file_(folder / kJournalName) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -193,7 +191,7 @@ void RunJournal::append_line(const std::string& line) {
 }
 
 JournalContents read_journal(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / kFileName;
+  const std::filesystem::path file = folder / kJournalName;
   if (!std::filesystem::exists(file)) {
     throw InputError(folder.string() + ": holds no benchmark (runs.jsonl is missing)");
   }
@@ -221,27 +219,14 @@ JournalContents merged(const std::vector<JournalContents>& parts) {
   return all;
 }
 
-void write_journal(const std::filesystem::path& folder, const JournalContents& contents) {
-  const std::filesystem::path file = folder / kFileName;
-  const std::filesystem::path partial = folder / (std::string(kFileName) + ".part");
-  {
-    std::ofstream stream(partial, std::ios::binary);
-    for (const JournalOrigin& origin : contents.origins) {
-      stream << nlohmann::json{{"origin", to_json(origin)}}.dump() << '\n';
-    }
-    for (const RunRecord& run : contents.runs) {
-      stream << regoplan::to_json(run).dump(-1, ' ', false,
-                                            nlohmann::json::error_handler_t::replace)
-             << '\n';
-    }
-    stream.flush();
-    if (!stream) {
-      std::error_code ignored;
-      std::filesystem::remove(partial, ignored);
-      throw InputError(file.string() + ": cannot be written");
-    }
-  }
-  std::filesystem::rename(partial, file);
+std::string journal_text(const JournalContents& contents) {
+  std::string text;
+  const auto add_line = [&](const nlohmann::json& line) {
+    text += line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  };
+  for (const JournalOrigin& origin : contents.origins) add_line({{"origin", to_json(origin)}});
+  for (const RunRecord& run : contents.runs) add_line(regoplan::to_json(run));
+  return text;
 }
 
 }  // namespace regoplan

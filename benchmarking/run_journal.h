@@ -27,6 +27,9 @@ struct JournalContents {
   std::vector<RunRecord> runs;  ///< each run once, by key
 };
 
+/// A journal's name in its folder.
+inline constexpr const char* kJournalName = "runs.jsonl";
+
 /// The runs of a suite that have ended, in the file `runs.jsonl` of a folder: a line each, on the
 /// disk before `append` returns. A line that was cut short, by a kill or a full disk, counts as
 /// never begun.
@@ -61,7 +64,7 @@ JournalContents read_journal(const std::filesystem::path& folder);
 /// \throws InputError where they were written under different bounds, planners or scenarios
 JournalContents merged(const std::vector<JournalContents>& parts);
 
-/// Writes a journal that holds `contents`, whole or not at all.
-void write_journal(const std::filesystem::path& folder, const JournalContents& contents);
+/// The file of a journal that holds `contents`.
+std::string journal_text(const JournalContents& contents);
 
 }  // namespace regoplan

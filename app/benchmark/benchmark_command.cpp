@@ -153,14 +153,17 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
 ExitStatus run_merge(const BenchmarkOptions& options) {
   require_results_fit(options.out, benchmark_file_names());
   std::vector<JournalContents> parts;
-  if (std::filesystem::exists(options.out.path / "runs.jsonl")) {
-    throw InputError(options.out.path.string() + ": holds a benchmark already (runs.jsonl)");
+  if (std::filesystem::exists(options.out.path / kJournalName)) {
+    throw InputError(options.out.path.string() + ": holds a benchmark already (" + kJournalName +
+                     ")");
   }
   for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
   const SuiteResults results{.journal = merged(parts)};
-  std::filesystem::create_directories(options.out.path);
   write_benchmark_files(results, {}, options.out);
-  write_journal(options.out.path, results.journal);
+  // Last, since a folder that holds one is merged.
+  StagedFiles journal(options.out);
+  journal.write({.name = kJournalName, .content = journal_text(results.journal)});
+  journal.commit();
   print_outcome(results, options);
   return kYes;
 }

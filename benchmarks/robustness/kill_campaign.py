@@ -6,55 +6,14 @@ while files are written: after the hidden folder is there, within the time that 
 
     benchmarks/robustness/kill_campaign.py [--program FILE] [--kills N] [--seed N] [COMMAND...]
 """
-import argparse
 import json
-import math
 import os
-import pathlib
-import random
-import re
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-SCENARIO = """map:
-  terrain: {width_m: 40, height_m: 40, cell_m: 1}
-  soils: {soils: {mare: {source: assumed, cohesion_pa: 170, friction_angle_deg: 35, kc: 1400, kphi: 820000,
-    n: 1, a0: 0.4, a1: 0.15, lambda: 0.9, density_kgpm3: 1500, kx0_m: 0.018, ky0_m: 0.013}}, classes: {1: mare}}
-vehicle: lrv
-gravity_mps2: 1.62
-start: {x_m: 10, y_m: 20, heading_deg: 0}
-goal: {x_m: 30, y_m: 20, radius_m: 3}
-planner: {name: RRT, iterations: 300, candidates: 1, improve: false}
-"""
-
-
-def write_inputs(folder):
-    (folder / "s.yaml").write_text(SCENARIO)
-    (folder / "p.csv").write_text("x_m,y_m\n10,20\n20,20\n28,21\n")
-    (folder / "suite.yaml").write_text(
-        "name: kills\nscenarios: [s.yaml]\nplanners: [RRT]\nseeds: 3\niterations: 200\ntime_s: 5\nsoil_draws: 5\n")
-    rows = "".join(f"{60 + i % 7},{i % 10 / 12},{i % 17}\n" for i in range(3000))
-    (folder / "c.csv").write_text("load_n,slip_ratio,slip_angle_deg\n" + rows)
-    # As in tests: a planar grid that says where it lies.
-    heights = "\n".join(" ".join("1" for _ in range(60)) for _ in range(60))
-    (folder / "dem.asc").write_text(
-        "ncols 60\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 1\n" + heights + "\n")
-    (folder / "soils.yaml").write_text(
-        re.search(r"soils: (\{soils.*\}\}, classes: \{1: mare\}\})", SCENARIO, re.S).group(1) + "\n")
-    model = (ROOT / "scenarios/diagnosis/setup.yaml").read_text()
-    (folder / "m.yaml").write_text(model)
-    lines = (ROOT / "scenarios/diagnosis/recording.csv").read_text().splitlines(True)
-    (folder / "r.csv").write_text("".join(lines[:40]))
-    (folder / "d.csv").write_text("time_s,x_m,y_m,yaw_deg,pitch_deg\n" + "".join(
-        f"{i / 10},{20 + 8 * math.cos(i / 100)},{20 + 8 * math.sin(i / 100)},"
-        f"{math.degrees(i / 100) + 90},{i % 3 / 10}\n" for i in range(3000)))
-
+from campaign import ROOT, run_campaigns
 
 def commands(folder):
     out = folder / "out"
@@ -75,6 +34,7 @@ def commands(folder):
                       "--out", out],
         "drive": ["diagnose", folder / "d.csv", "--scenario", folder / "s.yaml", "--out", out],
         "demo": ["demo", "--iterations", "200", "--out", out],
+        "export": ["export", folder / "planned", "--nav2", out],
     }
 
 
@@ -156,21 +116,32 @@ def left_in(folder):
     return left + [path.name for path in (folder / "cache").glob("*/*.force-table.*")]
 
 
-def campaign(program, name, folder, kills, chance):
-    arguments = commands(folder)[name]
-    out = folder / "out"
-    if name == "wheel":
-        out.mkdir()
-    if name == "merge":
+def prepare(program, arguments, folder):
+    """Makes what a command needs beside the input."""
+    if arguments[0] == "wheel" and "--figures" not in arguments:
+        (folder / "out").mkdir()
+    if arguments[1] == "merge":
         for part in ("1", "2"):
             run(program, ["benchmark", folder / "suite.yaml", "--shard", f"{part}/2", "--out",
                           folder / f"part-{part}"], folder)
+    if arguments[0] == "export":
+        run(program, ["plan", folder / "s.yaml", "--out", folder / "planned"], folder)
+
+
+def clear_finished_benchmark(out):
+    """A benchmark that came to its end has nothing left to run or to merge; one that did not goes on."""
+    if (out / "runs.jsonl").exists() and (out / "benchmark.json").exists():
+        shutil.rmtree(out)
+
+
+def campaign(program, arguments, folder, kills, chance):
+    prepare(program, arguments, folder)
+    out = folder / "out"
     status, errors, whole_s, writing_s = whole_run(program, arguments, folder)
     findings = [] if status in (0, 2) else [f"the first run ends with {status}: {errors}"]
     killed = written = 0
     while killed < kills and not findings:
-        if name == "benchmark":  # else nothing would be left to run
-            shutil.rmtree(out, ignore_errors=True)
+        clear_finished_benchmark(out)
         if chance.random() < 0.3:  # tables are written anew
             shutil.rmtree(folder / "cache", ignore_errors=True)
         while_writing = killed % 2 == 1
@@ -185,6 +156,7 @@ def campaign(program, name, folder, kills, chance):
         findings += [f"{file} is not whole" for file in unwhole_files(out)]
     for table in (folder / "cache").glob("*/*.force-table"):
         table.unlink()  # so that the last run writes one
+    clear_finished_benchmark(out)
     status, errors = run(program, arguments, folder)
     if status not in (0, 2):
         findings.append(f"the last run ends with {status}: {errors}")
@@ -192,32 +164,9 @@ def campaign(program, name, folder, kills, chance):
     findings += [f"{file} is not whole" for file in unwhole_files(out)]
     for file in out.glob("*.json"):
         json.loads(file.read_text())
-    print(f"| {name} | {whole_s:.1f} s | {1000 * writing_s:.0f} ms | {killed} | {written} |"
-          f" {len(findings)} |", flush=True)
-    for finding in findings:
-        print(f"{name:14} {finding}", flush=True)
-    return len(findings)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--program", default=str(ROOT / "build/release/regoplan"))
-    parser.add_argument("--kills", type=int, default=200, help="of each command")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("command", nargs="*", help="default: all")
-    options = parser.parse_args()
-    chance = random.Random(options.seed)
-    findings = 0
-    print("| command | a run | of that writing | kills | of these while writing | findings |\n"
-          "|---|---|---|---|---|---|", flush=True)
-    for name in commands(pathlib.Path()):
-        if options.command and name not in options.command:
-            continue
-        with tempfile.TemporaryDirectory(prefix="regoplan-kills-") as folder:
-            write_inputs(pathlib.Path(folder))
-            findings += campaign(options.program, name, pathlib.Path(folder), options.kills, chance)
-    sys.exit(1 if findings else 0)
+    return f"{whole_s:.1f} s | {1000 * writing_s:.0f} ms | {killed} | {written}", findings
 
 
 if __name__ == "__main__":
-    main()
+    run_campaigns(__doc__, "--kills", 200,
+                  "a run | of that writing | kills | of these while writing", commands, campaign)

@@ -7,19 +7,15 @@ marked interrupted, or none.
 
 `drives` needs the logs of benchmarks/drives/README.md in $REGOPLAN_DATA/cuadriga_drives.
 """
-import argparse
 import json
 import os
 import pathlib
-import random
 import signal
 import statistics
 import subprocess
-import sys
-import tempfile
 import time
 
-from kill_campaign import ROOT, write_inputs
+from campaign import ROOT, run_campaigns
 
 SLOWEST_S = 1.0
 
@@ -101,57 +97,34 @@ def wrong_in(out, says):
     return wrong
 
 
-def campaign(program, name, arguments, says, times, chance):
-    with tempfile.TemporaryDirectory(prefix="regoplan-latency-") as scratch:
-        begun = time.monotonic()
-        process = start(program, arguments, pathlib.Path(scratch) / "whole")
-        _, errors = process.communicate()
-        whole_s = time.monotonic() - begun
-        findings = [] if process.returncode in (0, 2) else [f"{process.returncode}: {errors}"]
-        taken_s = []
-        for i in range(times):
-            out = pathlib.Path(scratch) / str(i)
-            number, status = ((signal.SIGINT, 130), (signal.SIGTERM, 143))[i % 2]
-            after_s = chance.uniform(0, whole_s)
-            process = start(program, arguments, out)
-            took_s, errors = interrupted(process, after_s, number)
-            if took_s is None or process.returncode in (0, 2):
-                continue  # it had come to its end
-            taken_s.append(took_s)
-            if process.returncode != status or not errors.endswith("regoplan: interrupted\n"):
-                findings.append(f"at {after_s:.2f} s: {process.returncode}: {errors}")
-            if took_s > SLOWEST_S:
-                findings.append(f"at {after_s:.2f} s: took {took_s:.2f} s")
-            findings += [f"at {after_s:.2f} s: {what}" for what in wrong_in(out, says)]
+def campaign(program, command, folder, times, chance):
+    arguments, says = command
+    if arguments is None:
+        return "no logs in REGOPLAN_DATA | 0 | |", []
+    begun = time.monotonic()
+    process = start(program, arguments, folder / "whole")
+    _, errors = process.communicate()
+    whole_s = time.monotonic() - begun
+    findings = [] if process.returncode in (0, 2) else [f"{process.returncode}: {errors}"]
+    taken_s = []
+    for i in range(times):
+        out = folder / str(i)
+        number, status = ((signal.SIGINT, 130), (signal.SIGTERM, 143))[i % 2]
+        after_s = chance.uniform(0, whole_s)
+        process = start(program, arguments, out)
+        took_s, errors = interrupted(process, after_s, number)
+        if took_s is None or process.returncode in (0, 2):
+            continue  # it had come to its end
+        taken_s.append(took_s)
+        if process.returncode != status or not errors.endswith("regoplan: interrupted\n"):
+            findings.append(f"at {after_s:.2f} s: {process.returncode}: {errors}")
+        if took_s > SLOWEST_S:
+            findings.append(f"at {after_s:.2f} s: took {took_s:.2f} s")
+        findings += [f"at {after_s:.2f} s: {what}" for what in wrong_in(out, says)]
     worst_s, middle_s = (max(taken_s), statistics.median(taken_s)) if taken_s else (0, 0)
-    print(f"| {name} | {whole_s:.1f} s | {len(taken_s)} | {middle_s:.2f} s | {worst_s:.2f} s |"
-          f" {len(findings)} |", flush=True)
-    for finding in findings:
-        print(f"  {name}: {finding}", flush=True)
-    return len(findings)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("--program", default=str(ROOT / "build/release/regoplan"))
-    parser.add_argument("--times", type=int, default=20, help="of each command")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("command", nargs="*", help="default: all")
-    options = parser.parse_args()
-    chance = random.Random(options.seed)
-    findings = 0
-    print("| command | a run | interrupted | median | longest | findings |\n|---|---|---|---|---|---|")
-    with tempfile.TemporaryDirectory(prefix="regoplan-inputs-") as folder:
-        write_inputs(pathlib.Path(folder))
-        for name, (arguments, says) in commands(pathlib.Path(folder)).items():
-            if options.command and name not in options.command:
-                continue
-            if arguments is None:
-                print(f"{name}: no logs in REGOPLAN_DATA", flush=True)
-                continue
-            findings += campaign(options.program, name, arguments, says, options.times, chance)
-    sys.exit(1 if findings else 0)
+    return f"{whole_s:.1f} s | {len(taken_s)} | {middle_s:.2f} s | {worst_s:.2f} s", findings
 
 
 if __name__ == "__main__":
-    main()
+    run_campaigns(__doc__, "--times", 20, "a run | interrupted | median | longest", commands,
+                  campaign)

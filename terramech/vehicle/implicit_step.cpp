@@ -191,17 +191,9 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   const Eigen::Vector3d pose_end = pose + h * ((1 - kGamma) * drift_first + kGamma * drift_end);
 
   const Commands end = commands_after(state, control, h);
-  result.state = {.x_m = pose_end[0],
-                  .y_m = pose_end[1],
-                  .yaw_rad = wrapped_rad(pose_end[2]),
-                  .motion = motion_end,
-                  .curvature_1pm = end.steering.curvature_1pm,
-                  .rim_speed_mps = end.rim_speed_mps,
-                  .rim_acceleration_mps2 = (end.rim_speed_mps - state.rim_speed_mps) / h,
-                  .transfer_forward_n = second.transfer_forward_n,
-                  .transfer_left_n = second.transfer_left_n,
-                  .crab_rad = end.steering.crab_rad,
-                  .turn_rate_rad_s = end.turn_rate_rad_s};
+  result.state =
+      end.state(pose_end, motion_end, {second.transfer_forward_n, second.transfer_left_n},
+                (end.rim_speed_mps - state.rim_speed_mps) / h);
   result.strain = wheels_.strain(second.sums, motion_end, second.setting, reaction_end);
   result.drive_energy_j =
       h * ((1 - kGamma) * first.sums.drive_power_w + kGamma * second.sums.drive_power_w);

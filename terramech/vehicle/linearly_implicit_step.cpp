@@ -90,16 +90,8 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
   const Eigen::Vector3d pose_end = pose + h * (1.5 * pose_k1 + 0.5 * pose_k2);
   const Eigen::Vector2d transfer_end = transfer + h * (1.5 * transfer_k1 + 0.5 * transfer_k2);
   const BodyMotion motion_end = motion_of(v + h * (1.5 * k1 + 0.5 * k2));
-  result.state = {.x_m = pose_end[0],
-                  .y_m = pose_end[1],
-                  .yaw_rad = wrapped_rad(pose_end[2]),
-                  .motion = motion_end,
-                  .curvature_1pm = end.steering.curvature_1pm,
-                  .rim_speed_mps = end.rim_speed_mps,
-                  .rim_acceleration_mps2 = (end.rim_speed_mps - start.rim_speed_mps) / h,
-                  .transfer_forward_n = transfer_end[0],
-                  .transfer_left_n = transfer_end[1],
-                  .crab_rad = end.steering.crab_rad};
+  result.state =
+      end.state(pose_end, motion_end, transfer_end, (end.rim_speed_mps - start.rim_speed_mps) / h);
   result.strain = wheels_.strain(second, motion_end, setting_end, reaction2);
   result.drive_energy_j = h / 2 * (first.sums.drive_power_w + second.drive_power_w);
   return result;

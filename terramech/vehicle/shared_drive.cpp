@@ -18,13 +18,11 @@ double VehicleWheels::bracketed_torque_nm(const BodyMotion& motion, const WheelS
     return sum_by_side(vehicle_, 0.0, [&](double& sum, std::size_t i) {
       const double load = sharing_.load_n(i, reaction);
       if (!vehicle_.wheels[i].driven || !(load > 0)) return;
-      const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
-      const WheelMotion at =
-          wheel_motion(vehicle_.wheels[i], setting.wheels[i], motion,
-                       setting.rim_speed * setting.wheels[i].rim_speed_per_speed);
+      const WheelOnGround wheel = on_ground(i, motion, setting, patch);
+      const WheelMotion& at = wheel.at;
       most_nm = std::max(most_nm, load * vehicle_.wheel.radius_m);
       axle_mps = std::max(axle_mps, std::abs(at.vx_mps));
-      sum += response(i, law, load, at, torque_nm).rim_speed_mps - at.rim_speed_mps;
+      sum += response(i, wheel.law, load, at, torque_nm).rim_speed_mps - at.rim_speed_mps;
     });
   };
   const double limit = vehicle_.torque_max_nm.value_or(std::numeric_limits<double>::infinity());
@@ -70,10 +68,9 @@ VehicleWheels::SharedDrive VehicleWheels::shared_drive(const BodyMotion& motion,
     const double load = sharing_.load_n(i, reaction);
     counts.at(i) = vehicle_.wheels[i].driven && load > 0;
     if (!counts.at(i)) continue;
-    const double commanded = setting.rim_speed * setting.wheels.at(i).rim_speed_per_speed;
-    wheels.at(i) = {&soil_laws_[static_cast<std::size_t>(patch.soil.at(i))], load,
-                    wheel_motion(vehicle_.wheels[i], setting.wheels.at(i), motion, commanded),
-                    commanded};
+    const WheelOnGround wheel = on_ground(i, motion, setting, patch);
+    const double commanded = wheel.at.rim_speed_mps;
+    wheels.at(i) = {&wheel.law, load, wheel.at, commanded};
     scale_mps = std::max({scale_mps, std::abs(commanded), std::abs(wheels.at(i).at.vx_mps)});
     most_nm = std::max(most_nm, load * vehicle_.wheel.radius_m);
   }

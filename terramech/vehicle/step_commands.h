@@ -8,6 +8,12 @@
 
 namespace regoplan {
 
+/// A heading within half a turn either way.
+inline double wrapped_rad(double yaw_rad) {
+  return std::abs(yaw_rad) <= std::numbers::pi ? yaw_rad
+                                               : std::remainder(yaw_rad, 2 * std::numbers::pi);
+}
+
 /// What steering and motors are commanded at a moment.
 struct VehicleDynamics::Commands {
   SteeringCommand steering;
@@ -19,6 +25,24 @@ struct VehicleDynamics::Commands {
     return steering.curvature_1pm != other.steering.curvature_1pm ||
            steering.crab_rad != other.steering.crab_rad || rim_speed_mps != other.rim_speed_mps ||
            on_the_spot != other.on_the_spot || turn_rate_rad_s != other.turn_rate_rad_s;
+  }
+
+  /// The state at the end of a step that led to these commands.
+  /// \param pose x, y, yaw on the map, the yaw within a turn
+  /// \param transfer_n of load, forward and left
+  VehicleState state(const Eigen::Vector3d& pose, const BodyMotion& motion,
+                     const Eigen::Vector2d& transfer_n, double rim_acceleration_mps2) const {
+    return {.x_m = pose[0],
+            .y_m = pose[1],
+            .yaw_rad = wrapped_rad(pose[2]),
+            .motion = motion,
+            .curvature_1pm = steering.curvature_1pm,
+            .rim_speed_mps = rim_speed_mps,
+            .rim_acceleration_mps2 = rim_acceleration_mps2,
+            .transfer_forward_n = transfer_n[0],
+            .transfer_left_n = transfer_n[1],
+            .crab_rad = steering.crab_rad,
+            .turn_rate_rad_s = turn_rate_rad_s};
   }
 };
 
@@ -48,12 +72,6 @@ class Drift {
   const PatchAxes& axes_;
   double cos_, sin_;
 };
-
-/// A heading within half a turn either way.
-inline double wrapped_rad(double yaw_rad) {
-  return std::abs(yaw_rad) <= std::numbers::pi ? yaw_rad
-                                               : std::remainder(yaw_rad, 2 * std::numbers::pi);
-}
 
 /// Slopes of the body's accelerations by its velocities, from those of the wheels' forces.
 inline Eigen::Matrix3d jacobian_of(const Eigen::Matrix3d& slopes, const Eigen::Vector3d& per_force,

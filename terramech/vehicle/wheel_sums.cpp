@@ -108,6 +108,15 @@ VehicleWheels::Response VehicleWheels::response(std::size_t wheel, const WheelLa
   return held == forces.torque_nm ? Response{forces, at.rim_speed_mps} : given(held);
 }
 
+VehicleWheels::WheelOnGround VehicleWheels::on_ground(std::size_t i, const BodyMotion& motion,
+                                                      const WheelSetting& setting,
+                                                      const GroundPatch& patch) const {
+  const WheelMount& mount = vehicle_.wheels[i];
+  const SteeredWheel& wheel = setting.wheels[i];
+  return {mount, wheel, soil_laws_[static_cast<std::size_t>(patch.soil[i])],
+          wheel_motion(mount, wheel, motion, setting.rim_speed * wheel.rim_speed_per_speed)};
+}
+
 WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& setting,
                               const GroundPatch& patch, const GroundReaction& reaction) const {
   SharedDrive shared;
@@ -127,11 +136,7 @@ WheelSums VehicleWheels::sums(const BodyMotion& motion, const WheelSetting& sett
     const double load = sharing_.load_n(i, reaction);
     sums.contact.load_min_n = std::min(sums.contact.load_min_n, load);
     if (!(load > 0)) return;
-    const WheelMount& mount = vehicle_.wheels[i];
-    const SteeredWheel& wheel = setting.wheels[i];
-    const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
-    WheelMotion at =
-        wheel_motion(mount, wheel, motion, setting.rim_speed * wheel.rim_speed_per_speed);
+    auto [mount, wheel, law, at] = on_ground(i, motion, setting, patch);
     WheelForces forces;
     bool as_commanded = mount.driven && vehicle_.drive_law != DriveLaw::kEqualTorque;
     if (as_commanded) {
@@ -230,11 +235,7 @@ SlopedWheelSums VehicleWheels::sums_with_slopes(const BodyMotion& motion,
   const OfSide sum = sum_by_side(vehicle_, OfSide{}, [&](OfSide& of_side, std::size_t i) {
     const double load = sharing_.load_n(i, reaction);
     if (!(load > 0)) return;
-    const WheelMount& mount = vehicle_.wheels[i];
-    const SteeredWheel& wheel = setting.wheels[i];
-    const WheelLaw& law = soil_laws_[static_cast<std::size_t>(patch.soil[i])];
-    WheelMotion at =
-        wheel_motion(mount, wheel, motion, setting.rim_speed * wheel.rim_speed_per_speed);
+    auto [mount, wheel, law, at] = on_ground(i, motion, setting, patch);
     WheelSlopes f;
     bool as_commanded = mount.driven && rolls(at);
     if (as_commanded && law.has_slopes()) {

@@ -119,6 +119,15 @@ class VehicleWheels {
     double rim_speed_mps = 0;
     bool as_commanded = true;
   };
+  /// A wheel as it is mounted and steered, on its soil, at its commanded speed.
+  struct WheelOnGround {
+    const WheelMount& mount;
+    const SteeredWheel& wheel;
+    const WheelLaw& law;
+    WheelMotion at;
+  };
+  WheelOnGround on_ground(std::size_t i, const BodyMotion& motion, const WheelSetting& setting,
+                          const GroundPatch& patch) const;
   /// What wheels with one torque in common settle to.
   struct SharedDrive {
     double torque_nm = 0;

@@ -3,26 +3,16 @@
 #include <functional>
 #include <numbers>
 
+#include "examples/regolith.h"
 #include "planner/problem/planning_problem.h"
 
 namespace regoplan {
 
 inline constexpr double kTestDegree = std::numbers::pi / 180;
 
-/// Firm lunar regolith, known exactly.
+/// The examples' soil, known exactly.
 inline UncertainSoil firm_regolith() {
-  return {.mean = {.cohesion_pa = 170,
-                   .friction_angle_rad = 35 * kTestDegree,
-                   .kc = 1400,
-                   .kphi = 8.2e5,
-                   .n = 1,
-                   .a0 = 0.40,
-                   .a1 = 0.15,
-                   .lambda = 0.9,
-                   .density_kgpm3 = 1600,
-                   .kx0_m = 0.018,
-                   .ky0_m = 0.013,
-                   .ky1_m = 0.020}};
+  return {.mean = ::firm_regolith()};
 }
 
 /// A map of `size_m` by `size_m` metres in cells of half a metre, one soil everywhere.
