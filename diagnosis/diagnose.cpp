@@ -145,12 +145,10 @@ class Diagnosing {
                                {.threads = options_.threads, .progress = [&](double share) {
                                   tell("scoring what may be wrong", 0.15 + 0.7 * share);
                                 }});
-    double parameters = -INFINITY, named = -INFINITY;
+    const double parameters = scored_as(Account::Kind::kParameters, scored_).score;
+    double named = -INFINITY;
     for (const ScoredId& s : scored_) {
-      if (s.id == "parameters") parameters = s.score;
-      if (s.id != "none" && s.id != "parameters" && s.id != "unexplained") {
-        named = std::max(named, s.score);
-      }
+      if (s.account.kind == Account::Kind::kEffects) named = std::max(named, s.score);
     }
     rejected_ = unfit_ || stands_out_ || named > parameters + Thresholds::kUnprompted_nats;
     weigh(scored_, plain_model());
@@ -234,20 +232,17 @@ class Diagnosing {
       if (std::abs(calibrated_.base().x[i]) > Thresholds::kSuspectPull) far.push_back(i);
     }
     if (far.empty()) return;
-    double parameters = -INFINITY;
-    for (const ScoredId& s : scored_) {
-      if (s.id == "parameters") parameters = s.score;
-    }
+    const double parameters = scored_as(Account::Kind::kParameters, scored_).score;
     std::vector<const ScoredId*> singles;
     for (const ScoredId& s : scored_) {
-      if (s.fit.candidate.effects.size() != 1 || is_instrument(s.id)) continue;
+      if (s.fit.candidate.effects.size() != 1 || is_instrument(s.id())) continue;
       const bool near = std::ranges::all_of(
           far, [&](Eigen::Index i) { return std::abs(s.fit.x[i]) < Thresholds::kUnsuspectPull; });
       if (near && s.score > parameters - Thresholds::kAsGood_nats) singles.push_back(&s);
     }
     std::ranges::stable_sort(singles, std::greater{}, &ScoredId::score);
     for (std::size_t i = 0; i < std::min(kMost, singles.size()); ++i) {
-      found_.suspects.push_back(singles[i]->id);
+      found_.suspects.push_back(singles[i]->id());
     }
   }
 
@@ -276,10 +271,9 @@ class Diagnosing {
 
   std::vector<ScoredCandidate> ranking() const {
     std::vector<ScoredCandidate> all;
-    const auto parameters =
-        std::ranges::find_if(scored_, [](const ScoredId& s) { return s.id == "parameters"; });
+    const double parameters = scored_as(Account::Kind::kParameters, scored_).score;
     for (const ScoredId& s : scored_) {
-      all.push_back({s.id, s.probability, s.score - parameters->score});
+      all.push_back({s.id(), s.probability, s.score - parameters});
     }
     return all;
   }
@@ -290,7 +284,7 @@ class Diagnosing {
     std::vector<ScoredId> rivals;
     for (const ScoredId& s : scored_) {
       if (rivals.size() == kMostRivals) break;
-      if (s.id == "none" || s.id == "parameters" || s.id == "unexplained") continue;
+      if (s.account.kind != Account::Kind::kEffects) continue;
       rivals.push_back(s);
     }
     return next_experiments(calibrated_.problem(), rivals);

@@ -335,7 +335,10 @@ class Differing {
 
   void no_name() {
     if (found_.verdict == Verdict::kConsistent) {
-      found_.ranking = {{"none", 1, 0}, {"parameters", 0, 0}, {"unexplained", 0, 0}};
+      using Kind = Account::Kind;
+      for (const Kind kind : {Kind::kNone, Kind::kParameters, Kind::kUnexplained}) {
+        found_.ranking.push_back({Account{kind}.id(), kind == Kind::kNone ? 1.0 : 0.0, 0});
+      }
     }
     found_.remainder_share = found_.verdict == Verdict::kUnexplained ? 1 : 0;
     hand_out(primary().calibrated->base());
@@ -347,7 +350,8 @@ class Differing {
     std::vector<ScoredId> rivals;
     for (const CappedName& name : primary().names) {
       if (rivals.size() == kMostRivals) break;
-      rivals.push_back({.id = name.id, .score = name.gain_nats, .fit = name.fit});
+      rivals.push_back(
+          {.account = {.effects = {name.id}}, .score = name.gain_nats, .fit = name.fit});
     }
     found_.next_experiments = next_experiments(primary().calibrated->problem(), rivals);
   }

@@ -272,12 +272,6 @@ std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, 
   return list.take();
 }
 
-std::string id_of(const Hypothesis& candidate) {
-  std::string id;
-  for (const Effect& effect : candidate.effects) id += (id.empty() ? "" : "+") + effect.id;
-  return id;
-}
-
 Soil soil_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
              const Hypothesis& candidate, const Eigen::VectorXd& x) {
   Soil at = soil_at(bed.setup.soil, soil, x);

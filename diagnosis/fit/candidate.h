@@ -73,9 +73,6 @@ struct Hypothesis {
   std::vector<Effect> effects;
 };
 
-/// `a`, `a+b`.
-std::string id_of(const Hypothesis& candidate);
-
 /// The soil at x with the factors of effects that have a shear modulus of their own.
 Soil soil_of(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
              const Hypothesis& candidate, const Eigen::VectorXd& x);

@@ -39,18 +39,18 @@ Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate)
 /// Fits of one id, one a form.
 using Forms = std::vector<CandidateFit>;
 
-ScoredId marginal(const std::string& id, const Forms& forms, std::size_t tried) {
+ScoredId marginal(const Account& account, const Forms& forms, std::size_t tried) {
   std::vector<double> scores;
   for (const CandidateFit& fit : forms) scores.push_back(fit.evidence.log_marginal);
   const auto best = std::ranges::max_element(scores) - scores.begin();
-  return {.id = id,
+  return {.account = account,
           .score = log_sum(scores) - std::log(static_cast<double>(tried)),
           .fit = forms[static_cast<std::size_t>(best)]};
 }
 
-ScoredId base(const std::string& id, const FitProblem& problem, const SettingWeights& weights) {
+ScoredId base(Account::Kind kind, const FitProblem& problem, const SettingWeights& weights) {
   const auto fit = fit_candidate(problem, {}, weights, start_of(problem, {}));
-  return marginal(id, {*fit}, 1);
+  return marginal({.kind = kind}, {*fit}, 1);
 }
 
 /// Score of a fit with another effect added, to first order from its starting point.
@@ -97,7 +97,7 @@ std::vector<std::size_t> partners(const FitProblem& problem, const ScoredId& sin
                                   const std::vector<std::size_t>& settings) {
   std::vector<std::pair<double, std::size_t>> gains;
   for (std::size_t k = 0; k < effects.size(); ++k) {
-    if (effects[k].id == single.id) continue;
+    if (effects[k].id == single.id()) continue;
     gains.emplace_back(-quick_score(problem, single.fit, effects[k], settings), k);
   }
   std::ranges::sort(gains);
@@ -175,26 +175,28 @@ std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
 
 std::vector<ScoredId> gather(const std::vector<Hypothesis>& candidates,
                              const std::vector<std::optional<CandidateFit>>& fits) {
-  std::map<std::string, Forms> by_id;
-  std::map<std::string, std::size_t> tried;
+  using Names = std::set<std::string>;
+  std::map<Names, Forms> by_names;
+  std::map<Names, std::size_t> tried;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    std::vector<std::string> ids;
-    for (const Effect& effect : candidates[i].effects) ids.push_back(effect.id);
-    std::ranges::sort(ids);
-    std::string id;
-    for (const std::string& part : ids) id += (id.empty() ? "" : "+") + part;
-    ++tried[id];
-    if (fits[i]) by_id[id].push_back(*fits[i]);
+    Names names;
+    for (const Effect& effect : candidates[i].effects) names.insert(effect.id);
+    ++tried[names];
+    if (fits[i]) by_names[names].push_back(*fits[i]);
   }
   std::vector<ScoredId> scored;
-  for (const auto& [id, forms] : by_id) scored.push_back(marginal(id, forms, tried[id]));
-  std::ranges::sort(scored, [](const auto& a, const auto& b) {
-    return a.score != b.score ? a.score > b.score : a.id < b.id;
-  });
+  for (const auto& [names, forms] : by_names) {
+    scored.push_back(marginal({.effects = names}, forms, tried[names]));
+  }
+  std::ranges::stable_sort(scored, std::greater{}, &ScoredId::score);
   return scored;
 }
 
 }  // namespace
+
+const ScoredId& scored_as(Account::Kind kind, const std::vector<ScoredId>& scored) {
+  return *std::ranges::find_if(scored, [&](const ScoredId& s) { return s.account.kind == kind; });
+}
 
 double temperature_of(double gain_nats) {
   return 1 + 0.2 * std::log1p(std::max(0.0, gain_nats) / 10);
@@ -207,11 +209,11 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
   const std::vector<SoilCoordinate> known;
   const Eigen::MatrixXd nothing_free(problem.bed.size(), 0);
   const FitProblem fixed{problem.bed, known, problem.discrepancy, nothing_free};
-  all.push_back(base("none", fixed, SettingWeights::of_none()));
-  all.push_back(base("parameters", wide, SettingWeights::of_none()));
+  all.push_back(base(Account::Kind::kNone, fixed, SettingWeights::of_none()));
+  all.push_back(base(Account::Kind::kParameters, wide, SettingWeights::of_none()));
   // what is on no list may well look like other soil numbers than can be: nothing is kept clear
   const FitProblem anything{problem.bed, problem.soil, problem.discrepancy, nothing_free};
-  all.push_back(base("unexplained", anything, SettingWeights::of_unexplained()));
+  all.push_back(base(Account::Kind::kUnexplained, anything, SettingWeights::of_unexplained()));
   std::vector<Hypothesis> singles;
   for (const Effect& effect : effects) singles.push_back({{effect}});
   const std::vector<ScoredId> alone = gather(singles, fit_all(problem, singles, options, 0, 0.5));
@@ -223,17 +225,14 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
 }
 
 void weigh(std::vector<ScoredId>& scored, PlainModel plain) {
-  double best = -INFINITY, parameters = 0;
-  for (const ScoredId& s : scored) {
-    best = std::max(best, s.score);
-    if (s.id == "parameters") parameters = s.score;
-  }
-  const double temperature = temperature_of(best - parameters);
+  const double best = std::ranges::max_element(scored, {}, &ScoredId::score)->score;
+  const double temperature =
+      temperature_of(best - scored_as(Account::Kind::kParameters, scored).score);
   std::vector<double> terms;
   for (const ScoredId& s : scored) {
-    const bool is_plain = s.id == "none" || s.id == "parameters";
-    double prior = s.id.find('+') != std::string::npos ? kPairLogPrior : 0;
-    if (s.id == "unexplained") prior = kUnexplainedLogPrior;
+    const bool is_plain = s.account.is_plain();
+    double prior = s.account.effects.size() > 1 ? kPairLogPrior : 0;
+    if (s.account.kind == Account::Kind::kUnexplained) prior = kUnexplainedLogPrior;
     if (is_plain && plain == PlainModel::kHolds) prior = kHoldsLogPrior;
     const bool out = s.given_up || (is_plain && plain == PlainModel::kRefuted);
     terms.push_back(out ? -INFINITY : s.score / temperature + prior);

@@ -5,18 +5,25 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/fit/account.h"
 #include "diagnosis/fit/candidate_fit.h"
 
 namespace regoplan {
 
-/// Everything of one id that was scored.
+/// One account that was scored, in all of its forms.
 struct ScoredId {
-  std::string id;
+  Account account;
   double score = 0;  ///< log marginal likelihood, forms marginalised
   double probability = 0;
   CandidateFit fit;       ///< of the likeliest form
   bool given_up = false;  ///< held-out conditions or its own numbers speak against it
+
+  std::string id() const { return account.id(); }
 };
+
+/// The one of these with an account that every scoring has.
+/// \pre it is not `kEffects`
+const ScoredId& scored_as(Account::Kind kind, const std::vector<ScoredId>& scored);
 
 struct ScoringOptions {
   int threads = 2;

@@ -11,13 +11,6 @@
 namespace regoplan {
 namespace {
 
-std::set<std::string> parts_of(const std::string& id) {
-  const std::size_t plus = id.find('+');
-  if (id == "none" || id == "parameters" || id == "unexplained") return {};
-  if (plus == std::string::npos) return {id};
-  return {id.substr(0, plus), id.substr(plus + 1)};
-}
-
 struct Weighted {
   std::set<std::string> ids;
   double probability = 0;
@@ -48,7 +41,7 @@ NameClass cover(const std::vector<Weighted>& candidates) {
 
 std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
   std::vector<Weighted> all;
-  for (const ScoredId& s : scored) all.push_back({parts_of(s.id), s.probability});
+  for (const ScoredId& s : scored) all.push_back({s.account.effects, s.probability});
   const NameClass first = cover(all);
   if (first.probability < Thresholds::kSure) return {};
   std::vector<NameClass> claimed{first};
@@ -70,7 +63,7 @@ std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
 }
 
 bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed) {
-  const std::set<std::string> ids = parts_of(scored.id);
+  const std::set<std::string>& ids = scored.account.effects;
   return ids.size() == claimed.size() && std::ranges::all_of(claimed, [&](const NameClass& names) {
            return std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });
          });
@@ -171,7 +164,7 @@ std::vector<Claim> claims_of(const FitProblem& problem, const std::vector<Scored
       double with = -INFINITY, without = -INFINITY;
       for (const ScoredId& s : scored) {
         if (s.given_up) continue;
-        const std::set<std::string> ids = parts_of(s.id);
+        const std::set<std::string>& ids = s.account.effects;
         const bool named =
             std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });
         (named ? with : without) = std::max(named ? with : without, s.score);

@@ -200,12 +200,8 @@ Correction correction_without_name(const CalibratedRecording& calibrated,
     return Proven{fit, std::move(remainder), std::move(proof)};
   };
   Proven best = prove(nullptr);
-  const auto unexplained =
-      std::ranges::find_if(scored, [](const ScoredId& s) { return s.id == "unexplained"; });
-  if (unexplained != scored.end()) {
-    Proven over_fit = prove(&unexplained->fit);
-    if (over_fit.proof.share_explained > best.proof.share_explained) best = std::move(over_fit);
-  }
+  Proven over_fit = prove(&scored_as(Account::Kind::kUnexplained, scored).fit);
+  if (over_fit.proof.share_explained > best.proof.share_explained) best = std::move(over_fit);
   Correction at_means = at_prior_means(calibrated, true, best.proof, threads);
   if (variances_off(calibrated.bed(), at_means.proof.corrected) <
       variances_off(calibrated.bed(), best.proof.corrected)) {

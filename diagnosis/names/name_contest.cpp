@@ -43,7 +43,7 @@ std::optional<ProvenClaim> NameContest::decide() {
   if (best == nullptr) return std::nullopt;
   const FitProblem problem = calibrated_.problem();
   std::string doubt = doubt_about(best->fit);
-  if (!doubt.empty() && another_holds(claimed, std::string(best->id))) {
+  if (!doubt.empty() && another_holds(claimed, std::set(best->account.effects))) {
     claimed = proven_one_by_one();
     best = best_of(scored_, claimed);
     doubt.clear();
@@ -60,7 +60,7 @@ std::optional<ProvenClaim> NameContest::decide() {
         "on held-out conditions it explains {:.0f} % of the excess misfit, {:.1f} standard errors",
         100 * worth.share, worth.gain);
   }
-  notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id, doubt));
+  notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id(), doubt));
   return std::nullopt;
 }
 
@@ -80,7 +80,7 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
         claimed[0].ids.front(), claimed[1].ids.front(), claimed[idle->effect].ids.front(),
         idle->gain));
     for (ScoredId& s : scored_) {
-      const bool pair_too_many = tried + 1 == kMostPairs && s.id.find('+') != s.id.npos;
+      const bool pair_too_many = tried + 1 == kMostPairs && s.account.effects.size() > 1;
       s.given_up = s.given_up || pair_too_many || is_of(s, claimed);
     }
     weigh(scored_, plain_);
@@ -103,10 +103,11 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
 /// What speaks against the best of a class need not speak against its other names, nor against
 /// it with a second effect beside it. Gives up the best where a claim that shares a name with the
 /// one before is made then and nothing speaks against it.
-bool NameContest::another_holds(const std::vector<NameClass>& refuted, const std::string& best) {
+bool NameContest::another_holds(const std::vector<NameClass>& refuted,
+                                const std::set<std::string>& best) {
   const std::vector<ScoredId> before = scored_;
   const std::size_t notes = notes_.size();
-  for (ScoredId& s : scored_) s.given_up = s.given_up || s.id == best;
+  for (ScoredId& s : scored_) s.given_up = s.given_up || s.account.effects == best;
   weigh(scored_, plain_);
   const std::vector<NameClass> claimed = proven_one_by_one();
   const ScoredId* other = claimed.empty() ? nullptr : best_of(scored_, claimed);

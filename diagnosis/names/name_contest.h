@@ -49,7 +49,7 @@ class NameContest {
   std::vector<NameClass> proven_one_by_one();
   std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const;
   std::string doubt_about(const CandidateFit& fit) const;
-  bool another_holds(const std::vector<NameClass>& refuted, const std::string& best);
+  bool another_holds(const std::vector<NameClass>& refuted, const std::set<std::string>& best);
 
   const CalibratedRecording& calibrated_;
   std::vector<ScoredId> scored_;

@@ -171,7 +171,7 @@ std::vector<Experiment> next_experiments(const FitProblem& problem,
             (forecasts[a].mean - forecasts[b].mean).array().square() / variance / 2;
         const double gain = trial.sensor ? each.maxCoeff() : each.sum();
         sum += gain;
-        if (gain > kNames_nats) parted.insert({rivals[a].id, rivals[b].id});
+        if (gain > kNames_nats) parted.insert({rivals[a].id(), rivals[b].id()});
       }
     }
     Experiment experiment{.further_sensor = trial.sensor, .expected_gain_nats = sum / pairs};

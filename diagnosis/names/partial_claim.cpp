@@ -88,9 +88,9 @@ std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names
   for (std::size_t i = 0; i < names.size(); ++i) {
     ranking.push_back({names[i].id, (1 - chance_p) * weights[i] / whole, names[i].gain_nats});
   }
-  ranking.push_back({"unexplained", names.empty() ? 1 : chance_p, 0});
-  ranking.push_back({"none", 0, 0});
-  ranking.push_back({"parameters", 0, 0});
+  ranking.push_back({Account{Account::Kind::kUnexplained}.id(), names.empty() ? 1 : chance_p, 0});
+  ranking.push_back({Account{Account::Kind::kNone}.id(), 0, 0});
+  ranking.push_back({Account{Account::Kind::kParameters}.id(), 0, 0});
   std::ranges::stable_sort(ranking, std::greater{}, &ScoredCandidate::probability);
   return ranking;
 }

@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "account_of.h"
+
 namespace regoplan {
 namespace {
 
 std::vector<ScoredId> scored(const std::vector<std::pair<std::string, double>>& probabilities) {
   std::vector<ScoredId> all;
   for (const auto& [id, probability] : probabilities) {
-    all.push_back({.id = id, .score = std::log(probability), .probability = probability});
+    all.push_back(
+        {.account = account_of(id), .score = std::log(probability), .probability = probability});
   }
   return all;
 }

@@ -53,10 +53,10 @@ TEST_F(NameContestOf, ANameThatOnlyScoresIsNotClaimedAndANoteSaysWhy) {
   hold({});
   // Whatever led to it, a score alone claims nothing: held out, the name explains nothing here.
   for (ScoredId& one : scored_) {
-    if (one.id == "slip_sinkage") one.score += 500;
+    if (one.id() == "slip_sinkage") one.score += 500;
   }
   weigh(scored_, PlainModel::kRefuted);
-  ASSERT_EQ(scored_.front().id.substr(0, 12), "slip_sinkage");
+  ASSERT_EQ(scored_.front().id().substr(0, 12), "slip_sinkage");
   NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
   EXPECT_FALSE(contest.decide());
   ASSERT_FALSE(contest.notes().empty());

@@ -15,7 +15,7 @@ ScoredId fitted(const CalibratedBed& bed, const Recording& raw, const std::strin
     start.setZero();
     start.head(bed.fit.x.size()) = bed.fit.x;
     const auto fit = fit_candidate(bed.problem(), {{effect}}, SettingWeights::of_named(), start);
-    return {.id = id, .probability = 0.5, .fit = *fit};
+    return {.account = {.effects = {id}}, .probability = 0.5, .fit = *fit};
   }
   throw std::logic_error(id);
 }

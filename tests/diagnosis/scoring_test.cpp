@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "account_of.h"
 #include "calibrated_bed.h"
 
 namespace regoplan {
@@ -13,7 +14,7 @@ namespace {
 
 std::vector<ScoredId> scored(const std::vector<std::pair<std::string, double>>& scores) {
   std::vector<ScoredId> all;
-  for (const auto& [id, score] : scores) all.push_back({.id = id, .score = score});
+  for (const auto& [id, score] : scores) all.push_back({.account = account_of(id), .score = score});
   return all;
 }
 
@@ -28,7 +29,7 @@ TEST(Weighing, ProbabilitiesAddUpAndTheLikeliestStandsFirst) {
   double sum = 0;
   for (const ScoredId& one : all) sum += one.probability;
   EXPECT_NEAR(sum, 1, 1e-12);
-  EXPECT_EQ(all.front().id, "grousers");
+  EXPECT_EQ(all.front().id(), "grousers");
   EXPECT_TRUE(std::ranges::is_sorted(all, std::greater{}, &ScoredId::probability));
 }
 
@@ -77,13 +78,13 @@ TEST(Scoring, TheEffectAtWorkScoresBestAndThePlainModelsStandBeside) {
     EXPECT_EQ(std::ranges::count(all, id, &ScoredId::id), 1) << id;
   }
   const auto best_single = std::ranges::max_element(all, {}, [](const ScoredId& one) {
-    return one.id.find('+') == std::string::npos ? one.score : -INFINITY;
+    return one.account.effects.size() < 2 ? one.score : -INFINITY;
   });
-  EXPECT_EQ(best_single->id, "slip_sinkage");
+  EXPECT_EQ(best_single->id(), "slip_sinkage");
   for (const ScoredId& one : all) {
-    const auto plus = one.id.find('+');
-    if (plus == std::string::npos) continue;
-    EXPECT_NE(one.id.substr(0, plus), one.id.substr(plus + 1)) << "an effect beside itself";
+    const std::vector<Effect>& of = one.fit.candidate.effects;
+    if (of.size() < 2) continue;
+    EXPECT_NE(of[0].id, of[1].id) << "an effect beside itself";
   }
 }
 
