@@ -36,8 +36,18 @@ def scalar(name, value):
     return float(array.reshape(())[()])
 
 
-def integer(name, value, least, most=2**31 - 1):
+def finite(name, value):
+    """A single finite number."""
+    number = scalar(name, value)
+    if not np.isfinite(number):
+        raise InputError(f"{name}: {number} is not valid (allowed: any finite number)")
+    return number
+
+
+def integer(name, value, least=-(2**63), most=2**63 - 1):
     try:
+        if isinstance(value, (bool, np.bool_)):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise InputError(f"{name}: {value!r} is not valid (allowed: an integer)") from None
@@ -52,11 +62,25 @@ def choice(name, value, allowed):
     return value
 
 
+def truth(name, value):
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name}: {value!r} is not valid (allowed: True | False)")
+    return bool(value)
+
+
+def word(name, value):
+    """Text of one line, as UTF-8 can hold it."""
+    if not isinstance(value, str) or not value.isprintable():
+        raise InputError(f"{name}: {value!r} is not valid (allowed: text of one line)")
+    return value
+
+
 def path(name, value):
     """A file name, as str."""
     try:
         text = os.fsdecode(os.fspath(value))
-    except TypeError:
+        os.fsencode(text)
+    except (TypeError, UnicodeError):
         raise InputError(
             f"{name}: {type(value).__name__} is not valid (allowed: a file name)"
         ) from None

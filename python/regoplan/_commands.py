@@ -5,9 +5,11 @@ import os
 from . import _arguments, _physics, _program, _tables
 from ._errors import InputError
 from ._maps import TerrainMap, absolute
-from ._results import Benchmark, Candidate, Diagnosis, Evaluation, Plan
+from ._results import Benchmark, Candidate, Diagnosis, DriveDiagnosis, Evaluation, Plan
 
 _MAP_FILES = ("elevation", "soil_class", "soils", "rocks")
+_WORDS = ("planner", "shard")
+_REALS = {"time_s": "--time", "speed_mps": "--speed", "deviation_max_m": "--deviation-max-m"}
 
 
 def plan(scenario, *, model=None, planner=None, seed=None, time_s=None, iterations=None,
@@ -44,11 +46,10 @@ def plan(scenario, *, model=None, planner=None, seed=None, time_s=None, iteratio
     call = _Call(out, force, progress)
     arguments = ["plan", call.scenario("scenario", scenario)]
     arguments += call.model(model)
-    arguments += _options({"--planner": planner, "--seed": seed, "--time": time_s,
-                           "--iterations": iterations, "--candidates": candidates,
-                           "--threads": threads})
+    arguments += call.options(planner=planner, seed=seed, time_s=time_s, iterations=iterations,
+                              candidates=candidates, threads=threads)
     if improve is not None:
-        arguments.append("--improve" if improve else "--no-improve")
+        arguments.append("--improve" if _arguments.truth("improve", improve) else "--no-improve")
     return call.run(arguments, Plan)
 
 
@@ -83,8 +84,8 @@ def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
     arguments += call.model(model)
     if manoeuvres is not None:
         arguments += ["--manoeuvres", call.settings("manoeuvres", manoeuvres)]
-    arguments += _options({"--speed": speed_mps, "--deviation-max-m": deviation_max_m,
-                           "--draws": draws, "--seed": seed, "--threads": threads})
+    arguments += call.options(speed_mps=speed_mps, deviation_max_m=deviation_max_m, draws=draws,
+                              seed=seed, threads=threads)
     return call.run(arguments, Evaluation)
 
 
@@ -116,7 +117,7 @@ def diagnose(recording, setup, *, reference=(), seed=None, threads=None, out=Non
     if references:
         arguments += ["--reference", *(call.recording(f"reference-{i + 1}", each)
                                        for i, each in enumerate(references))]
-    arguments += _options({"--seed": seed, "--threads": threads})
+    arguments += call.options(seed=seed, threads=threads)
     return call.run(arguments, Diagnosis)
 
 
@@ -136,8 +137,6 @@ def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, ou
     -------
     DriveDiagnosis
     """
-    from ._results import DriveDiagnosis
-
     call = _Call(out, force, progress)
     logs = [drives] if _is_path(drives) else list(drives)
     if not logs:
@@ -147,7 +146,7 @@ def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, ou
     for option, value in (("--setup", setup), ("--columns", columns)):
         if value is not None:
             arguments += [option, call.settings(option[2:], value)]
-    return call.run(arguments + _options({"--seed": seed}), DriveDiagnosis)
+    return call.run(arguments + call.options(seed=seed), DriveDiagnosis)
 
 
 def benchmark(suite, *, shard=None, processes=None, out=None, force=False, progress=None):
@@ -173,7 +172,7 @@ def benchmark(suite, *, shard=None, processes=None, out=None, force=False, progr
     if isinstance(suite, dict):
         suite = {**suite, "scenarios": call.suite_scenarios(suite.get("scenarios"))}
     arguments = ["benchmark", call.settings("suite", suite)]
-    return call.run(arguments + _options({"--shard": shard, "--processes": processes}), Benchmark)
+    return call.run(arguments + call.options(shard=shard, processes=processes), Benchmark)
 
 
 def _is_path(value):
@@ -186,18 +185,13 @@ def _is_columns(table):
     return any(key in table for key in ("x_m", "run_id", "time_s", "load_n"))
 
 
-def _options(values):
-    found = []
-    for option, value in values.items():
-        if value is None:
-            continue
-        if isinstance(value, str):
-            text = value
-        else:
-            number = _arguments.scalar(option, value)
-            text = repr(int(number)) if number == int(number) else repr(number)
-        found.append(f"{option}={text}")
-    return found
+def _option_text(name, value):
+    """Ranges are the program's to check: here a number is only brought to it unharmed."""
+    if name in _WORDS:
+        return _arguments.word(name, value)
+    if name in _REALS:
+        return repr(_arguments.finite(name, value))
+    return str(_arguments.integer(name, value))
 
 
 class _Call:
@@ -207,7 +201,7 @@ class _Call:
         if progress is not None and not callable(progress):
             raise InputError("progress: is not valid (allowed: a callable)")
         self._out = out if out is None else absolute(out, "out")
-        self._force, self._progress = bool(force), progress
+        self._force, self._progress = _arguments.truth("force", force), progress
         self._inputs = _program.ResultFolder(None)
         self._shown = []
 
@@ -216,6 +210,16 @@ class _Call:
         (self._inputs.path / file).write_text(text, encoding="utf-8")
         self._shown.append((file, name))
         return file
+
+    def options(self, **values):
+        """The program's options for what is not None; its errors then name the arguments."""
+        found = []
+        for name, value in values.items():
+            if value is not None:
+                option = _REALS.get(name, f"--{name}")
+                self._shown.append((option, name))
+                found.append(f"{option}={_option_text(name, value)}")
+        return found
 
     def settings(self, name, value):
         """A settings file: the one that is named, or one made of a dict."""

@@ -55,8 +55,8 @@ class TerrainMap:
         if not 0 < cell < np.inf:
             raise InputError(f"cell_m: {cell} is not valid (allowed: above 0)")
         self.cell_m = cell
-        self.west_m = _finite("west_m", west_m)
-        self.south_m = _finite("south_m", south_m)
+        self.west_m = _arguments.finite("west_m", west_m)
+        self.south_m = _arguments.finite("south_m", south_m)
         self._classes = self._checked_classes(soil_class, classes)
         self._rocks = None if rocks is None else _rocks(rocks)
         self._catalogue = _catalogue(soils, classes, unmapped)
@@ -136,13 +136,6 @@ def _raster(name, value):
     if array.ndim != 2 or array.size == 0:
         raise InputError(f"{name}: shape {array.shape} is not valid (allowed: rows x columns)")
     return array
-
-
-def _finite(name, value):
-    number = _arguments.scalar(name, value)
-    if not np.isfinite(number):
-        raise InputError(f"{name}: {number} is not valid (allowed: any finite number)")
-    return number
 
 
 def _rocks(value):

@@ -166,6 +166,37 @@ def test_bad_scenarios_are_named(scenario, change, told):
         regoplan.plan({**scenario, **change})
 
 
+@pytest.mark.parametrize("option, value, told", [
+    ("time_s", float("inf"), "time_s: inf is not valid"),
+    ("time_s", np.nan, "time_s: nan is not valid"),
+    ("time_s", -1, "^time_s: -1.0 is not valid .allowed: above 0"),
+    ("time_s", "5", "time_s: dtype"),
+    ("seed", 0.5, "seed: 0.5 is not valid .allowed: an integer"),
+    ("seed", True, "seed: True is not valid .allowed: an integer"),
+    ("seed", -1, "^seed: -1 is not valid .allowed: at least 0"),
+    ("seed", 2**64, "seed: 18446744073709551616 is not valid"),
+    ("iterations", 1e3, "iterations: 1000.0 is not valid .allowed: an integer"),
+    ("candidates", 101, "^candidates: 101 is not valid .allowed: 1 to 100"),
+    ("threads", 0, "^threads: 0 is not valid .allowed: 1 to 256"),
+    ("planner", 3, "planner: 3 is not valid"),
+    ("planner", "\ud800", "planner: .* is not valid"),
+    ("improve", "no", "improve: 'no' is not valid"),
+    ("force", np.ones(2), "force: .* is not valid"),
+    ("out", "\ud800", "out: str is not valid"),
+])
+def test_bad_options_are_named(scenario, option, value, told):
+    with pytest.raises(regoplan.InputError, match=told) as caught:
+        regoplan.plan(scenario, **{option: value})
+    assert caught.value.field in (option, None) and "--" not in str(caught.value)
+
+
+def test_a_seed_arrives_to_the_last_bit(scenario):
+    seed = 2**53 + 1
+    judged = regoplan.evaluate(scenario, manoeuvres=[
+        {"kind": "steady_turn", "radius_m": 20, "speed_mps": 1}], draws=np.int64(2), seed=seed)
+    assert judged.seed == seed
+
+
 @pytest.mark.parametrize("path, told", [
     ({"x_m": [1, 2], "y_m": [1]}, "columns differ in length"),
     ({"x_m": [10, 20], "y_m": [25, np.nan]}, "y_m"),

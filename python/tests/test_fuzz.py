@@ -89,7 +89,21 @@ def word(random, words):
 
 
 @pytest.fixture(scope="module")
-def targets(soil, wheel):
+def unstarted():
+    """The commands check and name what they are given before the program starts, which it does not
+    here."""
+    from regoplan import _program
+
+    def run(*_):
+        raise regoplan.InputError("not started")
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(_program, "run", run)
+        yield
+
+
+@pytest.fixture(scope="module")
+def targets(soil, wheel, unstarted):
     vehicle = regoplan.Vehicle.preset("lrv")
     lrv = regoplan.VehicleOnSoil(vehicle, soil, 1.62)
     table = regoplan.Wheel(0.41, 0.23, soil, gravity_mps2=1.62, method="table", nominal_load_n=290)
@@ -103,7 +117,16 @@ def targets(soil, wheel):
     def three(random):
         return [argument(random) for _ in range(3)]
 
+    def options(random, names):
+        return {names[int(random.integers(0, len(names)))]: word(random, [1, 0.5, argument(random)])}
+
     return [
+        lambda r: regoplan.plan("s.yaml", **options(r, [
+            "planner", "seed", "time_s", "iterations", "candidates", "improve", "threads", "force"])),
+        lambda r: regoplan.evaluate("s.yaml", "p.csv", **options(r, [
+            "speed_mps", "deviation_max_m", "draws", "seed", "threads", "progress"])),
+        lambda r: regoplan.diagnose_drives("d.csv", "s.yaml", **options(r, ["seed", "setup"])),
+        lambda r: regoplan.benchmark("suite.yaml", **options(r, ["shard", "processes"])),
         lambda r: wheel.forces(*three(r), threads=word(r, [1, 2, 3, 0])),
         lambda r: table.forces(*three(r)),
         lambda r: table.plane_forces(*three(r)),
