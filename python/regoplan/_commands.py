@@ -8,6 +8,7 @@ from ._maps import TerrainMap, absolute
 from ._results import Benchmark, Candidate, Diagnosis, DriveDiagnosis, Evaluation, Plan
 
 _MAP_FILES = ("elevation", "soil_class", "soils", "rocks")
+_FILE_NAME_BYTES_MAX = 100
 _WORDS = ("planner", "shard")
 _REALS = {"time_s": "--time", "speed_mps": "--speed", "deviation_max_m": "--deviation-max-m"}
 
@@ -78,9 +79,9 @@ def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
     """
     call = _Call(out, force, progress)
     arguments = ["evaluate", call.scenario("scenario", scenario)]
-    named = paths if isinstance(paths, dict) and not _is_path(paths) else {
-        f"path-{i + 1}": path for i, path in enumerate([paths] if _is_path(paths) else paths)}
-    arguments += [call.path(name, path) for name, path in named.items()]
+    named = paths if _is_by_name(paths) else {
+        f"path-{i + 1}": path for i, path in enumerate(_listed("paths", paths))}
+    arguments += [call.table(name, path) for name, path in named.items()]
     arguments += call.model(model)
     if manoeuvres is not None:
         arguments += ["--manoeuvres", call.settings("manoeuvres", manoeuvres)]
@@ -111,11 +112,11 @@ def diagnose(recording, setup, *, reference=(), seed=None, threads=None, out=Non
     Diagnosis
     """
     call = _Call(out, force, progress)
-    arguments = ["diagnose", call.recording("recording", recording),
+    arguments = ["diagnose", call.table("recording", recording),
                  "--setup", call.settings("setup", setup)]
-    references = [reference] if _is_path(reference) else list(reference)
+    references = _listed("reference", reference)
     if references:
-        arguments += ["--reference", *(call.recording(f"reference-{i + 1}", each)
+        arguments += ["--reference", *(call.table(f"reference-{i + 1}", each)
                                        for i, each in enumerate(references))]
     arguments += call.options(seed=seed, threads=threads)
     return call.run(arguments, Diagnosis)
@@ -138,10 +139,10 @@ def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, ou
     DriveDiagnosis
     """
     call = _Call(out, force, progress)
-    logs = [drives] if _is_path(drives) else list(drives)
+    logs = _listed("drives", drives)
     if not logs:
         raise InputError("drives: is empty")
-    arguments = ["diagnose", *(call.recording(f"drive-{i + 1}", log) for i, log in enumerate(logs)),
+    arguments = ["diagnose", *(call.table(f"drive-{i + 1}", log) for i, log in enumerate(logs)),
                  "--scenario", call.scenario("scenario", scenario)]
     for option, value in (("--setup", setup), ("--columns", columns)):
         if value is not None:
@@ -175,14 +176,23 @@ def benchmark(suite, *, shard=None, processes=None, out=None, force=False, progr
     return call.run(arguments + call.options(shard=shard, processes=processes), Benchmark)
 
 
-def _is_path(value):
-    return isinstance(value, (str, bytes, Candidate)) or hasattr(value, "__fspath__") or (
-        _tables.is_table(value) and (not isinstance(value, dict) or _is_columns(value)))
+def _is_one(value):
+    """A path or recording, and not several."""
+    return isinstance(value, (str, bytes, os.PathLike, Candidate)) or _tables.is_table(value)
 
 
-def _is_columns(table):
-    """Columns of one path or recording, and not paths by name."""
-    return any(key in table for key in ("x_m", "run_id", "time_s", "load_n"))
+def _is_by_name(paths):
+    return isinstance(paths, dict) and (not paths or any(map(_is_one, paths.values())))
+
+
+def _listed(name, value):
+    if _is_one(value):
+        return [value]
+    try:
+        return list(value)
+    except TypeError:
+        raise InputError(f"{name}: {type(value).__name__} is not valid "
+                         "(allowed: a table, a file name, or a sequence of them)") from None
 
 
 def _option_text(name, value):
@@ -205,8 +215,18 @@ class _Call:
         self._inputs = _program.ResultFolder(None)
         self._shown = []
 
+    def _new(self, name, suffix):
+        """The name of a file or folder that is not there yet, and that names no other place."""
+        file = f"{_arguments.word('name', name)}{suffix}"
+        if not name or "/" in name or len(os.fsencode(file)) > _FILE_NAME_BYTES_MAX:
+            raise InputError(f"name: {name!r} is not valid (allowed: text without /, up to "
+                             f"{_FILE_NAME_BYTES_MAX - len(suffix)} bytes)")
+        if (self._inputs.path / file).exists():
+            raise InputError(f"name: {name!r} is not valid (allowed: one that nothing else has)")
+        return file
+
     def _file(self, name, suffix, text):
-        file = f"{name}{suffix}"
+        file = self._new(name, suffix)
         (self._inputs.path / file).write_text(text, encoding="utf-8")
         self._shown.append((file, name))
         return file
@@ -237,7 +257,7 @@ class _Call:
         terrain = value.get("map")
         if isinstance(terrain, TerrainMap):
             # Relative names: the same map is the same scenario, whatever folder it stands in.
-            files = terrain.write(self._inputs.path / f"{name}-map")
+            files = terrain.write(self._inputs.path / self._new(name, "-map"))
             value["map"] = {key: os.path.relpath(item, self._inputs.path.resolve())
                             if isinstance(item, str) and key in _MAP_FILES else item
                             for key, item in files.items()}
@@ -258,15 +278,10 @@ class _Call:
     def model(self, value):
         return [] if value is None else ["--model", self.settings("model", value)]
 
-    def path(self, name, value):
+    def table(self, name, value):
+        """A CSV file: the one that is named, or one made of columns or a candidate's."""
         if isinstance(value, Candidate):
             return self._file(name, ".csv", value.csv)
-        return self.recording(name, value)
-
-    def recording(self, name, value):
-        """A CSV file: the one that is named, or one made of columns."""
-        if not isinstance(name, str) or "/" in name or "\0" in name or len(name) > 100:
-            raise InputError(f"paths: {name!r} is not valid as a name (allowed: short text, no /)")
         if _tables.is_table(value):
             return self._file(name, ".csv", _tables.csv_text(name, value))
         return absolute(value, name)

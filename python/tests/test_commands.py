@@ -3,6 +3,7 @@
 import html
 import json
 import signal
+import tempfile
 import threading
 import time
 
@@ -143,6 +144,39 @@ def test_a_diagnosis_is_the_programs(program, recording, tmp_path):
     assert len(found.residuals["run_id"]) == len(measured)
 
 
+@pytest.fixture(scope="module")
+def drive():
+    """Five minutes in a circle on the map of the scenario."""
+    time_s = np.arange(3000) / 10
+    angle = time_s / 10
+    return {"time_s": time_s, "x_m": 30 + 8 * np.cos(angle), "y_m": 30 + 8 * np.sin(angle),
+            "yaw_deg": np.degrees(angle) + 90, "pitch_deg": np.arange(3000) % 3 / 10}
+
+
+def test_drives_are_diagnosed_under_their_own_names(program, scenario, drive, tmp_path):
+    known = regoplan.diagnose_drives(drive, scenario)
+    foreign = {f"log_{name}": column for name, column in drive.items()}
+    columns = {"columns": {name: f"log_{name}" for name in drive}}
+    for drives in (foreign, [foreign]):
+        found = regoplan.diagnose_drives(drives, scenario, columns=columns)
+        assert found.fit == known.fit and found.verdict == known.verdict
+    (tmp_path / "drive-1.csv").write_text(",".join(drive) + "\n" + "".join(
+        ",".join(map(repr, row)) + "\n" for row in zip(*(c.tolist() for c in drive.values()))))
+    ran = program("diagnose", tmp_path / "drive-1.csv", "--scenario", as_file(scenario, tmp_path),
+                  "--out", tmp_path / "out", "--quiet")
+    assert ran.returncode == 0, ran.stderr
+    text = (tmp_path / "out" / "diagnosis.json").read_text().replace(f"{tmp_path}/", "")
+    assert without_clocks(json.loads(text)) == without_clocks(known.json)
+
+
+@pytest.mark.parametrize("drives, told", [
+    ({"log_x": [1, 2]}, "time_s"), ([], "drives: is empty"), (5, "drives: int is not valid"),
+])
+def test_bad_drives_are_named(scenario, drives, told):
+    with pytest.raises(regoplan.InputError, match=told):
+        regoplan.diagnose_drives(drives, scenario)
+
+
 def test_a_benchmark_goes_on_where_it_was(scenario, tmp_path):
     suite = {"name": "small", "scenarios": {"open": scenario}, "planners": ["Lattice"], "seeds": 2,
              "time_s": 5, "iterations": 500, "soil_draws": 5}
@@ -207,6 +241,28 @@ def test_a_seed_arrives_to_the_last_bit(scenario):
 def test_bad_paths_are_named(scenario, path, told):
     with pytest.raises(regoplan.InputError, match=told):
         regoplan.evaluate(scenario, [path], draws=10)
+
+
+@pytest.mark.parametrize("name", ["a/b", "../x", "", "two\nlines", "a" * 200, "suite", 5])
+def test_names_of_scenarios_stay_within_their_folder(scenario, name, tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    suite = {"name": "small", "scenarios": {name: scenario, "5": scenario}, "planners": ["Lattice"],
+             "seeds": 1, "iterations": 1}
+    with pytest.raises(regoplan.InputError, match="^name: .* is not valid"):
+        regoplan.benchmark(suite)
+    assert all(item.name.startswith("regoplan-") for item in tmp_path.iterdir())
+
+
+def test_paths_by_name_and_columns_are_told_apart(scenario):
+    for paths, told in [
+        ({"y_m": [1, 2]}, "x_m"),
+        ({"turn": {"y_m": [1, 2]}}, "turn"),
+        ({"turn": {"x_m": [10, 20], "y_m": [25, 25]}, "other": 5}, "other: int is not valid"),
+        ({"a/b": {"x_m": [10, 20], "y_m": [25, 25]}}, "name: 'a/b' is not valid"),
+        (5, "paths: int is not valid"),
+    ]:
+        with pytest.raises(regoplan.InputError, match=told):
+            regoplan.evaluate(scenario, paths, draws=10)
 
 
 def test_bad_maps_are_named(soil):
