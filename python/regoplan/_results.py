@@ -2,6 +2,7 @@
 
 import html
 import json
+from functools import cached_property
 
 import numpy as np
 
@@ -19,7 +20,7 @@ class Result:
     notices : list of str
         What was taken to be so, or is odd.
     report_html : str
-        The report, one self-contained page.
+        The report, one self-contained page; read from ``folder`` when it is asked for.
     folder : pathlib.Path
         The files; where no ``out`` was given they go with this object.
     """
@@ -30,11 +31,14 @@ class Result:
         self._folder = folder
         self.notices = notices
         self.json = json.loads(folder.text(self._FILE))
-        self.report_html = folder.text("report.html")
 
     @property
     def folder(self):
         return self._folder.path
+
+    @property
+    def report_html(self):
+        return self._folder.text("report.html")
 
     def __getattr__(self, key):
         values = self.__dict__.get("json", {})
@@ -66,12 +70,16 @@ class Candidate:
 
     def __init__(self, entry, csv):
         self.json, self.csv = entry, csv
-        self.columns = _tables.read_csv(csv)
+
+    @cached_property
+    def columns(self):
+        return _tables.read_csv(self.csv)
 
     def __getattr__(self, key):
-        for values in (self.__dict__.get("json", {}), self.__dict__.get("columns", {})):
-            if key in values:
-                return values[key]
+        if key in self.__dict__.get("json", {}):
+            return self.json[key]
+        if key[0] != "_" and "csv" in self.__dict__ and key in self.columns:
+            return self.columns[key]
         raise AttributeError(f"Candidate has no {key}")
 
     def to_dataframe(self):

@@ -2,6 +2,7 @@
 
 import html
 import json
+import pickle
 import signal
 import tempfile
 import threading
@@ -10,6 +11,7 @@ import time
 import numpy as np
 import pytest
 import regoplan
+from regoplan import _program, _tables
 
 # Differ between two runs of the program as well: times, and in what files the input stood.
 CLOCKS = ("planning_time_s", "verification_time_s", "first_verified_s", "evaluation_time_s",
@@ -60,6 +62,23 @@ def test_results_show_their_report(planned):
     page = planned._repr_html_()
     assert page.startswith("<iframe srcdoc=") and html.escape(planned.report_html) in page
     assert (planned.folder / "candidate-1.geojson").exists()
+
+
+def test_what_nobody_asks_for_is_not_read(planned, monkeypatch):
+    def refuse(*_):
+        raise AssertionError("is read")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(_tables, "read_csv", refuse)
+        patch.setattr(_program.ResultFolder, "text",
+                      lambda folder, name: refuse() if name.endswith("html")
+                      else (folder.path / name).read_text())
+        again = type(planned)(_program.ResultFolder(planned.folder), [])
+        assert again.status == planned.status and again.candidates[0].rank == 1
+    assert again.report_html == planned.report_html
+    best = pickle.loads(pickle.dumps(again.candidates[0]))
+    assert best.columns is best.columns and np.array_equal(best.x_m, planned.candidates[0].x_m)
+    assert again.candidates[0].csv == best.csv
 
 
 def test_results_are_frames_where_pandas_is(planned):
