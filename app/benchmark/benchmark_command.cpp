@@ -82,7 +82,7 @@ std::vector<std::string> names_of(const OwnPlanners& own) {
 
 /// What is needed of every scenario, read once.
 struct ReadScenarios {
-  std::map<std::string, std::string> digests;  ///< by label
+  std::map<std::string, std::string> digests;  ///< of all its files, by label
   ScenarioMaps maps;
 };
 
@@ -91,8 +91,9 @@ ReadScenarios read_scenarios(const Suite& suite) {
   ReadScenarios read;
   for (std::size_t i = 0; i < suite.scenarios.size(); ++i) {
     const SuiteScenario& scenario = suite.scenarios[i];
-    PlanningProblem problem = read_scenario(scenario.file, {}).problem;
-    read.digests[scenario.label] = digest(scenario.file, problem);
+    Scenario whole = read_scenario(scenario.file, {});
+    read.digests[scenario.label] = joint_digest(digests_of(whole.inputs));
+    PlanningProblem problem = std::move(whole.problem);
     read.maps.emplace(scenario.label, problem.map);
     for (std::size_t point = 0; point < suite.sweep.size(); ++point) {
       problem = at_sweep_point(std::move(problem), suite, i, point);

@@ -42,9 +42,10 @@ std::optional<nlohmann::ordered_json> best_path(const std::filesystem::path& res
   }
 }
 
-std::vector<std::string> export_nav2(const ExportOptions& options, const EarlierPlan& plan,
-                                     const Scenario& scenario) {
-  for (const std::string& key : changes_since(plan, scenario.inputs)) {
+/// The masks are made anew, from the scenario as it is now.
+std::vector<std::string> export_nav2(const ExportOptions& options, const EarlierPlan& plan) {
+  const Scenario scenario = read_scenario(plan.scenario, plan.overrides);
+  for (const std::string& key : changes_since(plan, digests_of(scenario.inputs))) {
     notify(fmt::format("{} has changed since the plan; the masks are of what it is now", key),
            options.quiet);
   }
@@ -58,14 +59,15 @@ std::vector<std::string> export_nav2(const ExportOptions& options, const Earlier
   return names_of(files);
 }
 
-std::vector<std::string> export_qgis(const ExportOptions& options, const Scenario& scenario) {
+/// The plan's own raster, in the colours of the least margin that it was planned with.
+std::vector<std::string> export_qgis(const ExportOptions& options, const EarlierPlan& plan) {
   const std::filesystem::path margin = options.result / kMargin;
   if (!std::filesystem::exists(margin)) {
     throw InputError(margin.string() + ": no such file (an infeasible or cut plan has none)");
   }
   StagedFiles staged(options.qgis);
   std::filesystem::copy_file(margin, staged.path(kMargin));
-  staged.write({"margin.qml", qgis_margin_style(scenario.problem.limits.margin_min)});
+  staged.write({"margin.qml", qgis_margin_style(plan.margin_min)});
   staged.commit();
   return {kMargin, "margin.qml"};
 }
@@ -75,12 +77,9 @@ ExitStatus run_export(const ExportOptions& options) {
     throw InputError("export: --nav2 DIR or --qgis DIR is needed");
   }
   const EarlierPlan plan = read_earlier_plan((options.result / "plan.json").string());
-  const Scenario scenario = read_scenario(plan.scenario, plan.overrides);
   nlohmann::ordered_json written = nlohmann::ordered_json::object();
-  if (!options.nav2.path.empty()) {
-    written["nav2"] = export_nav2(options, plan, scenario);
-  }
-  if (!options.qgis.path.empty()) written["qgis"] = export_qgis(options, scenario);
+  if (!options.nav2.path.empty()) written["nav2"] = export_nav2(options, plan);
+  if (!options.qgis.path.empty()) written["qgis"] = export_qgis(options, plan);
   if (options.json) {
     fmt::print("{}\n", written.dump(2));
   } else if (!options.quiet) {

@@ -13,7 +13,7 @@ namespace regoplan {
 
 /// Where a plan came from.
 struct PlanOrigin {
-  std::vector<InputFile> inputs = {};
+  std::vector<InputDigest> inputs = {};
   std::optional<EarlierPlan> again = {};  ///< the plan that it repeats
 };
 

@@ -78,7 +78,7 @@ ExitStatus status_of(const PlanResult& result) {
 ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
   require_results_fit(output.folder, plan_file_names(scenario.problem));
   for (const std::string& notice : scenario.notices) notify(notice, output.quiet);
-  const PlanOrigin origin{.inputs = scenario.inputs, .again = output.again};
+  const PlanOrigin origin{.inputs = digests_of(scenario.inputs), .again = output.again};
   if (origin.again) notify(again_notice(origin), output.quiet);
   ProgressLine line(output.quiet);
   const auto say = [&](const std::string& text) {

@@ -19,6 +19,14 @@ std::string from_here(const std::filesystem::path& folder, const std::string& na
   return (folder / name).lexically_normal().string();
 }
 
+/// `shown` as it is found from `folder`; what begins with a variable lies where that says.
+std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& shown) {
+  if (shown.generic_string().starts_with("${")) return shown.generic_string();
+  std::error_code none;
+  const std::filesystem::path near = std::filesystem::proximate(shown, folder, none);
+  return (none ? shown : near).generic_string();
+}
+
 ScenarioOverrides overrides_of(const Json& planner) {
   ScenarioOverrides overrides{.planner = planner.at("name").get<std::string>(),
                               .seed = planner.at("seed").get<std::uint64_t>(),
@@ -35,6 +43,7 @@ EarlierPlan earlier_plan_of(const Json& json, const std::filesystem::path& file)
   EarlierPlan earlier{.file = file,
                       .scenario = {},
                       .overrides = overrides_of(json.at("settings").at("planner")),
+                      .margin_min = json.at("limits").at("margin_min").get<double>(),
                       .version = json.at("version").get<std::string>(),
                       .inputs = {},
                       .candidates = json.at("candidates").dump()};
@@ -68,17 +77,17 @@ EarlierPlan read_earlier_plan(const std::string& file) {
 }
 
 std::vector<std::string> changes_since(const EarlierPlan& earlier,
-                                       const std::vector<InputFile>& inputs) {
+                                       const std::vector<InputDigest>& inputs) {
   std::vector<std::string> changed;
-  const auto differs = [](const std::vector<InputFile>& others, const InputFile& input) {
-    const auto other = std::ranges::find(others, input.key, &InputFile::key);
+  const auto differs = [](const std::vector<InputDigest>& others, const InputDigest& input) {
+    const auto other = std::ranges::find(others, input.key, &InputDigest::key);
     return other == others.end() || other->digest != input.digest;
   };
-  for (const InputFile& input : earlier.inputs) {
+  for (const InputDigest& input : earlier.inputs) {
     if (differs(inputs, input)) changed.push_back(input.key);
   }
-  for (const InputFile& input : inputs) {
-    if (std::ranges::find(earlier.inputs, input.key, &InputFile::key) == earlier.inputs.end()) {
+  for (const InputDigest& input : inputs) {
+    if (std::ranges::find(earlier.inputs, input.key, &InputDigest::key) == earlier.inputs.end()) {
       changed.push_back(input.key);
     }
   }
@@ -86,13 +95,11 @@ std::vector<std::string> changes_since(const EarlierPlan& earlier,
   return changed;
 }
 
-Json inputs_json(const std::vector<InputFile>& inputs, const std::filesystem::path& folder) {
+Json inputs_json(const std::vector<InputDigest>& inputs, const std::filesystem::path& folder) {
   Json list = Json::array();
-  for (const InputFile& input : inputs) {
-    std::error_code none;
-    const std::filesystem::path near = std::filesystem::proximate(input.shown, folder, none);
+  for (const InputDigest& input : inputs) {
     list.push_back({{"key", input.key},
-                    {"file", (none ? input.shown : near).generic_string()},
+                    {"file", seen_from(folder, input.shown)},
                     {"digest", input.digest.empty() ? Json(nullptr) : Json(input.digest)}});
   }
   return list;

@@ -9,13 +9,14 @@
 
 namespace regoplan {
 
-/// A plan that is to be repeated: what its plan.json says of how it came about.
+/// A plan that is to be repeated or exported: what its plan.json says of how it came about.
 struct EarlierPlan {
   std::filesystem::path file;
   std::string scenario;         ///< its file, as it is found from here
   ScenarioOverrides overrides;  ///< planner, seed, budget, candidates and model that it had
+  double margin_min = 0;        ///< of its limits
   std::string version;
-  std::vector<InputFile> inputs;
+  std::vector<InputDigest> inputs;
   std::string candidates;  ///< as plan.json has them
 };
 
@@ -24,10 +25,10 @@ EarlierPlan read_earlier_plan(const std::string& file);
 
 /// Which inputs are not as they were, by their keys; `version` where the program is not.
 std::vector<std::string> changes_since(const EarlierPlan& earlier,
-                                       const std::vector<InputFile>& inputs);
+                                       const std::vector<InputDigest>& inputs);
 
 /// The inputs as plan.json states them, files relative to the folder that it lies in.
-nlohmann::ordered_json inputs_json(const std::vector<InputFile>& inputs,
+nlohmann::ordered_json inputs_json(const std::vector<InputDigest>& inputs,
                                    const std::filesystem::path& folder);
 
 }  // namespace regoplan

@@ -156,16 +156,17 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
 std::vector<InputFile> inputs_of(const std::string& file, const SettingsNode& vehicle,
                                  const std::filesystem::path& folder,
                                  const ScenarioOverrides& overrides) {
-  std::vector<InputFile> inputs{input_file("scenario", file, file)};
+  std::vector<InputFile> inputs{{.key = "scenario", .path = file, .shown = file}};
   if (vehicle.kind() != SettingsNode::Kind::kMapping) {
     const std::vector<std::string> presets = preset_vehicle_names();
     if (std::ranges::find(presets, vehicle.text()) == presets.end()) {
       const NamedFile named = named_file(vehicle, folder);
-      inputs.push_back(input_file(vehicle.path(), named.path, named.shown));
+      inputs.push_back({.key = vehicle.path(), .path = named.path, .shown = named.shown});
     }
   }
   if (overrides.model_file) {
-    inputs.push_back(input_file("model", *overrides.model_file, *overrides.model_file));
+    inputs.push_back(
+        {.key = "model", .path = *overrides.model_file, .shown = *overrides.model_file});
   }
   return inputs;
 }
@@ -194,7 +195,7 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
     const auto read_named = [&](const SettingsNode& name, auto read) {
       return placed(name, [&] {
         return with_named_file(name, folder, [&](const NamedFile& file) {
-          inputs.push_back(input_file(name.path(), file.path, file.shown));
+          inputs.push_back({.key = name.path(), .path = file.path, .shown = file.shown});
           return read(file);
         });
       });

@@ -51,7 +51,9 @@ NamedFile named_file(const SettingsNode& name, const std::filesystem::path& fold
     named.variables.emplace_back(value, written.substr(from, to + 1 - from));
     done = to + 1;
   }
-  named.path = folder / (file + written.substr(done));
+  const std::filesystem::path expanded = file + written.substr(done);
+  named.path = folder / expanded;
+  if (expanded.is_absolute()) named.shown = written;
   return named;
 }
 

@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
-#include "app/io/content_digest.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/settings_path.h"
 #include "app/settings/sweep_keys.h"
@@ -225,22 +222,6 @@ PlanningProblem at_sweep_point(PlanningProblem problem, const Suite& suite, std:
     throw refused("", bad);
   }
   return problem;
-}
-
-std::string digest(const std::string& scenario_file, const PlanningProblem& problem) {
-  std::ifstream stream(scenario_file, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  ContentDigest hash;
-  hash.add(text.str().data(), text.str().size());
-  hash.add(problem.map.elevation().height_m);
-  if (problem.map.classes()) hash.add(problem.map.classes()->code);
-  for (const MapSoil& soil : problem.map.soils()) {
-    hash.add(&soil.soil.mean, sizeof(Soil));
-    hash.add(&soil.soil.standard_deviation, sizeof(Soil));
-  }
-  for (const Rock& rock : problem.map.rocks()) hash.add(&rock, sizeof(Rock));
-  return fmt::format("{:016x}", hash.value());
 }
 
 }  // namespace regoplan

@@ -37,8 +37,4 @@ Suite read_suite(const std::string& file, const std::vector<std::string>& own_pl
 PlanningProblem at_sweep_point(PlanningProblem problem, const Suite& suite, std::size_t scenario,
                                std::size_t sweep_point);
 
-/// A number that changes when anything changes that the scenario's problem is made of: file, map,
-/// soils, rocks. Hexadecimal.
-std::string digest(const std::string& scenario_file, const PlanningProblem& problem);
-
 }  // namespace regoplan

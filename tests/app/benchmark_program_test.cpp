@@ -210,6 +210,49 @@ TEST(BenchmarkProgram, RefusesAFolderOfAnotherSuite) {
   EXPECT_EQ(folder.read("out/runs.jsonl"), before);
 }
 
+TEST(BenchmarkProgram, RefusesAFolderWhoseScenarioHasChanged) {
+  const ScratchFolder folder;
+  write_flat_scenario(folder);
+  const std::string soils = std::string(kOneSoil + 1, std::strlen(kOneSoil) - 2) + "\n";
+  const std::string vehicle = run_program(folder, "vehicle lrv").output;
+  const auto write_inputs = [&] {
+    write_elevation(flat_elevation(), folder.path("dem.tif"));
+    folder.write("soils.yaml", soils);
+    folder.write("vehicle.yaml", vehicle);
+  };
+  write_inputs();
+  std::string scenario = flat_scenario();
+  scenario.replace(scenario.find(kOneSoil), std::strlen(kOneSoil), "soils.yaml");
+  scenario.replace(scenario.find("vehicle: lrv"), 12, "vehicle: vehicle.yaml");
+  folder.write("scenario.yaml", scenario);
+  folder.write("suite.yaml",
+               "name: one\nscenarios: [scenario.yaml]\nplanners: [RRT]\nseeds: 1\ntime_s: 30\n"
+               "iterations: 60\nsoil_draws: 2\n");
+  const std::string arguments = benchmark_arguments(folder, "out", "--quiet");
+  ASSERT_EQ(run_program(folder, arguments).status, 0);
+  const std::string refusal = "another scenario scenario";
+
+  std::string heavier = vehicle;
+  heavier.replace(heavier.find("mass_kg: ") + 9, 1, "6");
+  ASSERT_NE(heavier, vehicle);
+  folder.write("vehicle.yaml", heavier);
+  expect_refused(folder, arguments, refusal);
+  write_inputs();
+  folder.write("soils.yaml", soils + "classes: {1: mare}\n");
+  expect_refused(folder, arguments, refusal);
+  folder.write("soils.yaml", soils + "unmapped: mare\n");
+  expect_refused(folder, arguments, refusal);
+  write_inputs();
+  ElevationRaster moved = flat_elevation();
+  moved.frame.west_m += 0.25;
+  write_elevation(moved, folder.path("dem.tif"));
+  expect_refused(folder, arguments, refusal);
+
+  write_inputs();
+  EXPECT_EQ(run_program(folder, arguments).status, 0);
+  EXPECT_EQ(journal(folder, "out").size(), 1U);
+}
+
 TEST(BenchmarkProgram, LosesNothingWhenTheDiskIsFull) {
   const ScratchFolder folder;
   write_suite(folder, 5);

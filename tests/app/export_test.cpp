@@ -137,6 +137,31 @@ TEST_F(Export, TheStyleOfQgisRisesThroughTheLeastMargin) {
   }
 }
 
+TEST_F(Export, TheStyleIsOfThePlanWhateverBecameOfTheScenario) {
+  const std::string export_to =
+      "export '" + folder_.path("result") + "' --force --qgis '" + folder_.path("qgis") + "'";
+  const std::string scenario = folder_.read("scenario.yaml");
+  const std::regex least("margin_min: 0.05");
+  ASSERT_TRUE(std::regex_search(scenario, least));
+  folder_.write("scenario.yaml", std::regex_replace(scenario, least, "margin_min: 0.3"));
+  const ProgramRun changed = run_program(folder_, export_to);
+  EXPECT_EQ(changed.status, 0) << changed.errors;
+  EXPECT_EQ(folder_.read("qgis/margin.qml"), qgis_margin_style(0.05));
+  std::filesystem::remove(folder_.path("scenario.yaml"));
+  const ProgramRun gone = run_program(folder_, export_to);
+  EXPECT_EQ(gone.status, 0) << gone.errors;
+}
+
+TEST_F(Export, TheMasksAreOfTheScenarioAsItIsAndSaySo) {
+  folder_.write("scenario.yaml", folder_.read("scenario.yaml") + "# edited\n");
+  const ProgramRun run = run_program(
+      folder_, "export '" + folder_.path("result") + "' --nav2 '" + folder_.path("again") + "'");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.errors.find("scenario has changed since the plan; the masks are of what it is now"),
+            std::string::npos)
+      << run.errors;
+}
+
 TEST_F(Export, RefusesWhatIsNoResult) {
   expect_refusal(run_program(folder_, "export '" + folder_.path("result") + "'"),
                  {"export: --nav2 DIR or --qgis DIR is needed"});

@@ -53,6 +53,20 @@ TEST_F(PlanAgain, NamesEachInputWithADigest) {
   EXPECT_NE(inputs[0]["digest"], inputs[1]["digest"]);
 }
 
+TEST_F(PlanAgain, KeepsANameWithAVariableAsItWasWritten) {
+  std::string scenario = flat_scenario();
+  scenario.replace(scenario.find("dem.tif"), 7, "${REGOPLAN_TEST_FOLDER}/dem.tif");
+  folder_.write("named.yaml", scenario);
+  const std::string set = "REGOPLAN_TEST_FOLDER='" + folder_.path("") + "' ";
+  const ProgramRun run =
+      run_program(folder_, "plan" + quoted("named.yaml") + "--out" + quoted("named"), set);
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const Json inputs = json("named")["inputs"];
+  EXPECT_EQ(inputs[0]["file"], "../named.yaml");
+  EXPECT_EQ(inputs[1]["file"], "${REGOPLAN_TEST_FOLDER}/dem.tif");
+  EXPECT_EQ(inputs[1]["digest"], json("first")["inputs"][1]["digest"]);
+}
+
 TEST_F(PlanAgain, SaysWhichInputChanged) {
   ElevationRaster raised = flat_elevation();
   raised.height_m[0] = 0.25F;
