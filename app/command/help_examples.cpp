@@ -39,7 +39,7 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
       {"regoplan export result --nav2 nav2", "regoplan export result --nav2 nav2 --qgis qgis"}},
      {"vehicle", {"regoplan vehicle lrv > vehicle.yaml", "regoplan vehicle curiosity"}},
      {"soil", {"regoplan soil firm_regolith > soils.yaml", "regoplan soil soft_patch"}},
-     {"scenario", {"regoplan scenario > scenario.yaml", "regoplan scenario --json"}},
+     {"scenario", {"regoplan scenario", "regoplan scenario > scenario.yaml"}},
      {"completion",
       {"regoplan completion bash > ~/.local/share/bash-completion/completions/regoplan",
        "regoplan completion zsh > ~/.zfunc/_regoplan"}}});

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "app/command/command.h"
-#include "app/command/plan_options.h"
 #include "app/io/share_files.h"
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
@@ -17,26 +16,10 @@
 namespace regoplan {
 namespace {
 
-struct PrintOptions {
-  std::string name;
-  bool json = false;
-  bool quiet = false;
-};
-
-ExitStatus print_file(const std::string& yaml, const PrintOptions& options) {
-  if (options.json) {
-    fmt::print("{}\n", nlohmann::json{{"yaml", yaml}}.dump(2));
-  } else {
-    fmt::print("{}", yaml);
-  }
-  return kYes;
-}
-
 std::string vehicle_file(const std::string& name) {
   return fmt::format(
       "# A vehicle's file, after the preset {}: `vehicle: FILE.yaml` in a scenario. Frame: x "
-      "forward, "
-      "y left,\n# origin on the ground below the centre of gravity.\n{}",
+      "forward, y left,\n# origin on the ground below the centre of gravity.\n{}",
       name, commented_yaml(vehicle_text(preset_vehicle(name))));
 }
 
@@ -69,39 +52,39 @@ std::string scenario_file() {
   return text.str();
 }
 
-Command print_command(CLI::App& parser, const std::shared_ptr<PrintOptions>& options,
-                      const std::function<std::string()>& text) {
-  add_output_flags(parser, options->json, options->quiet);
-  return {&parser, [options, text] { return print_file(text(), *options); }};
+/// A command that prints one file: it has no result beside that, and nothing to be quiet about.
+Command print_command(CLI::App& parser, const std::function<std::string()>& file) {
+  return {&parser, [file] {
+            fmt::print("{}", file());
+            return kYes;
+          }};
 }
 
 }  // namespace
 
 Command add_vehicle_command(CLI::App& program) {
-  const auto options = std::make_shared<PrintOptions>();
+  const auto name = std::make_shared<std::string>();
   CLI::App* parser =
       program.add_subcommand("vehicle", "Print a vehicle's file to copy, with comments.");
-  parser
-      ->add_option("NAME", options->name,
-                   fmt::format("{}", fmt::join(preset_vehicle_names(), ", ")))
+  parser->add_option("NAME", *name, fmt::format("{}", fmt::join(preset_vehicle_names(), ", ")))
       ->required()
       ->check(one_of(preset_vehicle_names()));
-  return print_command(*parser, options, [options] { return vehicle_file(options->name); });
+  return print_command(*parser, [name] { return vehicle_file(*name); });
 }
 
 Command add_soil_command(CLI::App& program) {
-  const auto options = std::make_shared<PrintOptions>();
+  const auto name = std::make_shared<std::string>();
   CLI::App* parser =
       program.add_subcommand("soil", "Print a soils file to copy, with comments and sources.");
-  parser->add_option("NAME", options->name, "firm_regolith, loose_regolith, soft_patch")
+  parser->add_option("NAME", *name, "a soil of demo; any other name is answered with theirs")
       ->required();
-  return print_command(*parser, options, [options] { return soil_file(options->name); });
+  return print_command(*parser, [name] { return soil_file(*name); });
 }
 
 Command add_scenario_command(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "scenario", "Print a scenario to copy, with comments; it states its own ground and soil.");
-  return print_command(*parser, std::make_shared<PrintOptions>(), scenario_file);
+  return print_command(*parser, scenario_file);
 }
 
 }  // namespace regoplan
