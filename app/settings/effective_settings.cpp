@@ -1,11 +1,10 @@
 #include "app/settings/effective_settings.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "app/io/number_text.h"
+#include "app/settings/settings_json.h"
 #include "app/settings/vehicle_settings.h"
 
 namespace regoplan {
@@ -16,25 +15,6 @@ using Json = nlohmann::ordered_json;
 /// The degrees that read back to these radians.
 double degrees_as_written(double angle_rad) {
   return parse_number(number_in_unit(angle_rad, std::numbers::pi / 180)).value();
-}
-
-/// YAML that regoplan wrote, where what is not quoted is a number or a truth value if it looks so.
-Json as_json(const YAML::Node& yaml) {
-  if (yaml.IsSequence()) {
-    Json list = Json::array();
-    for (const YAML::Node& item : yaml) list.push_back(as_json(item));
-    return list;
-  }
-  if (yaml.IsMap()) {
-    Json mapping = Json::object();
-    for (const auto& entry : yaml) mapping[entry.first.Scalar()] = as_json(entry.second);
-    return mapping;
-  }
-  const std::string& text = yaml.Scalar();
-  if (yaml.Tag() == "!") return text;
-  if (text == "true" || text == "false") return text == "true";
-  const std::optional<double> number = parse_number(text);
-  return number ? Json(*number) : Json(text);
 }
 
 Json start_json(const StartState& start) {
@@ -86,7 +66,7 @@ Json limits_json(const Limits& limits) {
 }
 
 Json effective_settings(const PlanningProblem& problem) {
-  return {{"vehicle", as_json(YAML::Load(vehicle_text(problem.vehicle)))},
+  return {{"vehicle", to_json(parse_settings(vehicle_text(problem.vehicle), "vehicle"))},
           {"gravity_mps2", problem.gravity_mps2},
           {"start", start_json(problem.start)},
           {"goal", goal_json(problem.goal)},

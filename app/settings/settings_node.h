@@ -32,6 +32,11 @@ class SettingsNode {
   /// Keys from the root of the file, `wheels[2].x_m`; empty for the root.
   const std::string& path() const { return path_; }
 
+  /// A scalar as it stands, empty or not; empty for any other kind.
+  const std::string& scalar() const { return scalar_; }
+  /// Whether a scalar stands in quotes: then it is text, whatever it looks like.
+  bool quoted() const { return quoted_; }
+
   double number(const ValueRange& allowed) const;
   std::int64_t integer(std::int64_t min, std::int64_t max) const;
   /// `true` or `false`.

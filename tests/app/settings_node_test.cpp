@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
+#include "app/settings/settings_json.h"
 #include "tests/app/error_text.h"
 #include "tests/app/scratch_folder.h"
 
@@ -136,6 +139,16 @@ TEST(SettingsNode, DepthNumberAndLengthAreBounded) {
             "f.yaml:1: too many values (allowed: 100000)");
   EXPECT_EQ(error_text([] { parse_settings("a: " + std::string(1 << 20, 'x'), "f.yaml"); }),
             "f.yaml: too long (allowed: 1048576 bytes)");
+}
+
+TEST(SettingsNode, AsJsonTextInQuotesStaysText) {
+  const SettingsNode settings = parse_settings(
+      "name: '2024'\nmass_kg: 2024\nsteered: true\nlabel: \"true\"\nsource: ''\nnothing:\n"
+      "wheels: [lrv, 1e-3, '1e-3']\nlong: >-\n  12\n",
+      "f.yaml");
+  EXPECT_EQ(to_json(settings).dump(),
+            R"({"name":"2024","mass_kg":2024.0,"steered":true,"label":"true","source":"",)"
+            R"("nothing":null,"wheels":["lrv",0.001,"1e-3"],"long":"12"})");
 }
 
 TEST(SettingsNode, AFileThatCannotBeReadIsAnError) {

@@ -1,0 +1,42 @@
+#include "app/settings/settings_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/io/number_text.h"
+
+namespace regoplan {
+namespace {
+
+nlohmann::ordered_json scalar_json(const SettingsNode& scalar) {
+  const std::string& text = scalar.scalar();
+  if (scalar.quoted()) return text;
+  if (text == "true" || text == "false") return text == "true";
+  if (const auto number = parse_number(text)) return *number;
+  return text;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const SettingsNode& settings) {
+  switch (settings.kind()) {
+    case SettingsNode::Kind::kEmpty:
+      return nullptr;
+    case SettingsNode::Kind::kScalar:
+      return scalar_json(settings);
+    case SettingsNode::Kind::kList: {
+      auto list = nlohmann::ordered_json::array();
+      for (const SettingsNode& item : settings.list()) list.push_back(to_json(item));
+      return list;
+    }
+    case SettingsNode::Kind::kMapping: {
+      auto mapping = nlohmann::ordered_json::object();
+      for (const SettingsEntry& entry : settings.mapping()) {
+        mapping[entry.key] = to_json(entry.value);
+      }
+      return mapping;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace regoplan
