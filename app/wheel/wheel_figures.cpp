@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <string>
 
 #include "app/page/svg_panel.h"
+#include "terramech/wheel/cornering_force.h"
 #include "terramech/wheel/paper_figures.h"
 
 namespace regoplan {
@@ -105,11 +105,11 @@ std::string csv(const std::vector<FigureCurve>& curves) {
   std::string text = "curve,slip_ratio,slip_angle_deg,fx_n,fy_n,fc_n,fb_n\n";
   for (const FigureCurve& curve : curves) {
     for (const auto& point : curve.points) {
-      const double beta = point.slip_angle_deg * std::numbers::pi / 180;
+      const TravelForces travel =
+          travel_forces(point.fx_n, point.fy_n, point.slip_angle_deg * std::numbers::pi / 180);
       text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", curve.label,
                           point.slip_ratio, point.slip_angle_deg, point.fx_n, point.fy_n,
-                          point.fx_n * std::sin(beta) + point.fy_n * std::cos(beta),
-                          point.fx_n * std::cos(beta) - point.fy_n * std::sin(beta));
+                          travel.cornering_n, travel.drag_n);
     }
   }
   return text;

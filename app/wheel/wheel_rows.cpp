@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <istream>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/value_range.h"
+#include "terramech/wheel/cornering_force.h"
 
 namespace regoplan {
 namespace {
@@ -70,14 +70,9 @@ Cells result_cells(const WheelForces& forces, double slip_angle_rad) {
   Cells cells(kResults.size());
   cells.back() = name(forces.status);
   if (!has_forces(forces.status)) return cells;
-  const double sine = std::sin(slip_angle_rad);
-  const double cosine = std::cos(slip_angle_rad);
-  const std::array values{forces.fx_n,
-                          forces.fy_n,
-                          forces.torque_nm,
-                          forces.sinkage_m,
-                          forces.fx_n * sine + forces.fy_n * cosine,   // eq. (18)
-                          forces.fx_n * cosine - forces.fy_n * sine};  // eq. (19)
+  const TravelForces travel = travel_forces(forces.fx_n, forces.fy_n, slip_angle_rad);
+  const std::array values{forces.fx_n,      forces.fy_n,        forces.torque_nm,
+                          forces.sinkage_m, travel.cornering_n, travel.drag_n};
   std::ranges::transform(values, cells.begin(), number_cell);
   return cells;
 }

@@ -3,14 +3,15 @@
 #include <pybind11/stl.h>
 
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "app/settings/scenario_settings.h"
 #include "python/physics/bindings.h"
 #include "python/physics/columns.h"
 #include "python/physics/row_blocks.h"
 #include "python/physics/wheel_source.h"
+#include "terramech/wheel/cornering_force.h"
 
 namespace regoplan::python {
 namespace {
@@ -114,6 +115,12 @@ constexpr std::array<std::pair<const char*, ValueRange>, 7> kCircumstances{
      {"sinkage_offset_m", kAnyNumber},
      {"pass_number", {.min = 1, .max = 1e6}}}};
 
+std::vector<std::string> condition_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, allowed] : kCircumstances) names.emplace_back(name);
+  return names;
+}
+
 WheelConditions conditions_of(std::span<const double> values, std::size_t row, std::size_t count) {
   const auto at = [&](std::size_t column) { return values[(3 + column) * count + row]; };
   return {.pass = static_cast<int>(at(6)),
@@ -173,9 +180,9 @@ py::tuple cornering_and_drag(const py::array& fx_n, const py::array& fy_n,
     read_fy.read(first, fy);
     read_angle.read(first, angle);
     for (std::size_t i = 0; i < count; ++i) {
-      const double sine = std::sin(angle[i]), cosine = std::cos(angle[i]);
-      fc_n[first + i] = fx[i] * sine + fy[i] * cosine;
-      fb_n[first + i] = fx[i] * cosine - fy[i] * sine;
+      const TravelForces travel = travel_forces(fx[i], fy[i], angle[i]);
+      fc_n[first + i] = travel.cornering_n;
+      fb_n[first + i] = travel.drag_n;
     }
   });
   return py::make_tuple(fc, fb);
@@ -233,6 +240,10 @@ void bind_wheels(py::module_& module) {
   module.def("cornering_and_drag", &cornering_and_drag);
   module.def("mechanisms", &mechanism_list);
   module.def("status_names", &status_names);
+  module.def("condition_names", &condition_names);
+  module.def("method_names", &method_names);
+  module.def("variant_names", &variant_names);
+  module.attr("THREADS_MAX") = kThreadsMax;
   module.def("checked_soil", &checked_soil);
   module.def("model_file_settings", &model_file_settings);
   module.def("soils_file_settings", &soils_file_settings);
