@@ -2,9 +2,13 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
+#include <span>
 
+#include "planner/problem/limits.h"
 #include "python/physics/bindings.h"
 #include "python/physics/columns.h"
 #include "python/physics/row_blocks.h"
@@ -18,15 +22,30 @@ namespace py = pybind11;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr ValueRange kSlope{.min = -1.4, .max = 1.4};  // 80 deg: a tangent that is a number
 
-/// The arguments of every function of a moment, in this order. A curvature beyond 1/|x_c| has no
-/// turn centre.
+/// The arguments of every function of a moment, in this order.
+constexpr std::array<const char*, 5> kMoment{"speed_mps", "curvature_1pm", "acceleration_mps2",
+                                             "slope_forward_rad", "slope_left_rad"};
+
+/// A curvature beyond 1/|x_c| has no turn centre.
 Columns moment_columns(const VehicleOnSoil& vehicle, const std::vector<py::array>& arguments) {
   const double most_1pm = vehicle.vehicle().curvature_max_1pm;
-  return Columns({{{"speed_mps", arguments.at(0)}, kAtLeast0},
-                  {{"curvature_1pm", arguments.at(1)}, {.min = -most_1pm, .max = most_1pm}},
-                  {{"acceleration_mps2", arguments.at(2)}, kAnyNumber},
-                  {{"slope_forward_rad", arguments.at(3)}, kSlope},
-                  {{"slope_left_rad", arguments.at(4)}, kSlope}});
+  const std::array<ValueRange, kMoment.size()> allowed{
+      kAtLeast0, {.min = -most_1pm, .max = most_1pm}, kAnyNumber, kSlope, kSlope};
+  std::vector<Columns::Column> columns;
+  for (std::size_t i = 0; i < kMoment.size(); ++i) {
+    columns.push_back({{kMoment.at(i), arguments.at(i)}, allowed.at(i)});
+  }
+  return Columns(std::move(columns));
+}
+
+/// One of `count` rows, which stand in `values` column after column.
+Moment moment_at(std::span<const double> values, std::size_t row, std::size_t count) {
+  const auto at = [&](std::size_t column) { return values[column * count + row]; };
+  return {.speed_mps = at(0),
+          .curvature_1pm = at(1),
+          .acceleration_mps2 = at(2),
+          .slope_forward_rad = at(3),
+          .slope_left_rad = at(4)};
 }
 
 /// Rows one by one: each is a manoeuvre that is solved, tens of microseconds or more.
@@ -36,11 +55,7 @@ void for_each_moment(const Columns& columns, int threads, const Work& work) {
     std::vector<double> values;
     columns.read(first, count, values);
     for (std::size_t i = 0; i < count; ++i) {
-      work(first + i, Moment{.speed_mps = values[i],
-                             .curvature_1pm = values[count + i],
-                             .acceleration_mps2 = values[2 * count + i],
-                             .slope_forward_rad = values[3 * count + i],
-                             .slope_left_rad = values[4 * count + i]});
+      work(first + i, moment_at(values, i, count));
     }
   });
 }
@@ -80,6 +95,8 @@ py::tuple margins(const VehicleOnSoil& vehicle, const std::vector<py::array>& ar
 
 py::tuple largest_safe_curvature(const VehicleOnSoil& vehicle, const py::array& speed_mps,
                                  const py::array& slope_left_rad, double margin_min, int threads) {
+  const auto limit = std::ranges::find(limit_keys(), "margin_min", &LimitKey::key);
+  require(std::string(limit->key), margin_min, limit->shown_range);
   const Columns columns({{{"speed_mps", speed_mps}, kAtLeast0},
                          {{"slope_left_rad", slope_left_rad}, {.min = 0, .max = 1.4}}});
   const Outputs out(2, columns.shape());
@@ -111,13 +128,9 @@ py::dict end_dict(const SupplyEnd& end, const Vehicle& vehicle) {
 }
 
 Moment one_moment(const Columns& columns) {
-  std::vector<double> v;
-  columns.read(0, 1, v);
-  return {.speed_mps = v[0],
-          .curvature_1pm = v[1],
-          .acceleration_mps2 = v[2],
-          .slope_forward_rad = v[3],
-          .slope_left_rad = v[4]};
+  std::vector<double> values;
+  columns.read(0, 1, values);
+  return moment_at(values, 0, 1);
 }
 
 py::dict supply(const VehicleOnSoil& vehicle, const std::vector<py::array>& arguments) {
@@ -173,6 +186,10 @@ py::dict trim(const VehicleOnSoil& vehicle, const std::vector<py::array>& argume
   return dict;
 }
 
+std::vector<std::string> moment_names() {
+  return {kMoment.begin(), kMoment.end()};
+}
+
 }  // namespace
 
 void bind_vehicles(py::module_& module) {
@@ -181,6 +198,8 @@ void bind_vehicles(py::module_& module) {
   module.def("vehicle_from_file", &vehicle_from_file);
   module.def("preset_vehicle", &preset_vehicle);
   module.def("preset_vehicle_names", &preset_vehicle_names);
+  module.def("moment_names", &moment_names);
+  module.attr("MARGIN_MIN") = default_limits({}).margin_min;
   py::class_<VehicleOnSoil>(module, "VehicleOnSoil")
       .def(py::init<Vehicle, WheelSource, double>())
       .def("margins", &margins)

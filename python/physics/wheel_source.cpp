@@ -1,14 +1,40 @@
 #include "python/physics/wheel_source.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "app/settings/model_settings.h"
 #include "app/settings/soil_settings.h"
 #include "python/shared/settings_text.h"
+#include "terramech/basics/input_error.h"
 #include "terramech/wheel/paper_figures.h"
 
 namespace regoplan::python {
 
+namespace {
+
+constexpr auto kMethods = std::to_array<std::string_view>({"direct", "fast", "table"});
+
+}  // namespace
+
+std::vector<std::string> method_names() {
+  return {kMethods.begin(), kMethods.end()};
+}
+
+std::vector<std::string> variant_names() {
+  return {variant_name(WheelVariant::kIshigami2007), variant_name(WheelVariant::kYoshida2004)};
+}
+
 WheelSource wheel_source(const std::string& settings, const std::string& how,
                          double nominal_load_n) {
+  if (std::ranges::find(kMethods, how) == kMethods.end()) {
+    throw InputError(
+        fmt::format("method: {} is not valid (allowed: {})", how, fmt::join(kMethods, " | ")));
+  }
   const WheelModelSpec spec = read_model(settings_of(settings, "wheel")).spec;
   if (how == "table") {
     auto table = std::make_shared<const ForceTable>(
@@ -27,8 +53,9 @@ std::string checked_soil(const std::string& settings) {
 }
 
 std::string model_file_settings(const std::string& file) {
-  read_model_file(file);  // throws where it is not valid
-  return json_of(read_settings(file));
+  const SettingsNode settings = read_settings(file);
+  read_model(settings);  // throws where it is not valid
+  return json_of(settings);
 }
 
 std::string paper_wheel_settings() {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "terramech/force_table/force_table.h"
 #include "terramech/wheel/wheel_model.h"
@@ -15,8 +16,14 @@ struct WheelSource {
   std::shared_ptr<const ForceTable> table;  ///< null where the model answers
 };
 
+/// What answers: `direct`, `fast`, `table`.
+std::vector<std::string> method_names();
+
+/// The words of `model` in a model file.
+std::vector<std::string> variant_names();
+
 /// A wheel from the keys of a model file.
-/// \param settings JSON \param how `direct`, `fast` or `table` \param nominal_load_n of a table
+/// \param settings JSON \param how one of `method_names()` \param nominal_load_n of a table
 /// \throws InputError
 WheelSource wheel_source(const std::string& settings, const std::string& how,
                          double nominal_load_n);

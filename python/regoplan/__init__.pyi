@@ -53,7 +53,11 @@ class Soil:
     def model_keys(self) -> dict[str, float]: ...
     def replace(self, **changes: Any) -> Soil: ...
 
-class WheelForces:
+class _Columns:
+    def to_dict(self) -> dict[str, np.ndarray]: ...
+    def to_dataframe(self) -> pd.DataFrame: ...
+
+class WheelForces(_Columns):
     fx_n: _Array
     fy_n: _Array
     torque_nm: _Array
@@ -62,12 +66,9 @@ class WheelForces:
     rut_left_m: _Array | None
     rut_right_m: _Array | None
     roll_moment_nm: _Array | None
-    @classmethod
-    def columns(cls) -> tuple[str, ...]: ...
     @property
     def ok(self) -> npt.NDArray[np.bool_]: ...
     def to_dict(self) -> dict[str, np.ndarray]: ...
-    def to_dataframe(self) -> pd.DataFrame: ...
 
 class Wheel:
     def __init__(self, radius_m: float, width_m: float, soil: Soil | _Settings, *,
@@ -106,7 +107,7 @@ class Vehicle:
     def to_dict(self) -> dict[str, Any]: ...
     def replace(self, **changes: Any) -> Vehicle: ...
 
-class Margins:
+class Margins(_Columns):
     demand_n: _Array
     supply_min_n: _Array
     supply_max_n: _Array
@@ -114,15 +115,11 @@ class Margins:
     tip_over: _Array
     traction: _Array
     margin: _Array
-    def to_dict(self) -> dict[str, _Array]: ...
-    def to_dataframe(self) -> pd.DataFrame: ...
 
-class SafeCurvature:
+class SafeCurvature(_Columns):
     curvature_1pm: _Array
     supply_n: _Array
     limit: npt.NDArray[np.str_]
-    def to_dict(self) -> dict[str, np.ndarray]: ...
-    def to_dataframe(self) -> pd.DataFrame: ...
 
 class VehicleOnSoil:
     vehicle: Vehicle
@@ -158,17 +155,19 @@ class TerrainMap:
 
 class Candidate:
     json: dict[str, Any]
-    columns: dict[str, np.ndarray]
     csv: str
+    @property
+    def columns(self) -> dict[str, np.ndarray]: ...
     def __getattr__(self, key: str) -> Any: ...
     def to_dataframe(self) -> pd.DataFrame: ...
 
 class _Result:
     json: dict[str, Any]
     notices: list[str]
-    report_html: str
     @property
     def folder(self) -> Path: ...
+    @property
+    def report_html(self) -> str: ...
     def __getattr__(self, key: str) -> Any: ...
 
 class Plan(_Result):

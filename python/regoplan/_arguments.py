@@ -6,6 +6,7 @@ import os
 
 import numpy as np
 
+from . import _physics
 from ._errors import InputError
 
 _READ_IN_PLACE = frozenset("f4 f8 i1 i2 i4 i8 u1 u2 u4 u8".split())
@@ -54,6 +55,10 @@ def integer(name, value, least=-(2**63), most=2**63 - 1):
     if not least <= number <= most:
         raise InputError(f"{name}: {number} is not valid (allowed: {least} to {most})")
     return number
+
+
+def threads(value):
+    return integer("threads", value, 1, _physics.THREADS_MAX)
 
 
 def choice(name, value, allowed):

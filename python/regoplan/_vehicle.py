@@ -6,10 +6,11 @@ import numpy as np
 
 from . import _arguments, _physics
 from ._errors import InputError
+from ._frames import Columns
 from ._settings import Settings
 from ._soil import Soil
 
-_MOMENT = ("speed_mps", "curvature_1pm", "acceleration_mps2", "slope_forward_rad", "slope_left_rad")
+_MOMENT = _physics.moment_names()
 
 
 class Vehicle(Settings):
@@ -56,7 +57,7 @@ class Vehicle(Settings):
         return f"Vehicle({self.name!r}, {self.mass_kg} kg, {len(self.wheels)} wheels)"
 
 
-class Margins:
+class Margins(Columns):
     """Demand, supply and margins of steady manoeuvres; arrays of the arguments' common shape.
 
     Attributes
@@ -74,25 +75,11 @@ class Margins:
     __slots__ = ("demand_n", "supply_min_n", "supply_max_n", "cornering", "tip_over", "traction",
                  "margin")
 
-    def __init__(self, columns):
-        for name, column in zip(self.__slots__, columns):
-            setattr(self, name, column[()])
-
-    def to_dict(self):
-        """Columns by name."""
-        return {name: getattr(self, name) for name in self.__slots__}
-
-    def to_dataframe(self):
-        """A pandas DataFrame, one row for each row of the raveled arrays."""
-        from ._frames import dataframe
-
-        return dataframe({name: np.ravel(column) for name, column in self.to_dict().items()})
-
     def __repr__(self):
         return f"Margins(shape {np.shape(self.margin)})"
 
 
-class SafeCurvature:
+class SafeCurvature(Columns):
     """The largest safe curvatures; arrays of the arguments' common shape.
 
     Attributes
@@ -109,20 +96,8 @@ class SafeCurvature:
 
     def __init__(self, columns):
         curvature_1pm, supply_n, limit = columns
-        self.curvature_1pm = curvature_1pm[()]
-        self.supply_n = supply_n[()]
         words = np.array(limit, dtype=str if limit else "U1")
-        self.limit = words.reshape(curvature_1pm.shape)[()]
-
-    def to_dict(self):
-        """Columns by name."""
-        return {name: getattr(self, name) for name in self.__slots__}
-
-    def to_dataframe(self):
-        """A pandas DataFrame, one row for each row of the raveled arrays."""
-        from ._frames import dataframe
-
-        return dataframe({name: np.ravel(column) for name, column in self.to_dict().items()})
+        super().__init__((curvature_1pm, supply_n, words.reshape(curvature_1pm.shape)))
 
 
 class VehicleOnSoil:
@@ -175,9 +150,10 @@ class VehicleOnSoil:
         Margins
         """
         return Margins(self._source.margins(_moment(speed_mps, curvature_1pm, ground),
-                                            _arguments.integer("threads", threads, 1, 256)))
+                                            _arguments.threads(threads)))
 
-    def largest_safe_curvature(self, speed_mps, slope_left_rad=0.0, *, margin_min=0.05, threads=1):
+    def largest_safe_curvature(self, speed_mps, slope_left_rad=0.0, *, margin_min=_physics.MARGIN_MIN,
+                               threads=1):
         """The largest path curvature that is safe to both sides, as are all smaller ones: what the
         chart of ``evaluate`` draws, with the limits that the vehicle brings.
 
@@ -188,20 +164,17 @@ class VehicleOnSoil:
         slope_left_rad : array_like, optional
             Of the ground across the path, rad, 0 or above.
         margin_min : float, optional
-            The stability margin that must be kept, 0 to 1 (share of the weight).
+            The stability margin that must be kept, 0 to below 1 (share of the weight); 0.05.
 
         Returns
         -------
         SafeCurvature
             Found to within 1 % from below.
         """
-        margin = _arguments.scalar("margin_min", margin_min)
-        if not 0 <= margin < 1:
-            raise InputError(f"margin_min: {margin} is not valid (allowed: 0 to below 1)")
         return SafeCurvature(self._source.largest_safe_curvature(
             _arguments.numbers("speed_mps", speed_mps),
-            _arguments.numbers("slope_left_rad", slope_left_rad), margin,
-            _arguments.integer("threads", threads, 1, 256)))
+            _arguments.numbers("slope_left_rad", slope_left_rad),
+            _arguments.scalar("margin_min", margin_min), _arguments.threads(threads)))
 
     def supply(self, speed_mps, curvature_1pm, **ground):
         """Both ends of the supply of one moment, with what ends it and at which wheel.

@@ -7,18 +7,18 @@ import numpy as np
 
 from . import _arguments, _physics
 from ._errors import InputError
+from ._frames import Columns
 from ._soil import Soil
 
 #: Status codes of ``WheelForces.status`` by their names in files.
 STATUS = MappingProxyType({name: code for code, name in enumerate(_physics.status_names())})
 
-_METHODS = ("direct", "fast", "table")
-_VARIANTS = ("ishigami2007", "yoshida2004")
-_CONDITIONS = ("speed_mps", "position_m", "time_s", "heading_rad", "wheel_angle_rad",
-               "sinkage_offset_m", "pass_number")
+_METHODS = _physics.method_names()
+_VARIANTS = _physics.variant_names()
+_CONDITIONS = _physics.condition_names()
 
 
-class WheelForces:
+class WheelForces(Columns):
     """Soil reaction on a wheel, arrays of the arguments' common shape (numbers for scalars).
 
     The force on the wheel is (fx_n, -fy_n) in its frame, x along the heading, y left: ``fy_n`` keeps
@@ -35,21 +35,16 @@ class WheelForces:
         h, m.
     status : uint8
         A code of ``regoplan.STATUS``.
+    rut_left_m, rut_right_m, roll_moment_nm : float64 or None
+        Of ``channels`` only: depths at the wheel's edges, m, and the moment about its heading, N m.
     """
 
     __slots__ = ("fx_n", "fy_n", "torque_nm", "sinkage_m", "status", "rut_left_m", "rut_right_m",
                  "roll_moment_nm")
 
-    def __init__(self, columns):
-        for name, column in zip(self.columns(), columns):
-            setattr(self, name, column[()])
-        if len(columns) == 5:
-            self.rut_left_m = self.rut_right_m = self.roll_moment_nm = None
-
-    @classmethod
-    def columns(cls):
-        """Names of the columns, those of ``channels`` last."""
-        return cls.__slots__
+    def __init__(self, arrays):
+        self.rut_left_m = self.rut_right_m = self.roll_moment_nm = None  # of `channels` only
+        super().__init__(arrays)
 
     @property
     def ok(self):
@@ -57,16 +52,10 @@ class WheelForces:
         return self.status == STATUS["ok"]
 
     def to_dict(self):
-        """Columns by name; the status as words."""
-        found = {name: getattr(self, name) for name in self.columns()}
-        found["status"] = np.array(list(STATUS))[found["status"]]
+        """Columns by name, those that there are; the status as words."""
+        found = super().to_dict()
+        found["status"] = np.array(list(STATUS))[self.status]
         return {name: column for name, column in found.items() if column is not None}
-
-    def to_dataframe(self):
-        """A pandas DataFrame, one row for each row of the raveled arrays."""
-        from ._frames import dataframe
-
-        return dataframe({name: np.ravel(column) for name, column in self.to_dict().items()})
 
     def __repr__(self):
         return f"WheelForces(shape {np.shape(self.fx_n)}, {int(np.sum(self.ok))} ok)"
@@ -177,7 +166,7 @@ class Wheel:
             Naming the argument, the place in it, the value and the range.
         """
         return WheelForces(self._source.forces(*_conditions(load_n, slip_ratio, slip_angle_rad),
-                                               _threads(threads)))
+                                               _arguments.threads(threads)))
 
     def plane_forces(self, load_n, slip_ratio, slip_angle_rad, *, threads=1):
         """``fx_n, fy_n`` only, of a table: many rows at once, several times as fast as ``forces``.
@@ -187,7 +176,7 @@ class Wheel:
         if self._method != "table":
             raise InputError("plane_forces: method is not valid (allowed: a wheel of method='table')")
         fx_n, fy_n = self._source.plane_forces(*_conditions(load_n, slip_ratio, slip_angle_rad),
-                                               _threads(threads))
+                                               _arguments.threads(threads))
         return fx_n[()], fy_n[()]
 
     def channels(self, load_n, slip_ratio, slip_angle_rad, *, threads=1, **conditions):
@@ -214,7 +203,8 @@ class Wheel:
         given = [_arguments.numbers(name, conditions.get(name, 1 if name == "pass_number" else 0))
                  for name in _CONDITIONS]
         return WheelForces(self._source.channels(
-            [*_conditions(load_n, slip_ratio, slip_angle_rad), *given], _threads(threads)))
+            [*_conditions(load_n, slip_ratio, slip_angle_rad), *given],
+            _arguments.threads(threads)))
 
     def table_facts(self):
         """Of a table: its measured error against the direct model, its loads, its size."""
@@ -245,10 +235,6 @@ def mechanisms():
 def _conditions(load_n, slip_ratio, slip_angle_rad):
     return (_arguments.numbers("load_n", load_n), _arguments.numbers("slip_ratio", slip_ratio),
             _arguments.numbers("slip_angle_rad", slip_angle_rad))
-
-
-def _threads(threads):
-    return _arguments.integer("threads", threads, 1, 256)
 
 
 def _restored(settings, method, nominal_load_n):

@@ -94,12 +94,27 @@ def test_bad_moments_are_named(lrv):
         with pytest.raises(regoplan.InputError) as caught:
             lrv.margins(*arguments, **keywords)
         assert caught.value.field == field
+    for bad in (1, -0.1, np.nan):
+        with pytest.raises(regoplan.InputError) as caught:
+            lrv.largest_safe_curvature(1, margin_min=bad)
+        assert (caught.value.field, caught.value.allowed) == ("margin_min", "0 to below 1")
     with pytest.raises(regoplan.InputError, match="slope_up"):
         lrv.margins(1, 0, slope_up=1)
     with pytest.raises(regoplan.InputError, match="single number"):
         lrv.trim([1, 2], 0)
     with pytest.raises(regoplan.InputError, match="gravity_mps2"):
         regoplan.VehicleOnSoil("lrv", lrv.soil, -1)
+
+
+def test_results_are_columns_by_name(lrv):
+    found = lrv.largest_safe_curvature([[1.0, 2.0]], [[0.0], [0.1]])
+    assert list(found.to_dict()) == ["curvature_1pm", "supply_n", "limit"]
+    assert all(column.shape == (2, 2) for column in found.to_dict().values())
+    assert lrv.largest_safe_curvature([]).limit.shape == (0,)
+    assert isinstance(lrv.largest_safe_curvature(1).limit, str)
+    pytest.importorskip("pandas")
+    assert len(found.to_dataframe()) == 4
+    assert list(lrv.margins(1, [0, 0.05]).to_dataframe())[-1] == "margin"
 
 
 def test_threads_change_no_bit(lrv):

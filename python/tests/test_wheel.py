@@ -1,7 +1,10 @@
 """Forces of a wheel: the program's numbers, numpy's rules of shapes, and errors that name."""
 
 import csv
+import json
 import pickle
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -136,6 +139,14 @@ def test_a_table_is_within_its_error(wheel, soil):
         assert np.max(np.abs(ours - theirs) / np.maximum(load, 29)) <= 1.2 * worst
 
 
+def test_a_model_file_may_be_a_pipe(wheel):
+    code = ("import regoplan; print(repr(float(regoplan.Wheel.from_file('/dev/stdin')"
+            ".forces(290, 0.2, 0.1).fx_n)))")
+    ran = subprocess.run([sys.executable, "-c", code], input=json.dumps(wheel.to_dict()), check=True,
+                         capture_output=True, text=True)
+    assert float(ran.stdout) == wheel.forces(290, 0.2, 0.1).fx_n
+
+
 def test_mechanisms_act_and_are_listed(soil):
     ids = {entry["id"] for entry in regoplan.mechanisms()}
     assert "slip_sinkage" in ids
@@ -203,6 +214,11 @@ def test_bad_wheels_are_refused(soil, change, field):
     assert field is None or caught.value.field == field
 
 
+def test_the_module_itself_knows_its_methods(wheel):
+    with pytest.raises(regoplan.InputError, match="method: slow is not valid .*direct . fast"):
+        regoplan._physics.WheelSource(json.dumps(wheel.to_dict()), "slow", 0)
+
+
 def test_soils_are_strict_and_immutable(soil):
     assert soil.replace(cohesion_pa=500).cohesion_pa == 500
     assert soil.lambda_ == 0.9 and soil == regoplan.Soil(**soil.to_dict())
@@ -219,5 +235,8 @@ def test_frames_have_the_columns_of_the_program(wheel):
     frame = wheel.forces([100, 200], 0.1, 0.1).to_dataframe()
     assert isinstance(frame, pandas.DataFrame)
     assert list(frame) == ["fx_n", "fy_n", "torque_nm", "sinkage_m", "status"]
+    channels = wheel.channels([100, 200], 0.1, 0.1)
+    assert list(channels.to_dataframe()) == [*frame, "rut_left_m", "rut_right_m", "roll_moment_nm"]
+    assert np.all(channels.rut_left_m >= 0) and wheel.forces(100, 0.1, 0.1).rut_left_m is None
     series = wheel.forces(pandas.Series([100.0, 200.0]), 0.1, 0.1)
     assert np.array_equal(series.fx_n, frame.fx_n)
