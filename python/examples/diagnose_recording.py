@@ -25,7 +25,7 @@ found = regoplan.diagnose(recording, {
     "gravity_mps2": 9.80665, "soil": prior})
 
 print(found)
-print(found.sentence if "sentence" in found.json else found.verdict)
+print(found.sentence)
 for entry in found.ranking[:3]:
     print(f"  {entry['id']}: {entry['probability']:.3f}")
 corrected = found.corrected_wheel()
