@@ -149,7 +149,7 @@ def _end(child, listener):
 
 def _renamed(line, shown):
     for file, name in shown:
-        line = re.sub(re.escape(str(file)) + r"(?::\d+)?", name, line)
+        line = re.sub(re.escape(str(file)) + r"(?::\d+)?", lambda _, name=name: name, line)
     return line
 
 

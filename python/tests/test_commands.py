@@ -278,6 +278,7 @@ def test_paths_by_name_and_columns_are_told_apart(scenario):
         ({"turn": {"y_m": [1, 2]}}, "turn"),
         ({"turn": {"x_m": [10, 20], "y_m": [25, 25]}, "other": 5}, "other: int is not valid"),
         ({"a/b": {"x_m": [10, 20], "y_m": [25, 25]}}, "name: 'a/b' is not valid"),
+        ({r"back\1": {"x_m": [10, 20], "z": [25, 25]}}, r"back\\1: .*y_m"),
         (5, "paths: int is not valid"),
     ]:
         with pytest.raises(regoplan.InputError, match=told):

@@ -57,7 +57,7 @@ def test_ctrl_c_ends_a_long_computation(wheel):
     timer.start()
     with pytest.raises(KeyboardInterrupt):
         wheel.forces(rows, 0.2, 0.1)
-    assert time.monotonic() - begun < 20
+    assert time.monotonic() - begun < 5
 
 
 def test_nothing_is_copied_beyond_the_outputs(wheel):

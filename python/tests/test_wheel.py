@@ -203,15 +203,17 @@ def test_shapes_that_do_not_broadcast_are_told(wheel):
         wheel.forces([[1, 2], [3]], 0, 0)
 
 
-@pytest.mark.parametrize("change, field", [
-    ({"radius_m": 0}, "wheel.radius_m"), ({"gravity_mps2": 1000}, "gravity_mps2"),
-    ({"width_m": float("nan")}, None), ({"model": "ishigami"}, "model"),
-    ({"method": "slow"}, "method"), ({"mechanisms": [{"id": "grousers", "n": 1}]}, None),
+@pytest.mark.parametrize("change, told", [
+    ({"radius_m": 0}, "wheel.radius_m: 0.0 is not valid"),
+    ({"gravity_mps2": 1000}, "gravity_mps2: 1000.0 is not valid"),
+    ({"width_m": float("nan")}, "wheel.width_m: nan is not valid"),
+    ({"model": "ishigami"}, "model: 'ishigami' is not valid"),
+    ({"method": "slow"}, "method: 'slow' is not valid"),
+    ({"mechanisms": [{"id": "grousers", "n": 1}]}, r"mechanisms\[0\].n: unknown key"),
 ])
-def test_bad_wheels_are_refused(soil, change, field):
-    with pytest.raises(regoplan.InputError) as caught:
+def test_bad_wheels_are_refused(soil, change, told):
+    with pytest.raises(regoplan.InputError, match=told):
         regoplan.Wheel(**{"radius_m": 0.4, "width_m": 0.2, "soil": soil, **change})
-    assert field is None or caught.value.field == field
 
 
 def test_the_module_itself_knows_its_methods(wheel):
