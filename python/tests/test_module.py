@@ -8,7 +8,6 @@ import time
 
 import numpy as np
 import pytest
-import regoplan
 
 
 def test_import_loads_neither_pandas_nor_a_planner():
