@@ -51,12 +51,11 @@ class Diagnosing {
                             options_.seed + 1);
       tell_when();
     }
-    complete_.before = found_.before;
-    complete_.after = found_.before;
-    complete_.where = found_.where;
+    complete_ = found_;
     tell("scoring what may be wrong", 0.15);
     score();
-    complete_.ranking = ranking();
+    found_.ranking = ranking();
+    complete_ = found_;
     tell("proving it on held-out conditions", 0.85);
     decide();
     found_.ranking = found_.verdict == Verdict::kPartly ? std::move(partial_ranking_) : ranking();
@@ -110,7 +109,8 @@ class Diagnosing {
         .residual = calibrated_.bed().measured() - calibrated_.prediction_at_prior_means(),
         .x = Eigen::VectorXd(0),
         .jacobian = Eigen::MatrixXd(calibrated_.bed().size(), 0)};
-    const LackOfFit at_means = lack_of_fit(recording, fixed, options_.seed, 0.05);
+    const LackOfFit at_means =
+        lack_of_fit(recording, fixed, options_.seed, Thresholds::kConsistent_p);
     consistent_ = at_means.f <= at_means.critical;
   }
 
@@ -212,9 +212,7 @@ class Diagnosing {
     found_.names_added = steps_of(calibrated_, *part.claim, options_.threads);
     found_.claims = std::move(part.claim->claims);
     partial_ranking_ = std::move(part.ranking);
-    double explained = 0;
-    for (const Claim& claim : found_.claims) explained += claim.share.explained;
-    found_.remainder_share = std::clamp(1 - explained, 0.0, 1.0);
+    found_.remainder_share = remainder_share(found_.claims);
     const CandidateFit& fit = part.claim->fit;
     const std::vector<std::size_t> left = remainder_settings(calibrated_.problem(), fit);
     take(correction_by(calibrated_, fit, left,

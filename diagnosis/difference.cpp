@@ -143,17 +143,21 @@ class Differing {
     if (!differ) {
       found_.verdict = Verdict::kConsistent;
       no_name();
+      complete_ = found_;
     } else {
       found_.where = locate(primary().calibrated->recording(),
                             primary().calibrated->remainder_of(primary().calibrated->base()),
                             options_.seed + 1);
-      complete_.before = found_.before;
-      complete_.after = found_.before;
-      complete_.where = found_.where;
+      complete_ = found_;
       tell("scoring what may differ", 0.15);
       contest();
+      found_.ranking = capped_ranking(primary().names, chance_p_);
+      complete_ = found_;
       tell("proving it on held-out conditions", 0.8);
       decide();
+      complete_ = found_;
+      tell("choosing the next experiment", 0.95);
+      if (found_.claims.empty() || !found_.claims.front().equivalent.empty()) propose_experiments();
     }
     tell("done", 1);
   }
@@ -213,6 +217,7 @@ class Differing {
     reached_ =
         primary().contest->by_chance(primary().names, kWorlds, options_.seed + 2, options_.threads);
     found_.chance_nats = reached_by_chance(reached_);
+    chance_p_ = chance_p();
   }
 
   /// Why an id is not claimed; empty where it is.
@@ -271,8 +276,6 @@ class Differing {
   }
 
   void decide() {
-    found_.ranking = capped_ranking(primary().names, chance_p());
-    complete_.ranking = found_.ranking;
     const auto order = in_order();
     NameClass claimed;
     for (const auto& [sum, id] : order) {
@@ -287,14 +290,9 @@ class Differing {
         found_.notes.push_back(fmt::format("{} is not claimed: {}", id, doubt));
       }
     }
-    const bool instruments = std::ranges::any_of(claimed.ids, is_instrument);
-    const bool physics = !std::ranges::all_of(claimed.ids, is_instrument);
-    if (claimed.ids.empty() || claimed.ids.size() > Thresholds::kLargestClass ||
-        (instruments && physics)) {
-      if (!claimed.ids.empty()) {
-        found_.notes.push_back(
-            "names that fit alike are too many, or of wheel and instrument both");
-      }
+    const std::string doubt = objection_to_class(claimed.ids);
+    if (claimed.ids.empty() || !doubt.empty()) {
+      if (!doubt.empty()) found_.notes.push_back(doubt);
       found_.verdict = Verdict::kUnexplained;
       no_name();
       return;
@@ -305,7 +303,7 @@ class Differing {
   void claim(const NameClass& claimed) {
     Treatment& t = primary();
     PartialClaim partial =
-        first_claim(*t.calibrated, t.names, claimed.ids, chance_p(), options_.threads);
+        first_claim(*t.calibrated, t.names, claimed.ids, chance_p_, options_.threads);
     if (claimed.ids.size() == 1) {
       add_further_names(*t.calibrated, *t.contest, effects_, t.find(claimed.ids.front())->gain_nats,
                         options_.threads, partial);
@@ -313,19 +311,17 @@ class Differing {
     const CandidateFit& fit = partial.fit;
     found_.names_added = steps_of(*t.calibrated, partial, options_.threads);
     found_.claims = std::move(partial.claims);
-    double explained = 0;
-    for (const Claim& one : found_.claims) explained += one.share.explained;
-    found_.remainder_share = std::clamp(1 - explained, 0.0, 1.0);
-    found_.after =
-        lack_of_fit(t.calibrated->recording(), t.calibrated->remainder_of(fit), options_.seed);
+    found_.remainder_share = remainder_share(found_.claims);
+    found_.after = lack_of_fit(t.calibrated->recording(), t.calibrated->remainder_of(fit),
+                               options_.seed, Thresholds::kDifference_p);
     const bool whole_difference = found_.after.f <= found_.after.critical;
     found_.verdict = !whole_difference         ? Verdict::kPartly
                      : claimed.ids.size() == 1 ? Verdict::kNamed
                                                : Verdict::kClass;
     hand_out(fit);
-    if (claimed.ids.size() > 1) propose_experiments();
   }
 
+  /// How often nameless differences let some name do as well as the first.
   double chance_p() {
     const Treatment& t = primary();
     if (t.names.empty()) return 1;
@@ -342,7 +338,6 @@ class Differing {
     }
     found_.remainder_share = found_.verdict == Verdict::kUnexplained ? 1 : 0;
     hand_out(primary().calibrated->base());
-    if (found_.verdict == Verdict::kUnexplained) propose_experiments();
   }
 
   void propose_experiments() {
@@ -406,6 +401,7 @@ class Differing {
   std::vector<Effect> effects_;
   std::vector<Treatment> treatments_;
   std::vector<ByChance> reached_;  // by names in nameless differences, the soil calibrated
+  double chance_p_ = 1;            // that such differences let some name do as well as the first
   Diagnosis found_;
   Diagnosis complete_;  // the stages of it that are
 };

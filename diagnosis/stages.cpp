@@ -9,7 +9,6 @@ namespace regoplan {
 
 Diagnosis run_stages(Diagnosis& found, Diagnosis& complete, const std::function<void()>& stages) {
   complete = found;
-  complete.verdict = Verdict::kUndecided;
   try {
     stages();
   } catch (const Interrupted&) {

@@ -238,10 +238,17 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   say_what_is_silent(setup, drives, result);
   const bool a_class = std::ranges::any_of(
       result.claims, [](const DriveClaim& claim) { return claim.equivalent.size() > 1; });
-  result.verdict = result.claims.empty() ? "consistent" : a_class ? "class" : "named";
+  result.verdict = result.claims.empty() ? DriveVerdict::kConsistent
+                   : a_class             ? DriveVerdict::kClass
+                                         : DriveVerdict::kNamed;
 }
 
 }  // namespace
+
+std::string_view name(DriveVerdict verdict) {
+  constexpr std::array<std::string_view, 4> kNames{"undecided", "consistent", "named", "class"};
+  return kNames.at(static_cast<std::size_t>(verdict));
+}
 
 DriveDiagnosis diagnose_drives(std::vector<DriveRecording> drives, const DriveSetup& setup,
                                const DriveDiagnosisOptions& options) {

@@ -57,8 +57,14 @@ struct SilentEffect {
   std::string drive;
 };
 
+/// Of drives: a class where their claims cannot tell names apart.
+enum class DriveVerdict { kUndecided, kConsistent, kNamed, kClass };
+
+/// `undecided`, `consistent`, `named`, `class`.
+std::string_view name(DriveVerdict verdict);
+
 struct DriveDiagnosis {
-  std::string verdict = "undecided";  ///< | consistent | parameters | named | class
+  DriveVerdict verdict = DriveVerdict::kUndecided;
   std::vector<DriveClaim> claims;
   std::vector<DriveMismatch> where;
   std::vector<DriveFinding> findings;

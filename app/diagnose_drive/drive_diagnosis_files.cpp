@@ -106,7 +106,7 @@ Json list_json(const Items& items, ToJson to_json) {
 
 Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
   const DriveDiagnosis& diagnosis = run.diagnosis;
-  Json json = {{"kind", "drives"}, {"verdict", diagnosis.verdict}};
+  Json json = {{"kind", "drives"}, {"verdict", name(diagnosis.verdict)}};
   if (diagnosis.interrupted) json["interrupted"] = true;
   json["scenario"] = run.scenario_file;
   json["drives"] = Json::array();

@@ -22,7 +22,7 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
   }
   std::vector<std::string> names;
   for (const DriveClaim& claim : diagnosis.claims) names.push_back(claim.id);
-  return fmt::format("{} in {}: {}.", diagnosis.verdict == "class" ? "Told as a class" : "Named",
+  return fmt::format("{} in {}: {}.", diagnosis.verdict == DriveVerdict::kClass ? "Told as a class" : "Named",
                      of, fmt::join(names, ", "));
 }
 

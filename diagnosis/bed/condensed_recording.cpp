@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
+#include "terramech/parameters/trusted_range.h"
 
 namespace regoplan {
 namespace {
@@ -32,9 +33,7 @@ Usable usable_runs(const Recording& recording, const WheelModel& model,
   for (std::size_t i = 0; i < recording.runs.size(); ++i) {
     const WheelRun& run = recording.runs[i];
     throw_if_stopped(stop);
-    const bool trusted = run.slip_ratio >= -0.9 && run.slip_ratio <= 0.95 &&
-                         std::abs(run.slip_angle_rad) <= std::numbers::pi / 3 + 1e-9;
-    if (!trusted) {
+    if (!is_trusted(run.slip_ratio, run.slip_angle_rad)) {
       ++usable.untrusted;
       continue;
     }
@@ -52,10 +51,10 @@ Usable usable_runs(const Recording& recording, const WheelModel& model,
 
 void note_left_out(const Usable& usable, std::vector<std::string>& notes) {
   if (usable.untrusted > 0) {
-    notes.push_back(
-        fmt::format("{} runs lie where the model is not trusted (slip outside "
-                    "-0.9 to 0.95, slip angle beyond 60 deg) and are not judged",
-                    usable.untrusted));
+    notes.push_back(fmt::format(
+        "{} runs lie where the model is not trusted (slip outside {} to {}, slip angle "
+        "beyond {:.0f} deg) and are not judged",
+        usable.untrusted, kTrustedSlip_min, kTrustedSlip_max, kTrustedSlipAngle_rad / kDegree));
   }
   if (usable.without_forces > 0) {
     notes.push_back(

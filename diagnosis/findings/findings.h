@@ -127,7 +127,7 @@ struct RunResidual {
 
 /// Everything that a diagnosis finds.
 struct Diagnosis {
-  Verdict verdict = Verdict::kConsistent;
+  Verdict verdict = Verdict::kUndecided;
   std::string sentence;            ///< the finding, for a person
   std::vector<std::string> notes;  ///< signs, units, outliers, what was assumed
   std::vector<Claim> claims;

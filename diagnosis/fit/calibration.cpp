@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 #include "diagnosis/bed/whitening.h"
 #include "diagnosis/fit/candidate_fit.h"
@@ -25,8 +26,15 @@ class SoilResiduals : public ceres::CostFunction {
                 double** jacobians) const override {
     try {
       return evaluate(parameters[0], residuals, jacobians == nullptr ? nullptr : jacobians[0]);
-    } catch (const Interrupted&) {  // not through the solver, which ends where nothing evaluates
-      return false;
+    } catch (const Interrupted&) {
+      // Not through the solver, which logs what it cannot evaluate. All zero ends it as converged,
+      // and whoever called it throws.
+      const int rows = num_residuals(), columns = parameter_block_sizes().front();
+      std::fill_n(residuals, rows, 0.0);
+      if (jacobians != nullptr && jacobians[0] != nullptr) {
+        std::fill_n(jacobians[0], rows * columns, 0.0);
+      }
+      return true;
     }
   }
 
@@ -55,17 +63,6 @@ class SoilResiduals : public ceres::CostFunction {
   NoiseFactors factor_;
 };
 
-class StopWhenAsked : public ceres::IterationCallback {
- public:
-  explicit StopWhenAsked(std::stop_token stop) : stop_(std::move(stop)) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
-    return stop_.stop_requested() ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  std::stop_token stop_;
-};
-
 }  // namespace
 
 Calibration calibrate(const TestBed& bed, const std::vector<SoilCoordinate>& soil) {
@@ -91,8 +88,6 @@ Calibration calibrate(const TestBed& bed, const std::vector<SoilCoordinate>& soi
     options.function_tolerance = 1e-8;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;
-    StopWhenAsked stop_when_asked(bed.stop);
-    options.callbacks.push_back(&stop_when_asked);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
     throw_if_stopped(bed.stop);

@@ -250,6 +250,33 @@ std::optional<CandidateFit> fit_under(const FitProblem& problem, const Hypothesi
   return fit;
 }
 
+Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate,
+                         const CandidateFit* beside) {
+  std::vector<double> x(problem.soil.size(), 0.0);
+  if (beside != nullptr) x.assign(beside->x.begin(), beside->x.end());
+  const std::size_t known = beside == nullptr ? 0 : beside->candidate.effects.size();
+  for (std::size_t e = known; e < candidate.effects.size(); ++e) {
+    const Effect& effect = candidate.effects[e];
+    x.insert(x.end(), effect.start.begin(), effect.start.end());
+  }
+  return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+double log_sum(const std::vector<double>& terms) {
+  const double top = std::ranges::max(terms);
+  double sum = 0;
+  for (const double term : terms) sum += std::exp(term - top);
+  return top + std::log(sum);
+}
+
+MarginalFit marginal_of(const std::vector<CandidateFit>& forms, std::size_t tried) {
+  std::vector<double> scores;
+  for (const CandidateFit& fit : forms) scores.push_back(fit.evidence.log_marginal);
+  const auto best = std::ranges::max_element(scores) - scores.begin();
+  return {log_sum(scores) - std::log(static_cast<double>(tried)),
+          forms[static_cast<std::size_t>(best)]};
+}
+
 std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Hypothesis& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start) {

@@ -46,11 +46,28 @@ struct FitProblem {
   const Eigen::MatrixXd& soil_free;
 };
 
+/// Where fitting starts: soil numbers as they are known beforehand or as `beside` has them, its
+/// effects with them, further effects each at its own start.
+/// \param beside null, or a fit of the candidate's first effects
+Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate,
+                         const CandidateFit* beside = nullptr);
+
 /// Gauss-Newton from `start`, the discrepancy's settings chosen on the way; nothing where the
 /// start has no forces.
 std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Hypothesis& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start);
+
+/// log(sum of exp(terms)).
+double log_sum(const std::vector<double>& terms);
+
+/// Forms of one name together.
+struct MarginalFit {
+  double log_marginal = 0;
+  CandidateFit likeliest;
+};
+/// \param tried how many forms there were, each as likely beforehand, those without forces included
+MarginalFit marginal_of(const std::vector<CandidateFit>& forms, std::size_t tried);
 
 /// Spreads of the mechanisms' forms that are tried and marginalised: close and rough.
 constexpr std::array kShapeSpreads{0.1, 0.4};

@@ -299,8 +299,8 @@ std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof) 
   }
   const double gain = gain_in_errors(bed, proof.corrected, proof.calibrated);
   if (gain > Thresholds::kClear_errors) return "";
-  return fmt::format("held out by {}, it gains {:.1f} standard errors, and 2 are asked for",
-                     proof.families.by, gain);
+  return fmt::format("held out by {}, it gains {:.1f} standard errors, and {:.0f} are asked for",
+                     proof.families.by, gain, Thresholds::kClear_errors);
 }
 
 HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,

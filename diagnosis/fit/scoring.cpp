@@ -5,52 +5,26 @@
 #include <mutex>
 #include <numeric>
 
+#include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {
 
-/// Forms are only proxies of what acts: what a name loses by that grows with the signal, and so
-/// does the temperature that scores are divided by. A weak signal's scores are worth what they say.
-/// Priors were fitted to the log likelihood of the true names of 420 generated challenges (pairs
-/// -5.8, unexplained 3.3); names are a little likelier here, as held-out conditions try them once
-/// more.
-constexpr double kPairLogPrior = -5;        // each
-constexpr double kUnexplainedLogPrior = 3;  // of things on no list there are many
-constexpr double kHoldsLogPrior = 12;
 constexpr std::size_t kBestSingles = 7;
 constexpr std::size_t kPartnersOfBest = 5;
 
-double log_sum(const std::vector<double>& terms) {
-  const double top = std::ranges::max(terms);
-  double sum = 0;
-  for (const double term : terms) sum += std::exp(term - top);
-  return top + std::log(sum);
-}
-
-Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate) {
-  std::vector<double> x(problem.soil.size(), 0.0);
-  for (const Effect& effect : candidate.effects) {
-    x.insert(x.end(), effect.start.begin(), effect.start.end());
-  }
-  return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
-
-/// Fits of one id, one a form.
+/// Fits of one account, one a form.
 using Forms = std::vector<CandidateFit>;
 
-ScoredId marginal(const Account& account, const Forms& forms, std::size_t tried) {
-  std::vector<double> scores;
-  for (const CandidateFit& fit : forms) scores.push_back(fit.evidence.log_marginal);
-  const auto best = std::ranges::max_element(scores) - scores.begin();
-  return {.account = account,
-          .score = log_sum(scores) - std::log(static_cast<double>(tried)),
-          .fit = forms[static_cast<std::size_t>(best)]};
+ScoredId scored(const Account& account, const Forms& forms, std::size_t tried) {
+  MarginalFit marginal = marginal_of(forms, tried);
+  return {.account = account, .score = marginal.log_marginal, .fit = std::move(marginal.likeliest)};
 }
 
 ScoredId base(Account::Kind kind, const FitProblem& problem, const SettingWeights& weights) {
   const auto fit = fit_candidate(problem, {}, weights, start_of(problem, {}));
-  return marginal({.kind = kind}, {*fit}, 1);
+  return scored({.kind = kind}, {*fit}, 1);
 }
 
 /// Score of a fit with another effect added, to first order from its starting point.
@@ -184,12 +158,12 @@ std::vector<ScoredId> gather(const std::vector<Hypothesis>& candidates,
     ++tried[names];
     if (fits[i]) by_names[names].push_back(*fits[i]);
   }
-  std::vector<ScoredId> scored;
+  std::vector<ScoredId> all;
   for (const auto& [names, forms] : by_names) {
-    scored.push_back(marginal({.effects = names}, forms, tried[names]));
+    all.push_back(scored({.effects = names}, forms, tried[names]));
   }
-  std::ranges::stable_sort(scored, std::greater{}, &ScoredId::score);
-  return scored;
+  std::ranges::stable_sort(all, std::greater{}, &ScoredId::score);
+  return all;
 }
 
 }  // namespace
@@ -231,9 +205,9 @@ void weigh(std::vector<ScoredId>& scored, PlainModel plain) {
   std::vector<double> terms;
   for (const ScoredId& s : scored) {
     const bool is_plain = s.account.is_plain();
-    double prior = s.account.effects.size() > 1 ? kPairLogPrior : 0;
-    if (s.account.kind == Account::Kind::kUnexplained) prior = kUnexplainedLogPrior;
-    if (is_plain && plain == PlainModel::kHolds) prior = kHoldsLogPrior;
+    double prior = s.account.effects.size() > 1 ? Thresholds::kPair_log_prior : 0;
+    if (s.account.kind == Account::Kind::kUnexplained) prior = Thresholds::kUnexplained_log_prior;
+    if (is_plain && plain == PlainModel::kHolds) prior = Thresholds::kHolds_log_prior;
     const bool out = s.given_up || (is_plain && plain == PlainModel::kRefuted);
     terms.push_back(out ? -INFINITY : s.score / temperature + prior);
   }

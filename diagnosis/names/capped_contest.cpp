@@ -11,41 +11,6 @@
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
-namespace {
-
-Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate,
-                         const CandidateFit* beside) {
-  std::vector<double> x;
-  if (beside != nullptr) {
-    x.assign(beside->x.data(), beside->x.data() + beside->x.size());
-  } else {
-    x.assign(problem.soil.size(), 0.0);
-  }
-  const std::size_t known = beside == nullptr ? 0 : beside->candidate.effects.size();
-  for (std::size_t e = known; e < candidate.effects.size(); ++e) {
-    const Effect& effect = candidate.effects[e];
-    x.insert(x.end(), effect.start.begin(), effect.start.end());
-  }
-  return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-}
-
-/// Forms of one id, marginalised.
-CappedName marginal(const std::string& id, const std::vector<CandidateFit>& forms,
-                    std::size_t tried, double alone) {
-  const auto best = std::ranges::max_element(
-      forms, {}, [](const CandidateFit& fit) { return fit.evidence.log_marginal; });
-  double sum = 0;
-  for (const CandidateFit& fit : forms) {
-    sum += std::exp(fit.evidence.log_marginal - best->evidence.log_marginal);
-  }
-  return {
-      .id = id,
-      .gain_nats = best->evidence.log_marginal - alone + std::log(sum / static_cast<double>(tried)),
-      .fit = *best};
-}
-
-}  // namespace
-
 CappedContest::CappedContest(const CalibratedRecording& calibrated) : calibrated_(calibrated) {
   const FitProblem problem = calibrated.problem();
   const Cap cap = cap_for(problem.bed.measured() - calibrated.base().prediction);
@@ -65,7 +30,7 @@ CappedContest::Cap CappedContest::cap_for(const Eigen::VectorXd& residual) const
                   Eigen::MatrixXd(problem.bed.size(), 0), SettingWeights::of_unexplained());
   std::vector<double> most;
   for (const std::size_t k : free.settings) {
-    most.push_back(kCapShare * discrepancy_settings()[k].amplitude);
+    most.push_back(Thresholds::kCapShare * discrepancy_settings()[k].amplitude);
   }
   return {free.settings, SettingWeights::up_to(std::move(most))};
 }
@@ -87,7 +52,10 @@ std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
   }
   std::vector<CappedName> names;
   for (const auto& [id, of_id] : forms) {
-    names.push_back(marginal(id, of_id, tried[id], alone_nats_));
+    MarginalFit marginal = marginal_of(of_id, tried[id]);
+    names.push_back({.id = id,
+                     .gain_nats = marginal.log_marginal - alone_nats_,
+                     .fit = std::move(marginal.likeliest)});
   }
   std::ranges::stable_sort(names, std::greater{}, &CappedName::gain_nats);
   std::vector<CappedName*> leading;
@@ -105,18 +73,18 @@ CandidateFit CappedContest::best_predicting(const std::vector<CandidateFit>& for
                                             const CandidateFit* beside) const {
   double top = -INFINITY;
   for (const CandidateFit& fit : forms) top = std::max(top, fit.evidence.log_marginal);
-  const CandidateFit* best = nullptr;
-  double best_share = -INFINITY;
+  std::vector<const CandidateFit*> near;
   for (const CandidateFit& fit : forms) {
-    if (fit.evidence.log_marginal < top - Thresholds::kNearForm_nats) continue;
-    const NameShare share = beside == nullptr ? name_share(calibrated_, fit, 1)
-                                              : added_share(calibrated_, fit, *beside, 1);
-    if (share.share.low > best_share) {
-      best_share = share.share.low;
-      best = &fit;
-    }
+    if (fit.evidence.log_marginal >= top - Thresholds::kNearForm_nats) near.push_back(&fit);
   }
-  return *best;
+  if (near.size() == 1) return *near.front();
+  std::vector<double> shares;
+  for (const CandidateFit* fit : near) {
+    const NameShare share = beside == nullptr ? name_share(calibrated_, *fit, 1)
+                                              : added_share(calibrated_, *fit, *beside, 1);
+    shares.push_back(share.share.low);
+  }
+  return *near[static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin())];
 }
 
 ByChance CappedContest::best_in_world(const std::vector<CappedName>& names,

@@ -13,7 +13,7 @@ struct CappedName {
   std::string id;
   double gain_nats = 0;  ///< over the remainder alone, forms marginalised
   /// Of the likeliest form; where others are about as likely, of the one that predicts held-out
-  /// conditions best.
+  /// conditions best. Its held-out share is then the best of a few, and that much too high.
   CandidateFit fit;
 };
 
@@ -24,12 +24,10 @@ struct ByChance {
 };
 
 /// Every name against an unnamed remainder, a smooth Gaussian process on each channel. Without a
-/// cap the remainder swallows every name; up to kCapShare of the amplitude that the base model
+/// cap the remainder swallows every name; up to a third of the amplitude that the base model
 /// alone needs, names compete fairly.
 class CappedContest {
  public:
-  static constexpr double kCapShare = 1.0 / 3.0;
-
   explicit CappedContest(const CalibratedRecording& calibrated);
   CappedContest(const CappedContest&) = delete;
   CappedContest& operator=(const CappedContest&) = delete;

@@ -117,14 +117,15 @@ CondensedRecording with_known_soil(CondensedRecording recording) {
 Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surface,
                           const HeldOut& of_calibrated, int threads) {
   const CalibratedRecording known(with_known_soil(calibrated.recording()));
+  HeldOut proof = known.held_out({}, of_calibrated.families, threads);
   std::vector<std::size_t> settings;
-  if (with_surface) settings = remainder_settings(known.problem(), known.base());
-  HeldOut proof = known.held_out({.remainder = settings}, of_calibrated.families, threads);
-  const double plain =
-      variances_off(known.bed(), known.held_out({}, proof.families, threads).corrected);
-  if (with_surface && variances_off(known.bed(), proof.corrected) >= plain) {
-    settings.clear();
-    proof = known.held_out({}, proof.families, threads);
+  if (with_surface) {
+    std::vector<std::size_t> surface = remainder_settings(known.problem(), known.base());
+    HeldOut over = known.held_out({.remainder = surface}, of_calibrated.families, threads);
+    if (variances_off(known.bed(), over.corrected) < variances_off(known.bed(), proof.corrected)) {
+      settings = std::move(surface);
+      proof = std::move(over);
+    }
   }
   for (std::size_t c = 0; c < proof.fit.size(); ++c) {
     proof.fit[c].calibrated_rmse = of_calibrated.fit[c].calibrated_rmse;

@@ -55,10 +55,6 @@ std::vector<std::string> ids_near(const std::vector<CappedName>& names, double g
   return ids;
 }
 
-bool mixes_wheel_and_instrument(const std::vector<std::string>& ids) {
-  return std::ranges::any_of(ids, is_instrument) && !std::ranges::all_of(ids, is_instrument);
-}
-
 /// Why a name may not stand, by itself or in a class; empty where it may.
 std::string objection_to(const CalibratedRecording& calibrated, const CappedContest& contest,
                          const CappedName& name, int threads) {
@@ -124,6 +120,19 @@ PartialClaim first_claim(const CalibratedRecording& calibrated,
   result.claims.push_back(std::move(claim));
   result.steps.push_back(result.fit);
   return result;
+}
+
+std::string objection_to_class(const std::vector<std::string>& ids) {
+  const bool mixed =
+      std::ranges::any_of(ids, is_instrument) && !std::ranges::all_of(ids, is_instrument);
+  if (!mixed && ids.size() <= Thresholds::kLargestClass) return "";
+  return "names that fit alike are too many, or of wheel and instrument both";
+}
+
+double remainder_share(const std::vector<Claim>& claims) {
+  double explained = 0;
+  for (const Claim& claim : claims) explained += claim.share.explained;
+  return std::clamp(1 - explained, 0.0, 1.0);
 }
 
 std::vector<NameStep> steps_of(const CalibratedRecording& calibrated, const PartialClaim& claim,
@@ -212,10 +221,8 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
         ids.front(), top, p);
     return decision;
   }
-  if (ids.size() > Thresholds::kLargestClass || mixes_wheel_and_instrument(ids)) {
-    decision.refused = "names that fit alike are too many, or of wheel and instrument both";
-    return decision;
-  }
+  decision.refused = objection_to_class(ids);
+  if (!decision.refused.empty()) return decision;
   decision.claim = first_claim(calibrated, names, ids, p, threads);
   add_further_names(calibrated, contest, effects, top, threads, *decision.claim);
   return decision;

@@ -30,6 +30,12 @@ double chance_of(const std::vector<ByChance>& reached, double gain_nats, double 
 /// Gain that one nameless world in forty reaches.
 double reached_by_chance(const std::vector<ByChance>& reached);
 
+/// Why names that fit alike are no class; empty where they are.
+std::string objection_to_class(const std::vector<std::string>& ids);
+
+/// What claims leave of the excess misfit.
+double remainder_share(const std::vector<Claim>& claims);
+
 /// A claim for the first of a class, its members' shares beside it.
 /// \param names as scored \param ids of the class, best first
 PartialClaim first_claim(const CalibratedRecording& calibrated,

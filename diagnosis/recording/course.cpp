@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "diagnosis/recording/replicate_contrasts.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/recording/replicates.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
@@ -20,27 +21,6 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
   return *middle;
-}
-
-/// Measured runs of the conditions that have two and more.
-struct Replicates {
-  std::vector<std::vector<std::size_t>> groups;
-  int contrasts = 0;
-};
-
-Replicates replicates_of(const std::vector<Condition>& conditions,
-                         const std::vector<double>& value) {
-  Replicates all;
-  for (const Condition& condition : conditions) {
-    std::vector<std::size_t> measured;
-    for (const std::size_t run : condition.runs) {
-      if (std::isfinite(value[run])) measured.push_back(run);
-    }
-    if (measured.size() < 2) continue;
-    all.contrasts += static_cast<int>(measured.size()) - 1;
-    all.groups.push_back(std::move(measured));
-  }
-  return all;
 }
 
 /// Robust scatter of one run from the differences of replicates.
@@ -57,15 +37,6 @@ double rough_deviation(const Replicates& replicates, const std::vector<double>& 
   if (middle > 0) return middle;
   return std::accumulate(differences.begin(), differences.end(), 0.0) /
          (1.128 * static_cast<double>(differences.size()));
-}
-
-/// Where the signal of a group lies, robustly.
-double centre(const std::vector<std::size_t>& group, const std::vector<double>& value) {
-  std::vector<double> values;
-  for (const std::size_t run : group) values.push_back(value[run]);
-  std::ranges::sort(values);
-  const std::size_t n = values.size();
-  return (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
 
 void weigh_outliers(const Replicates& replicates, const std::vector<double>& value,
@@ -90,31 +61,6 @@ void weigh_outliers(const Replicates& replicates, const std::vector<double>& val
   }
 }
 
-/// Contrasts of replicates: rows orthonormal and orthogonal to each group's mean (Helmert).
-struct Contrasts {
-  std::vector<std::size_t> runs;
-  Eigen::MatrixXd matrix;
-};
-
-Contrasts contrasts_of(const Replicates& replicates) {
-  Contrasts all;
-  for (const auto& group : replicates.groups) {
-    all.runs.insert(all.runs.end(), group.begin(), group.end());
-  }
-  all.matrix.setZero(replicates.contrasts, static_cast<Eigen::Index>(all.runs.size()));
-  Eigen::Index row = 0, column = 0;
-  for (const auto& group : replicates.groups) {
-    for (std::size_t i = 1; i < group.size(); ++i, ++row) {
-      const double n = static_cast<double>(i);
-      all.matrix.row(row).segment(column, static_cast<Eigen::Index>(i)).array() =
-          1 / std::sqrt(n * (n + 1));
-      all.matrix(row, column + static_cast<Eigen::Index>(i)) = -n / std::sqrt(n * (n + 1));
-    }
-    column += static_cast<Eigen::Index>(group.size());
-  }
-  return all;
-}
-
 /// What scatter may come from besides each run itself.
 struct Explained {
   bool days = false;
@@ -125,41 +71,26 @@ struct Explained {
 /// Restricted maximum likelihood of the constant part, and of the others over it on a grid.
 void fit_variances(const Recording& recording, const Replicates& replicates,
                    const std::vector<double>& value, const Explained& by, ChannelNoise& noise) {
-  const Contrasts contrasts = contrasts_of(replicates);
-  const auto n = static_cast<Eigen::Index>(contrasts.runs.size());
-  Eigen::VectorXd y(n), signal(n), inverse_weight(n), along = Eigen::VectorXd::Zero(n);
-  Eigen::MatrixXd same_day(n, n);
-  Eigen::Index i = 0;
-  for (const auto& group : replicates.groups) {
-    for (const std::size_t run : group) {
-      y[i] = value[run];
-      signal[i] = centre(group, value);
-      if (!by.trend.empty()) along[i] = by.trend[run];
-      inverse_weight[i++] = 1 / noise.weight[run];
-    }
-  }
-  const double rms = std::max(std::sqrt(signal.squaredNorm() / static_cast<double>(n)), 1e-300);
-  signal /= rms;
-  for (Eigen::Index a = 0; a < n; ++a) {
-    for (Eigen::Index b = 0; b < n; ++b) {
-      same_day(a, b) = recording.runs[contrasts.runs[static_cast<std::size_t>(a)]].day ==
-                       recording.runs[contrasts.runs[static_cast<std::size_t>(b)]].day;
-    }
-  }
-  const Eigen::VectorXd e = contrasts.matrix * y;
-  const Eigen::VectorXd column = contrasts.matrix * along;
-  const Eigen::MatrixXd offset_part = contrasts.matrix * same_day * contrasts.matrix.transpose();
-  const Eigen::MatrixXd gain_part = contrasts.matrix *
-                                    (signal.asDiagonal() * same_day * signal.asDiagonal()) *
-                                    contrasts.matrix.transpose();
+  const ReplicateRows rows = rows_of(recording, replicates, value);
+  const auto n = static_cast<double>(rows.runs.size());
+  const double rms = std::max(std::sqrt(rows.signal.squaredNorm() / n), 1e-300);
+  const Eigen::VectorXd signal = rows.signal / rms;
+  const Eigen::VectorXd inverse_weight = rows.of(noise.weight).cwiseInverse();
+  const Eigen::MatrixXd& contrasts = rows.contrasts;
+  const Eigen::VectorXd e = contrasts * rows.value;
+  const Eigen::VectorXd column = by.trend.empty() ? Eigen::VectorXd::Zero(e.size())
+                                                  : Eigen::VectorXd(contrasts * rows.of(by.trend));
+  const Eigen::MatrixXd offset_part = contrasts * rows.same_day * contrasts.transpose();
+  const Eigen::MatrixXd gain_part = contrasts *
+                                    (signal.asDiagonal() * rows.same_day * signal.asDiagonal()) *
+                                    contrasts.transpose();
   double best = -INFINITY;
   const std::vector<double> grid{0, 0.35, 0.7, 1.4, 2.8};
   const std::vector<double> day_grid = by.days ? grid : std::vector<double>{0};
   for (const double p : grid) {
     const Eigen::VectorXd variance =
         (inverse_weight.array() * (1 + p * p * signal.array().square())).matrix();
-    const Eigen::MatrixXd own =
-        contrasts.matrix * variance.asDiagonal() * contrasts.matrix.transpose();
+    const Eigen::MatrixXd own = contrasts * variance.asDiagonal() * contrasts.transpose();
     for (const double d : day_grid) {
       for (const double g : day_grid) {
         throw_if_stopped(by.stop);
@@ -304,72 +235,6 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
     if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
   }
   return noise;
-}
-
-ReplicateContrasts::ReplicateContrasts(const Recording& recording,
-                                       const std::vector<Condition>& conditions,
-                                       const std::vector<double>& adjusted,
-                                       const ChannelNoise& plain) {
-  const Replicates replicates = replicates_of(conditions, adjusted);
-  Contrasts contrasts = contrasts_of(replicates);
-  runs_ = std::move(contrasts.runs);
-  contrasts_ = std::move(contrasts.matrix);
-  const auto n = static_cast<Eigen::Index>(runs_.size());
-  Eigen::VectorXd y(n), own(n), signal(n);
-  Eigen::MatrixXd same_day(n, n);
-  Eigen::Index i = 0;
-  for (const auto& group : replicates.groups) {
-    for (const std::size_t run : group) {
-      y[i] = adjusted[run];
-      signal[i] = centre(group, adjusted);
-      own[i] = std::pow(run_deviation(plain, signal[i]), 2) / plain.weight[run];
-      ++i;
-    }
-  }
-  for (Eigen::Index a = 0; a < n; ++a) {
-    for (Eigen::Index b = 0; b < n; ++b) {
-      const bool same = recording.runs[runs_[static_cast<std::size_t>(a)]].day ==
-                        recording.runs[runs_[static_cast<std::size_t>(b)]].day;
-      same_day(a, b) =
-          same ? std::pow(plain.day_offset, 2) + std::pow(plain.day_gain, 2) * signal[a] * signal[b]
-               : 0;
-    }
-  }
-  e_ = contrasts_ * y;
-  const Eigen::MatrixXd within = contrasts_ * own.asDiagonal() * contrasts_.transpose();
-  const Eigen::MatrixXd days = contrasts_ * same_day * contrasts_.transpose();
-  const bool has_days = !plain.day_assumed && plain.day_offset + plain.day_gain > 0;
-  for (const bool with_days : {true, false}) {
-    if (with_days && !has_days) continue;
-    Covariance& at = covariances_.emplace_back();
-    at.factor.compute(with_days ? Eigen::MatrixXd(within + days) : within);
-    at.score = score(at, e_.dot(at.factor.solve(e_)));
-  }
-}
-
-double ReplicateContrasts::score(const Covariance& covariance, double misfit) const {
-  const auto m = static_cast<double>(e_.size());
-  const double log_det = 2 * covariance.factor.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * (m * std::log(misfit / m) + log_det);
-}
-
-double ReplicateContrasts::gain(const std::vector<double>& trend) const {
-  Eigen::VectorXd along(static_cast<Eigen::Index>(runs_.size()));
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    along[static_cast<Eigen::Index>(i)] = trend[runs_[i]];
-  }
-  const Eigen::VectorXd column = contrasts_ * along;
-  double before = -INFINITY, after = -INFINITY;
-  for (const Covariance& covariance : covariances_) {
-    const Eigen::VectorXd solved = covariance.factor.solve(column);
-    const double weight = column.dot(solved);
-    if (!(weight > 0)) continue;
-    const double misfit =
-        e_.dot(covariance.factor.solve(e_)) - std::pow(e_.dot(solved), 2) / weight;
-    before = std::max(before, covariance.score);
-    after = std::max(after, score(covariance, misfit));
-  }
-  return std::isfinite(after) ? after - before : 0;
 }
 
 void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -48,29 +48,6 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
                             const ChannelRuns& runs, const DiagnosisSetup& setup,
                             const std::vector<double>& trend = {},
                             const std::stop_token& stop = {});
-
-/// What replicates of one channel say of a trend, the noise model's parts held at those of a
-/// channel's plain noise, or its days given up for the trend.
-class ReplicateContrasts {
- public:
-  ReplicateContrasts(const Recording& recording, const std::vector<Condition>& conditions,
-                     const std::vector<double>& adjusted, const ChannelNoise& plain);
-
-  /// Log likelihood that letting the runs follow a column adds. \param trend per run
-  double gain(const std::vector<double>& trend) const;
-
- private:
-  struct Covariance {
-    Eigen::LLT<Eigen::MatrixXd> factor;
-    double score = 0;  // without the trend's part
-  };
-  double score(const Covariance& covariance, double misfit) const;
-
-  std::vector<std::size_t> runs_;
-  Eigen::MatrixXd contrasts_;
-  Eigen::VectorXd e_;
-  std::vector<Covariance> covariances_;
-};
 
 /// Days are few, so that a channel may by chance not show what the bed did to all of them: moves
 /// each channel's day offset, over its scatter, toward the mean square of all, as if that were

@@ -17,6 +17,9 @@ struct Thresholds {
   /// Of a difference between recordings: as above, since it must hold under three settings of the
   /// base model.
   static constexpr double kDifference_p = 1e-3;
+  /// Of a lack of fit at the prior means, beyond which soil numbers are said to differ from their
+  /// tests: the usual one in twenty, since nothing is accused.
+  static constexpr double kConsistent_p = 0.05;
   /// Of any place at all being shown where nothing differs: the usual one in twenty.
   static constexpr double kLocation_p = 0.05;
   /// Standard errors by which one prediction must beat another, or may be worse: the usual 95 %.
@@ -50,6 +53,16 @@ struct Thresholds {
 
   // What a name needs.
 
+  /// Before any evidence, over a single name, fitted to the log likelihood of the true names of 420
+  /// generated challenges (pairs -5.8, unexplained 3.3): names are a little likelier here, as
+  /// held-out conditions try them once more. Each pair; what is on no list, of which there is much;
+  /// the plain model where no test speaks against it (chosen, above what names gain by chance).
+  static constexpr double kPair_log_prior = -5;
+  static constexpr double kUnexplained_log_prior = 3;
+  static constexpr double kHolds_log_prior = 12;
+  /// Of the amplitude that an unnamed remainder alone needs, what it may have beside a name:
+  /// chosen; without a cap it swallows every name.
+  static constexpr double kCapShare = 1.0 / 3.0;
   /// Over `parameters`, where no test spoke up: chosen from 420 generated challenges.
   static constexpr double kUnprompted_nats = 9;
   /// Together the names of a claim must reach it; a class of more names says nothing.

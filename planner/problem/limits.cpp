@@ -6,6 +6,7 @@
 #include "planner/problem/planning_problem.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/parameters/trusted_range.h"
 
 namespace regoplan {
 
@@ -28,7 +29,10 @@ std::span<const LimitKey> limit_keys() {
   static constexpr ValueRange kAngle_deg{.min = 0, .max = 60, .min_excluded = true};
   static constexpr auto kKeys = std::to_array<LimitKey>(
       {{"margin_min", &Limits::margin_min, 1, kShare},
-       {"slip_max", &Limits::slip_max, 1, {.min = 0, .max = 0.95, .min_excluded = true}},
+       {"slip_max",
+        &Limits::slip_max,
+        1,
+        {.min = 0, .max = kTrustedSlip_max, .min_excluded = true}},
        {"slip_angle_max_deg", &Limits::slip_angle_max_rad, kDegree, kAngle_deg},
        {"slope_max_deg", &Limits::slope_max_rad, kDegree, kAngle_deg},
        {"sinkage_max_m", &Limits::sinkage_max_m, 1, kAbove0},

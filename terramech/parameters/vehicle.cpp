@@ -9,6 +9,7 @@
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/parameters/ground_patch.h"
+#include "terramech/parameters/trusted_range.h"
 
 namespace regoplan {
 namespace {
@@ -243,9 +244,9 @@ void validate(const Vehicle& vehicle) {
   require_above("acceleration_max_mps2", vehicle.acceleration_max_mps2, 0, 100);
   if (vehicle.torque_max_nm) require_above("torque_max_nm", *vehicle.torque_max_nm, 0, 1e6);
   validate_steering(vehicle);
-  // 60 deg and 0.95: beyond, wheel forces are not trusted.
-  require_above("slip_angle_max_deg", rounded_degrees(vehicle.slip_angle_max_rad), 0, 60);
-  require_above("slip_max", vehicle.slip_max, 0, 0.95);
+  require_above("slip_angle_max_deg", rounded_degrees(vehicle.slip_angle_max_rad), 0,
+                rounded_degrees(kTrustedSlipAngle_rad));
+  require_above("slip_max", vehicle.slip_max, 0, kTrustedSlip_max);
   require_above("sinkage_max_m", vehicle.sinkage_max_m, 0, vehicle.wheel.radius_m);
   require_above("slope_max_deg", rounded_degrees(vehicle.slope_max_rad), 0, 60);
   require_between("step_max_m", vehicle.step_max_m, 0, vehicle.body.clearance_m);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "terramech/parameters/trusted_range.h"
 
 namespace regoplan {
 
@@ -39,11 +40,7 @@ ForwardMotion forward_motion(const WheelMotion& motion) {
     ratios.lateral = std::min(vy / w, kMobilised);
     ratios.slip = ratios.axle <= 1 ? 1 - ratios.axle : 1 / ratios.axle - 1;
   }
-  constexpr double kTrustedAngle = std::numbers::pi / 3;
-  constexpr double kRounding = 1e-9;
-  if (forward.status == WheelStatus::kOk &&
-      (ratios.slip < -0.9 - kRounding || ratios.slip > 0.95 + kRounding ||
-       ratios.beta_abs_rad > kTrustedAngle + kRounding)) {
+  if (forward.status == WheelStatus::kOk && !is_trusted(ratios.slip, ratios.beta_abs_rad)) {
     forward.status = WheelStatus::kUntrusted;
   }
   return forward;

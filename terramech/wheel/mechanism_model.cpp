@@ -133,7 +133,7 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
   effects.soil = spec.soil;
   effects.load_n = load_n;
   effects = apply(model.mechanisms_, effects, state);
-  if (!(effects.load_n > 0)) return {.forces = {.status = WheelStatus::kSinksToAxle}};
+  if (!(effects.load_n > 0)) return {.forces = {.status = WheelStatus::kLifted}};
 
   WheelMotion moved = motion;
   moved.rim_speed_mps *= effects.rim_factor;
@@ -175,8 +175,9 @@ WheelChannels mechanism_channels(const WheelModel& model, double load_n, const W
           ? wheel_contact::integrate_with_law(ground, contact, ratios, law.stress, model.accuracy_)
                 .plane
           : wheel_contact::integrate(ground, contact, ratios, model.accuracy_);
-  const double q = imposed ? (effects.load_n - plane.cohesion.fz_n) / plane.stress.fz_n : 1.0;
-  if (!(q >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
+  const double q = imposed ? plane.stress_scale(effects.load_n) : 1.0;
+  if (!(q >= 0 && std::isfinite(q)))
+    return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
   const Resultant resultant = plane.at(q);
   double side_n = 0, roll_nm = 0;
   if (effects.side_undisturbed) {

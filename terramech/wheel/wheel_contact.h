@@ -75,6 +75,8 @@ struct Integrals {
   Resultant cohesion, stress;
 
   Resultant at(double q) const { return cohesion + q * stress; }
+  /// The q at which the load is carried: below 0 where cohesion alone carries more.
+  double stress_scale(double load_n) const { return (load_n - cohesion.fz_n) / stress.fz_n; }
 };
 
 /// Fx, Fz and T by Gauss-Legendre quadrature on either side of theta_m, eqs. (2)-(8).

@@ -22,14 +22,18 @@ using wheel_contact::Ratios;
 using wheel_contact::Resultant;
 using wheel_contact::SinkageSolver;
 
+/// r (1 - cos theta_f) without its cancellation.
+double sinkage_m(const Contact& contact, double radius_m) {
+  return radius_m * contact.sin_f * contact.sin_f / (1 + contact.cos_f);
+}
+
 WheelForces forces_at(const Ground& ground, const Contact& contact, const Resultant& resultant,
                       double stress_scale_q, const ForwardMotion& forward, WheelAccuracy accuracy) {
   return {.fx_n = forward.x_sign * resultant.fx_n,
           .fy_n = forward.y_sign *
                   side_force_n(ground, contact, forward.ratios, stress_scale_q, accuracy),
           .torque_nm = forward.x_sign * resultant.torque_nm,
-          // r (1 - cos theta_f) without its cancellation
-          .sinkage_m = ground.wheel.radius_m * contact.sin_f * contact.sin_f / (1 + contact.cos_f),
+          .sinkage_m = sinkage_m(contact, ground.wheel.radius_m),
           .theta_f_rad = contact.theta_f_rad,
           .theta_r_rad = contact.theta_r_rad,
           .status = forward.status};
@@ -50,14 +54,13 @@ WheelForces scale_stress(const SinkageSolver& solver, const Ground& ground, doub
   const auto at_zero_slip = solver.solve(ground, load_n, free_rolling, accuracy);
   if (!at_zero_slip) return {.status = WheelStatus::kSinksToAxle};
   const double r = ground.wheel.radius_m;
-  const double h0 = r * at_zero_slip->contact.sin_f * at_zero_slip->contact.sin_f /
-                    (1 + at_zero_slip->contact.cos_f);
-  const double h = h0 + ground.soil.c0_m * std::max(forward.ratios.slip, 0.0);
+  const double h =
+      sinkage_m(at_zero_slip->contact, r) + ground.soil.c0_m * std::max(forward.ratios.slip, 0.0);
   if (!(h < r)) return {.status = WheelStatus::kSinksToAxle};
   const Contact contact =
-      contact_at(ground, 2 * std::asin(std::sqrt(h / (2 * r))), forward.ratios.slip);
+      contact_at(ground, wheel_contact::entry_angle_rad(h, r), forward.ratios.slip);
   const Integrals integrals = integrate(ground, contact, forward.ratios, accuracy);
-  const double q = (load_n - integrals.cohesion.fz_n) / integrals.stress.fz_n;
+  const double q = integrals.stress_scale(load_n);
   if (!(q >= 0 && std::isfinite(q))) return {.status = WheelStatus::kCohesionCarriesLoad};
   return forces_at(ground, contact, integrals.at(q), q, forward, accuracy);
 }

@@ -25,6 +25,20 @@ double seconds_since(Clock::time_point begun) {
   return std::chrono::duration<double>(Clock::now() - begun).count();
 }
 
+std::vector<std::string> names_in(const Diagnosis& diagnosis) {
+  std::vector<std::string> names;
+  for (const Claim& claim : diagnosis.claims) names.push_back(claim.id);
+  return names;
+}
+
+/// What a diagnosis says that is asked to stop when it comes to a stage.
+Diagnosis stopped_at(std::string_view stage, const Work& work) {
+  std::stop_source source;
+  return work({.stop = source.get_token(), .progress = [&](std::string_view at, double) {
+                 if (at == stage) source.request_stop();
+               }});
+}
+
 /// What a diagnosis says that is asked to stop after some time.
 Diagnosis stopped_after(double time_s, const Work& work) {
   std::stop_source source;
@@ -60,7 +74,7 @@ void expect_to_stop_whenever_asked(const Work& work) {
     ++interrupted;
     if (found.verdict != Verdict::kUndecided) {
       EXPECT_EQ(found.verdict, whole.verdict);
-      EXPECT_EQ(found.sentence.empty(), whole.sentence.empty());
+      EXPECT_EQ(names_in(found), names_in(whole));
       continue;
     }
     EXPECT_EQ(found.sentence, "The diagnosis was interrupted before it had a verdict.");
@@ -68,6 +82,17 @@ void expect_to_stop_whenever_asked(const Work& work) {
     EXPECT_TRUE(found.residuals.empty());
   }
   EXPECT_GE(interrupted, 3);
+  const Diagnosis decided = stopped_at("choosing the next experiment", work);
+  EXPECT_EQ(decided.interrupted, !whole.next_experiments.empty());
+  EXPECT_EQ(decided.verdict, whole.verdict) << "what was decided before the stop is kept";
+  EXPECT_EQ(names_in(decided), names_in(whole));
+  EXPECT_EQ(decided.fit.size(), whole.fit.size());
+  EXPECT_TRUE(decided.next_experiments.empty());
+  const Diagnosis located = stopped_at("proving it on held-out conditions", work);
+  EXPECT_EQ(located.verdict, Verdict::kUndecided);
+  EXPECT_EQ(located.before.f, whole.before.f);
+  EXPECT_EQ(located.where.size(), whole.where.size());
+  EXPECT_FALSE(located.ranking.empty());
 }
 
 TrueWheel digging() {

@@ -1,0 +1,57 @@
+#include "diagnosis/recording/replicate_contrasts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regoplan {
+
+ReplicateContrasts::ReplicateContrasts(const Recording& recording,
+                                       const std::vector<Condition>& conditions,
+                                       const std::vector<double>& adjusted,
+                                       const ChannelNoise& plain) {
+  rows_ = rows_of(recording, replicates_of(conditions, adjusted), adjusted);
+  const Eigen::VectorXd& signal = rows_.signal;
+  const Eigen::MatrixXd& contrasts = rows_.contrasts;
+  const Eigen::VectorXd weight = rows_.of(plain.weight);
+  Eigen::VectorXd own(signal.size());
+  for (Eigen::Index i = 0; i < own.size(); ++i) {
+    own[i] = std::pow(run_deviation(plain, signal[i]), 2) / weight[i];
+  }
+  e_ = contrasts * rows_.value;
+  const Eigen::MatrixXd within = contrasts * own.asDiagonal() * contrasts.transpose();
+  const Eigen::MatrixXd of_days =
+      (std::pow(plain.day_offset, 2) +
+       std::pow(plain.day_gain, 2) * (signal * signal.transpose()).array()) *
+      rows_.same_day.array();
+  const Eigen::MatrixXd days = contrasts * of_days * contrasts.transpose();
+  const bool has_days = !plain.day_assumed && plain.day_offset + plain.day_gain > 0;
+  for (const bool with_days : {true, false}) {
+    if (with_days && !has_days) continue;
+    Covariance& at = covariances_.emplace_back();
+    at.factor.compute(with_days ? Eigen::MatrixXd(within + days) : within);
+    at.score = score(at, e_.dot(at.factor.solve(e_)));
+  }
+}
+
+double ReplicateContrasts::score(const Covariance& covariance, double misfit) const {
+  const auto m = static_cast<double>(e_.size());
+  const double log_det = 2 * covariance.factor.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (m * std::log(misfit / m) + log_det);
+}
+
+double ReplicateContrasts::gain(const std::vector<double>& trend) const {
+  const Eigen::VectorXd column = rows_.contrasts * rows_.of(trend);
+  double before = -INFINITY, after = -INFINITY;
+  for (const Covariance& covariance : covariances_) {
+    const Eigen::VectorXd solved = covariance.factor.solve(column);
+    const double weight = column.dot(solved);
+    if (!(weight > 0)) continue;
+    const double misfit =
+        e_.dot(covariance.factor.solve(e_)) - std::pow(e_.dot(solved), 2) / weight;
+    before = std::max(before, covariance.score);
+    after = std::max(after, score(covariance, misfit));
+  }
+  return std::isfinite(after) ? after - before : 0;
+}
+
+}  // namespace regoplan

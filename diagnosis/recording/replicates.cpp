@@ -1,0 +1,80 @@
+#include "diagnosis/recording/replicates.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regoplan {
+
+namespace {
+
+Eigen::MatrixXd contrasts_of(const Replicates& replicates, Eigen::Index runs) {
+  Eigen::MatrixXd contrasts = Eigen::MatrixXd::Zero(replicates.contrasts, runs);
+  Eigen::Index row = 0, column = 0;
+  for (const auto& group : replicates.groups) {
+    for (std::size_t i = 1; i < group.size(); ++i, ++row) {
+      const double n = static_cast<double>(i);
+      contrasts.row(row).segment(column, static_cast<Eigen::Index>(i)).array() =
+          1 / std::sqrt(n * (n + 1));
+      contrasts(row, column + static_cast<Eigen::Index>(i)) = -n / std::sqrt(n * (n + 1));
+    }
+    column += static_cast<Eigen::Index>(group.size());
+  }
+  return contrasts;
+}
+
+}  // namespace
+
+Replicates replicates_of(const std::vector<Condition>& conditions,
+                         const std::vector<double>& value) {
+  Replicates all;
+  for (const Condition& condition : conditions) {
+    std::vector<std::size_t> measured;
+    for (const std::size_t run : condition.runs) {
+      if (std::isfinite(value[run])) measured.push_back(run);
+    }
+    if (measured.size() < 2) continue;
+    all.contrasts += static_cast<int>(measured.size()) - 1;
+    all.groups.push_back(std::move(measured));
+  }
+  return all;
+}
+
+double centre(const std::vector<std::size_t>& group, const std::vector<double>& value) {
+  std::vector<double> values;
+  for (const std::size_t run : group) values.push_back(value[run]);
+  std::ranges::sort(values);
+  const std::size_t n = values.size();
+  return (values[(n - 1) / 2] + values[n / 2]) / 2;
+}
+
+Eigen::VectorXd ReplicateRows::of(const std::vector<double>& per_run) const {
+  Eigen::VectorXd rows(static_cast<Eigen::Index>(runs.size()));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    rows[static_cast<Eigen::Index>(i)] = per_run[runs[i]];
+  }
+  return rows;
+}
+
+ReplicateRows rows_of(const Recording& recording, const Replicates& replicates,
+                      const std::vector<double>& value) {
+  ReplicateRows rows;
+  std::vector<double> centres(value.size());
+  for (const auto& group : replicates.groups) {
+    rows.runs.insert(rows.runs.end(), group.begin(), group.end());
+    for (const std::size_t run : group) centres[run] = centre(group, value);
+  }
+  const auto n = static_cast<Eigen::Index>(rows.runs.size());
+  rows.contrasts = contrasts_of(replicates, n);
+  rows.value = rows.of(value);
+  rows.signal = rows.of(centres);
+  rows.same_day.resize(n, n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    for (Eigen::Index b = 0; b < n; ++b) {
+      rows.same_day(a, b) = recording.runs[rows.runs[static_cast<std::size_t>(a)]].day ==
+                            recording.runs[rows.runs[static_cast<std::size_t>(b)]].day;
+    }
+  }
+  return rows;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnosis/recording/condition_groups.h"
+
+namespace regoplan {
+
+/// Measured runs of the conditions that have two and more.
+struct Replicates {
+  std::vector<std::vector<std::size_t>> groups;
+  int contrasts = 0;
+};
+
+/// \param value of one channel per run, NaN where it was not measured
+Replicates replicates_of(const std::vector<Condition>& conditions,
+                         const std::vector<double>& value);
+
+/// Where the signal of a group lies, robustly.
+double centre(const std::vector<std::size_t>& group, const std::vector<double>& value);
+
+/// Replicates of one channel in rows, a run each.
+struct ReplicateRows {
+  std::vector<std::size_t> runs;
+  Eigen::MatrixXd contrasts;  ///< orthonormal, orthogonal to each group's mean (Helmert) x runs
+  Eigen::VectorXd value;
+  Eigen::VectorXd signal;    ///< where the run's group lies
+  Eigen::MatrixXd same_day;  ///< runs x runs, 1 or 0
+
+  /// What is known per run of the recording, in rows.
+  Eigen::VectorXd of(const std::vector<double>& per_run) const;
+};
+
+ReplicateRows rows_of(const Recording& recording, const Replicates& replicates,
+                      const std::vector<double>& value);
+
+}  // namespace regoplan
