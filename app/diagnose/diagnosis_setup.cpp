@@ -9,6 +9,7 @@
 #include "app/settings/model_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/soil_settings.h"
+#include "planner/problem/gravity_range.h"
 
 namespace regoplan {
 namespace {
@@ -66,7 +67,7 @@ SetupSettings read_setup(const SettingsNode& node) {
             "{} is not valid (allowed: above 0 to {}); suspected: mm", value, kLargest_m));
       }
     }
-    setup.gravity_mps2 = mapping.number("gravity_mps2", kAbove0);
+    setup.gravity_mps2 = mapping.number("gravity_mps2", kGravity_mps2);
     const SettingsNode& soil = mapping.required("soil");
     setup.soil =
         read_mapping(soil, [&](SettingsMapping& keys) { return read_soil(keys, setup.variant); });

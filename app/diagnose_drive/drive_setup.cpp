@@ -5,6 +5,7 @@
 #include "app/settings/scenario_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/vehicle_settings.h"
+#include "planner/problem/gravity_range.h"
 #include "terramech/basics/angles.h"
 
 namespace regoplan {
@@ -50,7 +51,7 @@ DriveSetupFile read_drive_setup(const std::string& scenario_file,
   DriveSetupFile read{.setup = {.map = std::move(map.map), .vehicle = {}},
                       .notices = std::move(map.notices)};
   for (const SettingsEntry& entry : root.mapping()) {
-    if (entry.key == "gravity_mps2") read.setup.gravity_mps2 = entry.value.number(kAbove0);
+    if (entry.key == "gravity_mps2") read.setup.gravity_mps2 = entry.value.number(kGravity_mps2);
     if (entry.key == "vehicle") {
       read.setup.vehicle = placed(entry.value, [&] {
         return entry.value.kind() == SettingsNode::Kind::kMapping

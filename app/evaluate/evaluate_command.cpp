@@ -9,6 +9,7 @@
 #include "app/evaluate/evaluation_run.h"
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
+#include "planner/problem/gravity_range.h"
 
 namespace regoplan {
 namespace {
@@ -107,6 +108,27 @@ ExitStatus run(const Options& options) {
   return run_evaluation(read_scenario(*options.scenario, options.overrides), options.request);
 }
 
+/// What a chart is drawn of, with a scenario or without.
+void add_chart_options(CLI::App& parser, Options& options) {
+  parser.add_option("--chart", options.chart_folder, "folder for a feasibility chart")
+      ->type_name("DIR");
+  parser.add_option("--vehicle", options.vehicle, "of the chart: a preset or a file")
+      ->type_name("NAME");
+  parser.add_option("--soils", options.soils_file, "of the chart")->type_name("FILE.yaml");
+  parser.add_option("--gravity-mps2", options.gravity_mps2, "of the chart")
+      ->type_name("NUMBER")
+      ->check(in_range(kGravity_mps2));
+  parser
+      .add_option("--chart-slopes-deg", options.slopes_deg, "of the chart: ground across the turn")
+      ->type_name("DEG")
+      ->check(in_range({.min = 0, .max = 45}))
+      ->capture_default_str();
+  parser.add_option("--chart-speed-mps", options.speed_max_mps, "of the chart: from a tenth to it")
+      ->type_name("MPS")
+      ->check(in_range(kAbove0))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 Command add_evaluate_command(CLI::App& program) {
@@ -150,25 +172,7 @@ Command add_evaluate_command(CLI::App& program) {
       ->add_option("--threads", options->overrides.threads, "default: all cores; changes no result")
       ->type_name("N")
       ->check(in_range({.min = 1, .max = kThreadsMax}));
-  parser->add_option("--chart", options->chart_folder, "folder for a feasibility chart")
-      ->type_name("DIR");
-  parser->add_option("--vehicle", options->vehicle, "of the chart: a preset or a file")
-      ->type_name("NAME");
-  parser->add_option("--soils", options->soils_file, "of the chart")->type_name("FILE.yaml");
-  parser->add_option("--gravity-mps2", options->gravity_mps2, "of the chart")
-      ->type_name("NUMBER")
-      ->check(in_range(kAbove0));
-  parser
-      ->add_option("--chart-slopes-deg", options->slopes_deg,
-                   "of the chart: ground across the turn")
-      ->type_name("DEG")
-      ->check(in_range({.min = 0, .max = 45}))
-      ->capture_default_str();
-  parser
-      ->add_option("--chart-speed-mps", options->speed_max_mps, "of the chart: from a tenth to it")
-      ->type_name("MPS")
-      ->check(in_range(kAbove0))
-      ->capture_default_str();
+  add_chart_options(*parser, *options);
   add_force_flag(*parser, request.folder);
   add_network_flag(*parser);
   add_output_flags(*parser, request.json, request.quiet);

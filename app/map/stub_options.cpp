@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "app/command/command.h"
+#include "planner/problem/gravity_range.h"
 #include "terramech/parameters/vehicle.h"
 
 namespace regoplan {
@@ -37,7 +38,7 @@ void add_stub_options(CLI::App& parser, ScenarioStub& stub) {
       ->capture_default_str();
   parser.add_option("--gravity-mps2", stub.gravity_mps2, "of scenario.yaml")
       ->type_name("NUMBER")
-      ->check(in_range(kAbove0))
+      ->check(in_range(kGravity_mps2))
       ->capture_default_str();
 }
 

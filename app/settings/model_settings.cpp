@@ -5,6 +5,7 @@
 #include "app/settings/correction_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/soil_settings.h"
+#include "planner/problem/gravity_range.h"
 
 namespace regoplan {
 namespace {
@@ -74,7 +75,7 @@ ModelSettings read_model(const SettingsNode& node) {
     }
     settings.spec.variant = read_variant(mapping.required("model"));
     settings.spec.wheel = read_wheel(mapping.required("wheel"));
-    settings.spec.gravity_mps2 = mapping.number("gravity_mps2", kAbove0);
+    settings.spec.gravity_mps2 = mapping.number("gravity_mps2", kGravity_mps2);
     settings.soil = read_mapping(mapping.required("soil"), [&](SettingsMapping& soil) {
       return read_soil(soil, settings.spec.variant);
     });

@@ -15,6 +15,7 @@
 #include "app/settings/terrain_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "maps/raster_files.h"
+#include "planner/problem/gravity_range.h"
 #include "terramech/basics/angles.h"
 
 namespace regoplan {
@@ -260,7 +261,7 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
     const SettingsNode& vehicle_node = mapping.required("vehicle");
     Vehicle vehicle =
         placed(vehicle_node, [&] { return read_scenario_vehicle(vehicle_node, folder); });
-    const double gravity_mps2 = mapping.number("gravity_mps2", kAbove0);
+    const double gravity_mps2 = mapping.number("gravity_mps2", kGravity_mps2);
     const StartState start = read_start(mapping.required("start"));
     const SettingsNode& goal_node = mapping.required("goal");
     const SettingsNode* speed = mapping.optional("speed_mps");

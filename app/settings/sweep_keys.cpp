@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "app/settings/vehicle_settings.h"
+#include "planner/problem/gravity_range.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
-
-constexpr ValueRange kGravity{.min = 0, .max = 100, .min_excluded = true};
 
 /// Keys that name one number of any problem.
 using FixedKeys = std::map<std::string, SweepKey, std::less<>>;
@@ -43,7 +42,7 @@ FixedKeys known_keys() {
       {"goal.speed_mps.max",
        {kAtLeast0, [](PlanningProblem& p, double v) { p.goal.speed_max_mps = v; }}},
       {"goal.radius_m", {kAbove0, [](PlanningProblem& p, double v) { p.goal.radius_m = v; }}},
-      {"gravity_mps2", {kGravity, [](PlanningProblem& p, double v) { p.gravity_mps2 = v; }}}};
+      {"gravity_mps2", {kGravity_mps2, [](PlanningProblem& p, double v) { p.gravity_mps2 = v; }}}};
   for (const LimitKey& limit : limit_keys()) {
     keys[fmt::format("limits.{}", limit.key)] = {.allowed = limit.shown_range,
                                                  .set = [&limit](PlanningProblem& p, double v) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "maps/ground_finder.h"
+#include "planner/problem/gravity_range.h"
 #include "planner/problem/obstacles.h"
 #include "planner/runtime/draw_statistics.h"
 #include "terramech/basics/angles.h"
@@ -88,8 +89,7 @@ WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil
 
 void validate(const PlanningProblem& problem) {
   validate(problem.vehicle);
-  require("gravity_mps2", problem.gravity_mps2,
-          problem.gravity_mps2 > 0 && problem.gravity_mps2 <= 100, "above 0 to 100");
+  require("gravity_mps2", problem.gravity_mps2, kGravity_mps2);
   require("speed_mps.max", problem.speed_max_mps,
           problem.speed_max_mps > 0 && problem.speed_max_mps <= problem.vehicle.speed_max_mps,
           fmt::format("above 0 to the vehicle's {}", problem.vehicle.speed_max_mps).c_str());

@@ -127,4 +127,10 @@ DiagnosisRun unexplained_diagnosis() {
   return run;
 }
 
+DiagnosisRun interrupted_diagnosis() {
+  DiagnosisRun run = claimed_diagnosis();
+  run.diagnosis = undecided(run.recording.recording);
+  return run;
+}
+
 }  // namespace regoplan

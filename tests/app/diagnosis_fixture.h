@@ -13,4 +13,7 @@ DiagnosisRun consistent_diagnosis();
 /// The same runs, unexplained: the corrected model has a correction without a name.
 DiagnosisRun unexplained_diagnosis();
 
+/// The same runs, interrupted before there was a verdict.
+DiagnosisRun interrupted_diagnosis();
+
 }  // namespace regoplan

@@ -30,7 +30,9 @@ TEST(ModelSettings, WhatCannotBeAModelIsAnErrorWithItsLine) {
   EXPECT_EQ(model_error("radius_m: 0.09", "radius_m: 0"),
             "m.yaml:2: wheel.radius_m: 0 is not valid (allowed: above 0)");
   EXPECT_EQ(model_error("gravity_mps2: 9.80665", "gravity_mps2: .inf"),
-            "m.yaml:3: gravity_mps2: .inf is not valid (allowed: a number, above 0)");
+            "m.yaml:3: gravity_mps2: .inf is not valid (allowed: a number, above 0 to 100)");
+  EXPECT_EQ(model_error("gravity_mps2: 9.80665", "gravity_mps2: 980.665"),
+            "m.yaml:3: gravity_mps2: 980.665 is not valid (allowed: above 0 to 100)");
   EXPECT_EQ(model_error("ishigami2007", "bekker1956"),
             "m.yaml:1: model: bekker1956 is not valid (allowed: ishigami2007 | yoshida2004)");
   EXPECT_EQ(model_error("ishigami2007", "yoshida2004"), "m.yaml:5: soil: c0_m is missing");

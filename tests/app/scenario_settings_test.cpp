@@ -119,7 +119,7 @@ TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
   EXPECT_EQ(error_of("radius_m: 3", "radius: 3"),
             "s.yaml:7: goal: radius_m is missing (line 7 has radius)");
   EXPECT_EQ(error_of("gravity_mps2: 1.62", "gravity_mps2: .nan"),
-            "s.yaml:5: gravity_mps2: .nan is not valid (allowed: a number, above 0)");
+            "s.yaml:5: gravity_mps2: .nan is not valid (allowed: a number, above 0 to 100)");
   EXPECT_EQ(error_of("planner:", "speed_mps: {max: 50}\nplanner:").substr(0, 40),
             "s.yaml:8: speed_mps.max: 50 is not valid");
   EXPECT_EQ(error_of("radius_m: 3", "radius_m: 3, heading_deg: 5"),

@@ -40,6 +40,9 @@ TEST(Schemas, HoldWhatTheWritersWriteOfEverything) {
   expect_kept("diagnosis", diagnosis_json(claimed_diagnosis()));
   expect_kept("diagnosis", diagnosis_json(consistent_diagnosis()));
   expect_kept("diagnosis", diagnosis_json(unexplained_diagnosis()));
+  const std::string undecided = diagnosis_json(interrupted_diagnosis());
+  EXPECT_EQ(Json::parse(undecided).at("verdict"), "undecided");
+  expect_kept("diagnosis", undecided);
 
   JournalContents journal{.origins = {made_up_origin()}, .runs = {}};
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
