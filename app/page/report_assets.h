@@ -18,7 +18,7 @@ extern const std::string_view kBenchmarkHtml;     ///< sections of the benchmark
 extern const std::string_view kBenchmarkScript;   ///< draws them
 extern const std::string_view kDiagnosisHtml;     ///< sections of the diagnosis
 extern const std::string_view kDiagnosisScript;   ///< draws them
-extern const std::string_view kDrivesHtml;        ///< draws them
+extern const std::string_view kDrivesHtml;        ///< sections of the diagnosis of drives
 extern const std::string_view kDrivesScript;      ///< draws them
 
 }  // namespace regoplan::report_assets

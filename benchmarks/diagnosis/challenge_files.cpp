@@ -7,7 +7,6 @@
 #include "terramech/basics/angles.h"
 
 namespace regoplan::challenge {
-namespace {}  // namespace
 
 std::string recording_csv(const Recording& recording) {
   const RecordedColumns& has = recording.columns;
