@@ -48,6 +48,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/regoplanConfigVersion.cma
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/regoplanConfig.cmake
               ${PROJECT_BINARY_DIR}/regoplanConfigVersion.cmake
+              ${PROJECT_SOURCE_DIR}/cmake/components.cmake
               ${PROJECT_SOURCE_DIR}/cmake/ompl.cmake
         DESTINATION ${package_folder})
 
