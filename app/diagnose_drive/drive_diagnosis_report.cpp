@@ -22,8 +22,9 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
   }
   std::vector<std::string> names;
   for (const DriveClaim& claim : diagnosis.claims) names.push_back(claim.id);
-  return fmt::format("{} in {}: {}.", diagnosis.verdict == DriveVerdict::kClass ? "Told as a class" : "Named",
-                     of, fmt::join(names, ", "));
+  return fmt::format("{} in {}: {}.",
+                     diagnosis.verdict == DriveVerdict::kClass ? "Told as a class" : "Named", of,
+                     fmt::join(names, ", "));
 }
 
 std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
