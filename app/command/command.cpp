@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 
 #include "app/io/number_text.h"
@@ -17,6 +19,19 @@ CLI::Validator in_range(const ValueRange& allowed) {
             return value && allowed.contains(*value)
                        ? std::string()
                        : fmt::format("{} is not valid (allowed: {})", text, allowed.text());
+          },
+          ""};
+}
+
+CLI::Validator a_seed() {
+  return {[](std::string& text) {
+            std::int64_t seed = -1;
+            const char* end = text.data() + text.size();
+            const auto [read, failed] = std::from_chars(text.data(), end, seed);
+            return failed == std::errc() && read == end && seed >= 0
+                       ? std::string()
+                       : fmt::format("{} is not valid (allowed: a whole number, 0 to {})", text,
+                                     INT64_MAX);
           },
           ""};
 }

@@ -42,6 +42,9 @@ Command add_export_command(CLI::App& program);
 /// An option takes finite numbers in this range only.
 CLI::Validator in_range(const ValueRange& allowed);
 
+/// An option takes a seed only: a whole number that a scenario could hold too.
+CLI::Validator a_seed();
+
 /// An option takes one of these words only.
 CLI::Validator one_of(std::vector<std::string> words);
 

@@ -41,7 +41,7 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
       ->check(one_of(planner_names()));
   parser.add_option("--seed", overrides.seed, else_as("of all that is drawn", defaults.seed))
       ->type_name("N")
-      ->check(in_range(kAtLeast0));
+      ->check(a_seed());
   CLI::Option* time = parser
                           .add_option("--time", overrides.time_s,
                                       else_as("seconds of the whole answer", kSearchTimeDefault_s))

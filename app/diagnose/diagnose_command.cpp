@@ -172,7 +172,7 @@ Command add_diagnose_command(CLI::App& program) {
       ->required();
   parser->add_option("--seed", options->seed, "of all that is drawn")
       ->type_name("N")
-      ->check(in_range(kAtLeast0))
+      ->check(a_seed())
       ->capture_default_str();
   parser->add_option("--threads", options->threads, "default: all cores; changes no result")
       ->type_name("N")

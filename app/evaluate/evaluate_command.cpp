@@ -167,7 +167,7 @@ Command add_evaluate_command(CLI::App& program) {
       ->capture_default_str();
   parser->add_option("--seed", options->overrides.seed, "of all that is drawn")
       ->type_name("N")
-      ->check(in_range(kAtLeast0));
+      ->check(a_seed());
   parser
       ->add_option("--threads", options->overrides.threads, "default: all cores; changes no result")
       ->type_name("N")

@@ -86,7 +86,7 @@ Command add_map_make_command(CLI::App& map) {
       ->required();
   parser->add_option("--seed", options->terrain.seed, "of all that is drawn")
       ->type_name("N")
-      ->check(in_range(kAtLeast0))
+      ->check(a_seed())
       ->capture_default_str();
   const auto number = [&](const char* name, double SyntheticTerrainSettings::*member,
                           const char* help) {

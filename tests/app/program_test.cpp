@@ -129,6 +129,10 @@ TEST_F(BadScenario, BadOptions) {
   expect_refused({"--bogus"}, "--bogus");
   expect_refused({"--iterations"}, "--iterations 5 --time 5");
   expect_refused({"none.yaml: no such file"}, "--model none.yaml");
+  for (const char* seed : {"-1", "1.5", "9223372036854775808", "18446744073709551616"}) {
+    expect_refused({"--seed", std::string(seed) + " is not valid", "0 to 9223372036854775807"},
+                   std::string("--seed=") + seed);
+  }
 }
 
 TEST_F(BadScenario, ResultsThatCouldNotBeWritten) {
