@@ -36,7 +36,7 @@ def test_bad_scenarios_are_named(scenario, change, told):
     ("time_s", "5", "time_s: dtype"),
     ("seed", 0.5, "seed: 0.5 is not valid .allowed: an integer"),
     ("seed", True, "seed: True is not valid .allowed: an integer"),
-    ("seed", -1, "^seed: -1 is not valid .allowed: at least 0"),
+    ("seed", -1, "^seed: -1 is not valid .allowed: a whole number, 0 to 9223372036854775807"),
     ("seed", 2**64, "seed: 18446744073709551616 is not valid"),
     ("iterations", 1e3, "iterations: 1000.0 is not valid .allowed: an integer"),
     ("candidates", 101, "^candidates: 101 is not valid .allowed: 1 to 100"),

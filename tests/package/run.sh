@@ -30,7 +30,7 @@ another_user() {  # runs a command as nobody where we are root, else as we are
 }
 
 into_root() {  # dpkg on a root of its own, whose libraries are those of this machine
-  dpkg --root="$folder/root" --force-not-root --force-bad-path --force-depends \
+  dpkg --root="$root" --force-not-root --force-bad-path --force-depends \
     --force-script-chrootless --log="$folder/dpkg.log" "$@" >>"$folder/dpkg.out" 2>&1 ||
     { cat "$folder/dpkg.out"; exit 1; }
 }
@@ -81,19 +81,19 @@ program)
 deb)
   (cd "$build" && cpack -G DEB -B "$folder" >"$folder/cpack.log") || { cat "$folder/cpack.log"; exit 1; }
   package=$(echo "$folder"/regoplan_*.deb)
-  mkdir -p "$folder/root/var/lib/dpkg/"{info,updates}
-  touch "$folder/root/var/lib/dpkg/"{status,available}
-  into_root -i "$package"
-  chmod -R a-w "$folder/root/usr"
-  trap 'chmod -R u+w "$folder/root"' EXIT
   work=$(mktemp -d)
-  chmod 777 "$work"
-  (cd "$work" && another_user "$folder/root/usr/bin/regoplan" demo --planner Lattice --iterations 20000 --candidates 1 --quiet --out result)
+  chmod 777 "$work"  # for the other user, who may not get to where we build
+  root="$work/root"
+  trap 'chmod -R u+w "$work"; rm -r "$work"' EXIT
+  mkdir -p "$root/var/lib/dpkg/"{info,updates}
+  touch "$root/var/lib/dpkg/"{status,available}
+  into_root -i "$package"
+  chmod -R a-w "$root/usr"
+  (cd "$work" && another_user "$root/usr/bin/regoplan" demo --planner Lattice --iterations 20000 --candidates 1 --quiet --out result)
   test -s "$work/result/report.html"
-  rm -r "$work"
-  chmod -R u+w "$folder/root/usr"
+  chmod -R u+w "$root/usr"
   into_root --purge regoplan
-  left=$(find "$folder/root/usr" -type f 2>/dev/null || true)
+  left=$(find "$root/usr" -type f 2>/dev/null || true)
   if [[ -n "$left" ]]; then
     echo "left behind: $left" >&2
     exit 1
