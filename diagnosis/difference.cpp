@@ -138,6 +138,7 @@ class Differing {
     }
     found_.before = primary().lack;
     found_.after = found_.before;
+    complete_ = found_;
     const bool differ = std::ranges::all_of(
         treatments_, [](const Treatment& t) { return t.lack.f > t.lack.critical; });
     if (!differ) {
