@@ -48,6 +48,16 @@ int finish(int status) {
   return interrupted_status();
 }
 
+/// How to ask for the options of the command that was called.
+std::string help_call(const CLI::App& program) {
+  std::string call = program.get_name();
+  for (const CLI::App* app = &program; !app->get_subcommands().empty();) {
+    app = app->get_subcommands().front();
+    call += " " + app->get_name();
+  }
+  return call + " --help";
+}
+
 int run(CLI::App& program, const std::vector<Command>& commands, int argc,
         const char* const* argv) {
   try {
@@ -58,10 +68,10 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc,
     return fail(bad.what());
   } catch (const CLI::RequiredError& bad) {
     const bool unknown = argc > 1 && argv[1][0] != '-' && program.get_subcommands().empty();
-    return fail(unknown ? fmt::format("unknown command {} ({} --help)", argv[1], program.get_name())
-                        : fmt::format("{} ({} --help)", bad.what(), program.get_name()));
+    const std::string what = unknown ? fmt::format("unknown command {}", argv[1]) : bad.what();
+    return fail(fmt::format("{} ({})", what, help_call(program)));
   } catch (const CLI::ParseError& bad) {
-    return fail(fmt::format("{} ({} --help)", bad.what(), program.get_name()));
+    return fail(fmt::format("{} ({})", bad.what(), help_call(program)));
   }
   const auto command = std::ranges::find_if(
       commands, [](const Command& candidate) { return candidate.parser->parsed(); });

@@ -163,6 +163,11 @@ TEST_F(Program, HelpAndVersionAreAnswersOnStandardOutput) {
   EXPECT_TRUE(run("--version").output.starts_with("regoplan "));
 }
 
+TEST_F(Program, WhatIsMissingIsToldWithTheHelpOfItsCommand) {
+  expect_refusal(run("plan x.yaml"), {"--out", "(regoplan plan --help)"});
+  expect_refusal(run("map make"), {"--out", "(regoplan map make --help)"});
+}
+
 TEST_F(Program, AnUnknownCommandIsOneLine) {
   const ProgramRun unknown = run("frobnicate");
   EXPECT_EQ(unknown.status, 1);
