@@ -24,7 +24,7 @@ function(public_headers variable header)
 endfunction()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/regoplan)
-set(app_rooms benchmarking drive_diagnosis)  # libraries that a component has beside its own
+set(app_rooms benchmarking driving drive_diagnosis)  # libraries that a component has beside its own
 foreach(component ${REGOPLAN_COMPONENTS})
   foreach(library ${component} ${${component}_rooms})
     set_target_properties(regoplan_${library} PROPERTIES EXPORT_NAME ${library})

@@ -15,6 +15,7 @@ function(regoplan_tests folder)
 endfunction()
 
 regoplan_tests(terramech regoplan_terramech)
+regoplan_tests(driving regoplan_driving)
 regoplan_tests(diagnosis regoplan_diagnosis)
 regoplan_tests(diagnosis_challenge regoplan_challenge)
 regoplan_tests(drive_diagnosis regoplan_drive_diagnosis)

@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 set(seen "")
 set(wrong "")
-foreach(house terramech maps planner diagnosis benchmarking app)
+foreach(house terramech maps planner driving diagnosis drive_diagnosis benchmarking app)
   file(GLOB_RECURSE sources ${ROOT}/${house}/*.h)
   set(own "")
   foreach(source ${sources})

@@ -25,6 +25,7 @@ struct Command {
 
 Command add_plan_command(CLI::App& program);
 Command add_evaluate_command(CLI::App& program);
+Command add_drive_command(CLI::App& program);
 Command add_benchmark_command(CLI::App& program);
 Command add_diagnose_command(CLI::App& program);
 Command add_wheel_command(CLI::App& program);

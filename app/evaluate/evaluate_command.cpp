@@ -161,6 +161,10 @@ Command add_evaluate_command(CLI::App& program) {
                    "how far the vehicle may stray (default: half of its body's width)")
       ->type_name("M")
       ->check(in_range(kAbove0));
+  parser
+      ->add_option("--follower", request.follower,
+                   "what drives the path: pursuit (default), or compensated, which knows the soil")
+      ->check(one_of({"pursuit", "compensated"}));
   parser->add_option("--draws", request.soil_draws, "of the soils")
       ->type_name("N")
       ->check(in_range({.min = 2, .max = 1e6}))

@@ -156,9 +156,10 @@ std::string steering_law_text(const SteeringLaw& law) {
 std::string evaluation_json(const PlanningProblem& problem, const EvaluationResult& result) {
   Json paths = Json::array();
   for (const EvaluatedPath& path : result.paths) paths.push_back(path_json(path));
-  const SteeringLaw& law = result.settings.steering;
+  const SteeringLaw& law = result.settings.follower.law;
   const Json json{{"status", result.any_feasible() ? "feasible" : "infeasible"},
                   {"paths", paths},
+                  {"follower", name(result.settings.follower.kind)},
                   {"steering_law",
                    {{"text", steering_law_text(law)},
                     {"lookahead_wheelbases", law.lookahead_wheelbases},

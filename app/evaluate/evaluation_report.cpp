@@ -102,7 +102,7 @@ std::string method_html(const EvaluationResult& result) {
   item(
       "Driven path: the vehicle's dynamics track it in closed loop, slip, slip angle, sinkage, "
       "slope, obstacles and deviation limited at every step. Steering law: " +
-      steering_law_text(result.settings.steering) + ".");
+      steering_law_text(result.settings.follower.law) + ".");
   item(
       "Feasible where both hold. P is the probability that the margins hold over what is known of "
       "the soils, speeds and curvatures held, with Wilson's interval; every path sees the same "

@@ -153,7 +153,8 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
   }
 
   const auto begun = std::chrono::steady_clock::now();
-  EvaluationResult result{.settings = {.deviation_max_m = request.deviation_max_m,
+  EvaluationResult result{.settings = {.follower = {.kind = follower_named(request.follower)},
+                                       .deviation_max_m = request.deviation_max_m,
                                        .soil_draws = request.soil_draws,
                                        .seed = problem.search.seed,
                                        .threads = problem.search.threads,

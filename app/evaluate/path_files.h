@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/evaluation/path_tracking.h"
+#include "planner/following/reference_path.h"
+#include "planner/problem/planning_problem.h"
 
 namespace regoplan {
 

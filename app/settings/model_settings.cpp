@@ -25,21 +25,19 @@ GenericCorrection read_generic(const SettingsNode& node) {
   });
 }
 
-Mechanism read_mechanism(const SettingsNode& node) {
-  return read_mapping(node, [](SettingsMapping& mapping) {
-    Mechanism mechanism{.id = mapping.required("id").text(), .form = {}, .parameters = {}};
-    if (const SettingsNode* form = mapping.optional("form")) mechanism.form = form->text();
-    if (const SettingsNode* parameters = mapping.optional("parameters")) {
-      for (const SettingsEntry& parameter : parameters->mapping()) {
-        mechanism.parameters[parameter.key] = parameter.value.number(kAnyNumber);
-      }
-    }
-    form_of(mechanism);  // throws where an id, a form or a parameter is not known
-    return mechanism;
-  });
-}
-
 }  // namespace
+
+Mechanism read_mechanism(SettingsMapping& mapping) {
+  Mechanism mechanism{.id = mapping.required("id").text(), .form = {}, .parameters = {}};
+  if (const SettingsNode* form = mapping.optional("form")) mechanism.form = form->text();
+  if (const SettingsNode* parameters = mapping.optional("parameters")) {
+    for (const SettingsEntry& parameter : parameters->mapping()) {
+      mechanism.parameters[parameter.key] = parameter.value.number(kAnyNumber);
+    }
+  }
+  form_of(mechanism);  // throws where an id, a form or a parameter is not known
+  return mechanism;
+}
 
 std::string variant_name(WheelVariant variant) {
   return variant == WheelVariant::kYoshida2004 ? "yoshida2004" : "ishigami2007";
@@ -65,7 +63,7 @@ ModelSettings read_model(const SettingsNode& node) {
     if (const SettingsNode* mechanisms = mapping.optional("mechanisms")) {
       for (const SettingsNode& mechanism : mechanisms->list()) {
         if (!is_generic(mechanism)) {
-          settings.spec.mechanisms.push_back(read_mechanism(mechanism));
+          settings.spec.mechanisms.push_back(read_mapping(mechanism, read_mechanism));
         } else if (settings.spec.generic) {
           throw mechanism.error("generic stands twice (allowed: once)");
         } else {

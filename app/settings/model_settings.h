@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "app/settings/settings_mapping.h"
 #include "app/settings/settings_node.h"
 #include "terramech/wheel/wheel_model.h"
 
@@ -23,6 +24,9 @@ ModelSettings read_model_file(const std::string& file);
 /// The model as a model file that reads back to the same numbers, bit for bit, where an angle is
 /// one that degrees can express; else within its last place. Its soil is `settings.soil`.
 std::string model_text(const ModelSettings& settings);
+
+/// Reads `{id, form, parameters}`.
+Mechanism read_mechanism(SettingsMapping& mapping);
 
 /// Reads `ishigami2007` or `yoshida2004`.
 WheelVariant read_variant(const SettingsNode& node);

@@ -202,7 +202,7 @@ PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings) {
   const Vehicle& vehicle = verdict.problem().vehicle;
   const double allowed_m = settings.deviation_max_m.value_or(default_deviation_max_m(vehicle));
-  const TrackingRun run = track(verdict, path, settings.steering, allowed_m, settings.stop);
+  const TrackingRun run = track(verdict, path, settings.follower, allowed_m, settings.stop);
   return judged(verdict,
                 {.name = path.name,
                  .length_m = path.curve.length_m(),

@@ -12,7 +12,7 @@
 namespace regoplan {
 
 struct EvaluationSettings {
-  SteeringLaw steering;
+  FollowerChoice follower;
   /// How far the vehicle may stray from a path; half of its body's width where none is given.
   std::optional<double> deviation_max_m;
   int soil_draws = 1000;

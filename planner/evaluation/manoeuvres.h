@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "planner/evaluation/path_tracking.h"
 #include "planner/evaluation/spot_turn.h"
+#include "planner/following/reference_path.h"
 
 namespace regoplan {
 

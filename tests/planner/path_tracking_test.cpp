@@ -30,19 +30,19 @@ class PathTracking : public testing::Test {
 
   PlanningProblem problem_ = lrv_problem(one_soil_map(60, firm_regolith(), flat));
   World world_{problem_, WorldUse::kVerdict, 1};
-  SteeringLaw law_;
+  FollowerChoice follower_;
 };
 
 TEST_F(PathTracking, KeepsToAStraightPathAndArrivesInItsTime) {
-  const TrackingRun run = track(world_, path({{10, 25}, {45, 25}}, 2), law_, 1);
+  const TrackingRun run = track(world_, path({{10, 25}, {45, 25}}, 2), follower_, 1);
   EXPECT_EQ(run.end, TrackingEnd::kArrived);
   EXPECT_LT(run.deviation_max_m, 1e-6);
   EXPECT_NEAR(run.duration_s, 17.5, 0.5);
 }
 
 TEST_F(PathTracking, KeepsNearABendAndStraysTheMoreTheFasterItIs) {
-  const TrackingRun slow = track(world_, path(bend(20), 1), law_, 2);
-  const TrackingRun fast = track(world_, path(bend(20), 2.5), law_, 2);
+  const TrackingRun slow = track(world_, path(bend(20), 1), follower_, 2);
+  const TrackingRun fast = track(world_, path(bend(20), 2.5), follower_, 2);
   ASSERT_EQ(slow.end, TrackingEnd::kArrived);
   ASSERT_EQ(fast.end, TrackingEnd::kArrived);
   EXPECT_LT(slow.deviation_max_m, 0.1);
@@ -52,20 +52,20 @@ TEST_F(PathTracking, KeepsNearABendAndStraysTheMoreTheFasterItIs) {
 TEST_F(PathTracking, IsTheSameToBothSides) {
   std::vector<PathPoint> right = bend(20);
   for (PathPoint& point : right) point.y_m = 50 - point.y_m;
-  const TrackingRun to_left = track(world_, path(bend(20), 2), law_, 2);
-  const TrackingRun to_right = track(world_, path(right, 2), law_, 2);
+  const TrackingRun to_left = track(world_, path(bend(20), 2), follower_, 2);
+  const TrackingRun to_right = track(world_, path(right, 2), follower_, 2);
   EXPECT_NEAR(to_left.deviation_max_m, to_right.deviation_max_m, 1e-6);
   EXPECT_NEAR(to_left.energy_j, to_right.energy_j, 1e-6 * to_left.energy_j);
 }
 
 TEST_F(PathTracking, EndsWhereItStraysFartherThanAllowed) {
-  const TrackingRun run = track(world_, path(bend(20), 2.5), law_, 0.005);
+  const TrackingRun run = track(world_, path(bend(20), 2.5), follower_, 0.005);
   EXPECT_EQ(run.end, TrackingEnd::kStrayed);
   EXPECT_LT(run.last.s_m, path(bend(20), 2.5).curve.length_m() - 1);
 }
 
 TEST_F(PathTracking, EndsAtALimitOfTheStateAndNamesIt) {
-  const TrackingRun run = track(world_, path({{10, 25}, {70, 25}}, 2), law_, 1);
+  const TrackingRun run = track(world_, path({{10, 25}, {70, 25}}, 2), follower_, 1);
   EXPECT_EQ(run.end, TrackingEnd::kRejected);
   ASSERT_TRUE(run.rejected);
   // The body reaches over the border before the centre of gravity does.
@@ -75,7 +75,7 @@ TEST_F(PathTracking, EndsAtALimitOfTheStateAndNamesIt) {
 TEST_F(PathTracking, SaysNothingAboutThePathWhereItWasStopped) {
   std::stop_source stop;
   stop.request_stop();
-  EXPECT_EQ(track(world_, path({{10, 25}, {45, 25}}, 2), law_, 1, stop.get_token()).end,
+  EXPECT_EQ(track(world_, path({{10, 25}, {45, 25}}, 2), follower_, 1, stop.get_token()).end,
             TrackingEnd::kInterrupted);
 }
 

@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "app/command/command.h"
+#include "app/command/plan_options.h"
+#include "app/command/progress_line.h"
+#include "app/drive/drive_files.h"
+#include "app/evaluate/path_files.h"
+#include "app/io/interrupt.h"
+#include "app/settings/sensor_settings.h"
+#include "app/settings/truth_settings.h"
+#include "planner/evaluation/evaluation.h"
+#include "planner/evaluation/manoeuvres.h"
+
+namespace regoplan {
+namespace {
+
+struct Options {
+  std::string scenario, path;
+  ScenarioOverrides overrides;
+  ResultFolder folder;
+  std::optional<std::string> follower, truth_file, sensors;
+  std::optional<double> deviation_max_m;
+  bool json = false, quiet = false;
+};
+
+std::string content_of(const std::string& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+bool leads_to_the_goal(const ReferencePath& path, const Goal& goal) {
+  const CurvePlace end = path.curve.at(path.curve.length_m());
+  return std::hypot(end.x_m - goal.x_m, end.y_m - goal.y_m) <= goal.radius_m;
+}
+
+DriveSettings settings_of(const Options& options, const PlanningProblem& problem) {
+  DriveSettings settings{
+      .follower = {.kind = follower_named(options.follower)},
+      .deviation_max_m = options.deviation_max_m.value_or(default_deviation_max_m(problem.vehicle)),
+      .seed = problem.search.seed,
+      .stop = stop_on_interrupt()};
+  if (options.sensors) settings.sensors = read_sensors(sensors_file(*options.sensors));
+  return settings;
+}
+
+std::string summary(const DriveRecord& record, double computed_in_s) {
+  const DriveResult& r = record.result;
+  std::string text = drive_headline(record) + "\n";
+  if (r.smallest_margin) {
+    text += fmt::format("smallest margins: cornering {:.3f}, tip-over {:.3f}, traction {:.3f}\n",
+                        r.margin_cornering_min, r.margin_tip_over_min, r.margin_traction_min);
+  }
+  for (const LimitBroken& one : r.broken) {
+    text += fmt::format("limit broken: {} first at ({:.2f}, {:.2f}), {:.1f} s\n", one.limit,
+                        one.x_m, one.y_m, one.time_s);
+  }
+  text += fmt::format(
+      "{:.1f} m in {:.1f} s, {:.1f} kJ; computed in {:.2f} s, {:.0f} times as fast\n", r.length_m,
+      r.duration_s, r.energy_j / 1000, computed_in_s, r.duration_s / computed_in_s);
+  return text;
+}
+
+void write(const DriveRecord& record, const PlanningProblem& problem, const TrueWorld& world,
+           const ResultFolder& folder) {
+  const std::string truth_text = record.truth.empty() ? "" : content_of(record.truth);
+  const std::vector<RenderedFile> files{{"drive.csv", drive_csv(record, problem.vehicle)},
+                                        {"truth.json", truth_json(record, world, truth_text)},
+                                        {"drive.json", drive_json(record, problem)}};
+  StagedFiles staged(folder);
+  for (const RenderedFile& file : files) staged.write(file);
+  staged.commit();
+}
+
+ExitStatus run(const Options& options) {
+  require_writable_folder(options.folder.path);
+  const Scenario scenario = read_scenario(options.scenario, options.overrides);
+  const GivenPath given = read_path(options.path, scenario.problem, scenario.problem.speed_max_mps);
+  PlanningProblem problem = scenario.problem;
+  problem.speed_max_mps *=
+      kSpeedTolerance;  // a vehicle may roll a little faster than it is meant to
+  const DriveTruth truth =
+      options.truth_file ? read_truth(*options.truth_file, problem) : DriveTruth{};
+  DriveRecord record{.scenario = options.scenario,
+                     .path = options.path,
+                     .truth = options.truth_file.value_or(""),
+                     .sensors = options.sensors.value_or(""),
+                     .ends_in_goal = leads_to_the_goal(given.path, problem.goal),
+                     .settings = settings_of(options, problem)};
+  require_results_fit(options.folder, {"drive.csv", "truth.json", "drive.json"});
+  for (const std::string& notice : scenario.notices) notify(notice, options.quiet);
+  for (const std::string& notice : given.notices) notify(notice, options.quiet);
+  if (!record.ends_in_goal) {
+    notify("the path does not lead to the goal: its own end counts", options.quiet);
+  }
+
+  const World planned(problem, WorldUse::kVerdict, 1);
+  const TrueWorld world(problem, truth);
+  const auto begun = std::chrono::steady_clock::now();
+  {
+    ProgressLine line(options.quiet);
+    record.result = drive(planned, world, given.path, record.ends_in_goal, record.settings,
+                          [&](double share) { line.show({.stage = "driving", .share = share}); });
+  }
+  const double computed_in_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  write(record, problem, world, options.folder);
+  if (options.json) {
+    fmt::print("{}", drive_json(record, problem));
+  } else if (!options.quiet) {
+    fmt::print("{}recording: {}\n", summary(record, computed_in_s),
+               (options.folder.path / "drive.csv").string());
+  }
+  if (record.result.interrupted) return kInterrupted;
+  return record.result.reached && record.result.within_limits() ? kYes : kNo;
+}
+
+}  // namespace
+
+Command add_drive_command(CLI::App& program) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* parser = program.add_subcommand(
+      "drive",
+      "Follow a path in closed loop, and record it as a rover would.\n"
+      "Writes drive.csv, drive.json and truth.json; exit 0: reached within all limits.");
+  parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, limits, as planned")
+      ->required();
+  parser
+      ->add_option("PATH.csv", options->path,
+                   "a candidate-K.csv of plan, or points x_m, y_m, optional speed_mps")
+      ->required();
+  parser->add_option("--out", options->folder.path, "folder for the results")
+      ->type_name("DIR")
+      ->required();
+  parser
+      ->add_option("--follower", options->follower,
+                   "pursuit (default): nothing is known of the ground; compensated: what the "
+                   "trims of the planned soils need is commanded")
+      ->check(one_of({"pursuit", "compensated"}));
+  parser
+      ->add_option("--truth", options->truth_file,
+                   "how the world driven in differs from the one planned for")
+      ->type_name("FILE.yaml");
+  parser
+      ->add_option("--sensors", options->sensors,
+                   "grade A or B, or a file; without: exact, and seen by the follower")
+      ->type_name("A|B|FILE.yaml");
+  parser->add_option("--seed", options->overrides.seed, "of all that is drawn")
+      ->type_name("N")
+      ->check(in_range(kAtLeast0));
+  parser
+      ->add_option("--model", options->overrides.model_file,
+                   "wheel model that was planned with, as in plan")
+      ->type_name("FILE.yaml");
+  parser
+      ->add_option("--deviation-max-m", options->deviation_max_m,
+                   "how far the vehicle may stray (default: half of its body's width)")
+      ->type_name("M")
+      ->check(in_range(kAbove0));
+  add_force_flag(*parser, options->folder);
+  add_network_flag(*parser);
+  add_output_flags(*parser, options->json, options->quiet);
+  return {parser, [options] { return run(*options); }};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,483 @@
+#include "benchmarks/drives/independent_simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace regoplan::drives {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kFadeSpeed_mps = 1e-3, kTransferLag_s = 0.1;
+
+/// Nodes and weights on (-1, 1), by Newton's method on the Legendre polynomial.
+template <int kNodes>
+struct Quadrature {
+  std::array<double, kNodes> node{}, weight{};
+  Quadrature() {
+    for (int i = 0; i < kNodes; ++i) {
+      double x = std::cos(kPi * (i + 0.75) / (kNodes + 0.5)), slope = 1;
+      for (int round = 0; round < 50; ++round) {
+        double below = 1, here = x;
+        for (int k = 2; k <= kNodes; ++k) {
+          const double next = ((2 * k - 1) * x * here - (k - 1) * below) / k;
+          below = here;
+          here = next;
+        }
+        slope = kNodes * (x * here - below) / (x * x - 1);
+        x -= here / slope;
+      }
+      node.at(static_cast<std::size_t>(i)) = x;
+      weight.at(static_cast<std::size_t>(i)) = 2 / ((1 - x * x) * slope * slope);
+    }
+  }
+};
+
+/// What the rim feels at a sinkage, per wheel.
+struct Contact {
+  double up = 0, along = 0, aside = 0, torque = 0;
+};
+
+/// One wheel in one state of motion; the sinkage is asked for.
+class RimIntegral {
+ public:
+  RimIntegral(const Wheel& wheel, const Soil& soil, double gravity, double along, double left,
+              double rim)
+      : wheel_(wheel), soil_(soil), gravity_(gravity) {
+    ratio_ = along / rim;  // of a rim that turns forward
+    sideways_ = std::abs(left) / rim;
+    beta_ = std::atan2(std::abs(left), std::abs(along));
+    slip_ = rim > along ? (rim - along) / rim : (rim - along) / along;
+    kx_ = soil.kx0_m + soil.kx1_m * beta_;
+    ky_ = soil.ky0_m + soil.ky1_m * beta_;
+    stiffness_ = std::pow(wheel.radius_m, soil.n) * (soil.kc / wheel.width_m + soil.kphi);
+  }
+
+  Contact at(double sinkage, bool whole = false) const {
+    const double r = wheel_.radius_m;
+    const double front = std::acos(1 - sinkage / r);
+    const double rear = -std::acos(1 - std::min(soil_.lambda * sinkage / r, 2.0));
+    const double peak = (soil_.a0 + soil_.a1 * slip_) * front;
+    Contact sum;
+    add(sum, rear, peak, front, rear, peak);
+    add(sum, peak, front, front, rear, peak);
+    if (!whole) return sum;
+    const double mobilised = 1 - std::exp(-r * sideways_ * (front - rear) / ky_);
+    sum.aside += mobilised * bulldozed(front, rear);
+    return sum;
+  }
+
+ private:
+  void add(Contact& sum, double from, double to, double front, double rear, double peak) const {
+    static const Quadrature<8> rule;
+    const double r = wheel_.radius_m, b = wheel_.width_m, half = (to - from) / 2;
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      const double angle = (from + to) / 2 + half * rule.node[i];
+      const double mirrored =
+          angle >= peak ? angle : front - (angle - rear) / (peak - rear) * (front - peak);
+      const double depth = std::max(std::cos(mirrored) - std::cos(front), 0.0);
+      const double pressure = stiffness_ * (soil_.n == 1 ? depth : std::pow(depth, soil_.n));
+      const double strength = soil_.cohesion_pa + pressure * std::tan(soil_.friction_angle_rad);
+      const double jx = r * (front - angle - ratio_ * (std::sin(front) - std::sin(angle)));
+      const double jy = r * sideways_ * (front - angle);
+      const double tx = std::copysign(strength * -std::expm1(-std::abs(jx) / kx_), jx);
+      const double ty = strength * -std::expm1(-jy / ky_);
+      const double area = r * b * half * rule.weight[i];
+      sum.up += area * (tx * std::sin(angle) + pressure * std::cos(angle));
+      sum.along += area * (tx * std::cos(angle) - pressure * std::sin(angle));
+      sum.aside += area * ty;
+      sum.torque += area * r * tx;
+    }
+  }
+
+  double bulldozed(double front, double rear) const {
+    static const Quadrature<8> rule;
+    const double phi = soil_.friction_angle_rad, wedge = kPi / 4 - phi / 2;
+    const double cot = 1 / std::tan(wedge);
+    const double d1 = cot + std::tan(wedge + phi), d2 = cot + cot * cot / std::tan(phi);
+    const double r = wheel_.radius_m;
+    double sum = 0;
+    // Where the rim is above the soil it pushes nothing: the rear part beyond the front's angle.
+    const double from = std::max(rear, -front), half = (front - from) / 2;
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+      const double angle = (from + front) / 2 + half * rule.node[i];
+      const double deep = std::max(r * (std::cos(angle) - std::cos(front)), 0.0);
+      const double resistance =
+          d1 * (soil_.cohesion_pa * deep + d2 * soil_.density_kgpm3 * gravity_ * deep * deep / 2);
+      sum += half * rule.weight[i] * resistance * (r - deep * std::cos(angle));
+    }
+    return sum;
+  }
+
+  const Wheel& wheel_;
+  const Soil& soil_;
+  double gravity_, ratio_ = 1, sideways_ = 0, beta_ = 0, slip_ = 0, kx_ = 1, ky_ = 1;
+  double stiffness_ = 0;
+};
+
+double faded(double force, double a, double b) {
+  const double speed = std::hypot(a, b);
+  return force * speed / (speed + kFadeSpeed_mps);
+}
+
+double moved_to(double value, double target, double most) {
+  return value + std::clamp(target - value, -most, most);
+}
+
+/// Solves a small linear system by elimination.
+template <std::size_t kSize>
+std::array<double, kSize> solved(std::array<std::array<double, kSize + 1>, kSize> rows) {
+  for (std::size_t i = 0; i < kSize; ++i) {
+    std::size_t best = i;
+    for (std::size_t k = i + 1; k < kSize; ++k) {
+      if (std::abs(rows[k][i]) > std::abs(rows[best][i])) best = k;
+    }
+    std::swap(rows[i], rows[best]);
+    for (std::size_t k = 0; k < kSize; ++k) {
+      if (k == i) continue;
+      const double share = rows[k][i] / rows[i][i];
+      for (std::size_t column = i; column <= kSize; ++column) {
+        rows[k][column] -= share * rows[i][column];
+      }
+    }
+  }
+  std::array<double, kSize> answer{};
+  for (std::size_t i = 0; i < kSize; ++i) answer[i] = rows[i][kSize] / rows[i][i];
+  return answer;
+}
+
+/// Loads for a normal force, a force along and one to the left, of one newton each.
+std::vector<std::array<double, 3>> sprung(const Vehicle& v) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  for (const WheelMount& w : v.wheels) {
+    sx += w.x_m;
+    sy += w.y_m;
+    sxx += w.x_m * w.x_m;
+    sxy += w.x_m * w.y_m;
+    syy += w.y_m * w.y_m;
+  }
+  const auto count = static_cast<double>(v.wheels.size());
+  std::vector<std::array<double, 3>> shares(v.wheels.size());
+  const double right_side[3][3] = {{1, 0, 0}, {0, -v.cg_height_m, 0}, {0, 0, -v.cg_height_m}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto [a, b, c] = solved<3>({{{count, sx, sy, right_side[k][0]},
+                                       {sx, sxx, sxy, right_side[k][1]},
+                                       {sy, sxy, syy, right_side[k][2]}}});
+    for (std::size_t i = 0; i < v.wheels.size(); ++i) {
+      shares[i][k] = a + b * v.wheels[i].x_m + c * v.wheels[i].y_m;
+    }
+  }
+  return shares;
+}
+
+/// Rocker and bogie of each side; front, middle and rear are told by x.
+std::vector<std::array<double, 3>> rocking(const Vehicle& v) {
+  const double rocker = v.rocker_bogie->rocker_pivot_x_m;
+  const double bogie = v.rocker_bogie->bogie_pivot_x_m;
+  std::array<std::array<std::size_t, 3>, 2> sides{};  // left, right: front, middle, rear
+  for (std::size_t side = 0; side < 2; ++side) {
+    std::vector<std::size_t> of_side;
+    for (std::size_t i = 0; i < v.wheels.size(); ++i) {
+      if ((v.wheels[i].y_m > 0) == (side == 0)) of_side.push_back(i);
+    }
+    std::ranges::sort(
+        of_side, [&](std::size_t a, std::size_t b) { return v.wheels[a].x_m > v.wheels[b].x_m; });
+    std::ranges::copy(of_side, sides[side].begin());
+  }
+  /// Loads of a side's wheels for its load and its half of the pitch moment.
+  const auto split = [&](std::size_t side, double load, double moment) {
+    const auto [f, m, r] = sides[side];
+    const double front = (load * (rocker - bogie) + moment) / (v.wheels[f].x_m - bogie);
+    const double rest = load - front;
+    const double middle = rest * (bogie - v.wheels[r].x_m) / (v.wheels[m].x_m - v.wheels[r].x_m);
+    return std::array{front, middle, rest - middle};
+  };
+  const auto roll = [&](std::size_t side, const std::array<double, 3>& loads) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += loads[i] * v.wheels[sides[side][i]].y_m;
+    return sum;
+  };
+  std::vector<std::array<double, 3>> shares(v.wheels.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double normal = k == 0 ? 1 : 0;
+    const double pitch = k == 1 ? -v.cg_height_m : 0, lean = k == 2 ? -v.cg_height_m : 0;
+    const double moment = (pitch - normal * rocker) / 2;
+    const double unit_left = roll(0, split(0, 1, 0)), unit_right = roll(1, split(1, 1, 0));
+    const double given = roll(0, split(0, 0, moment)) + roll(1, split(1, 0, moment));
+    const auto [left, right] = solved<2>({{{1, 1, normal}, {unit_left, unit_right, lean - given}}});
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto loads = split(side, side == 0 ? left : right, moment);
+      for (std::size_t i = 0; i < 3; ++i) shares[sides[side][i]][k] = loads[i];
+    }
+  }
+  return shares;
+}
+
+}  // namespace
+
+/// Ground and commands at a moment.
+struct IndependentSimulator::Posture {
+  double slope_along = 0, slope_left = 0, hollow = 0, yaw = 0;
+  double curvature = 0, crab = 0, rim = 0;
+
+  double length() const { return std::sqrt(1 + slope_along * slope_along); }
+  double tall() const { return std::sqrt(1 + slope_along * slope_along + slope_left * slope_left); }
+};
+
+IndependentSimulator::IndependentSimulator(const Vehicle& vehicle, const Soil& soil,
+                                           double gravity_mps2, VehicleDynamics::Ground ground,
+                                           double longest_step_s)
+    : vehicle_(vehicle),
+      soil_(soil),
+      gravity_(gravity_mps2),
+      ground_(std::move(ground)),
+      longest_step_s_(longest_step_s),
+      shares_(vehicle.rocker_bogie ? rocking(vehicle) : sprung(vehicle)) {}
+
+double IndependentSimulator::load(std::size_t wheel, double normal, double along,
+                                  double left) const {
+  const auto& share = shares_[wheel];
+  return share[0] * normal + share[1] * along + share[2] * left;
+}
+
+IndependentSimulator::WheelAnswer IndependentSimulator::wheel(double load_n, double along_mps,
+                                                              double left_mps,
+                                                              double rim_mps) const {
+  const RimIntegral rim(vehicle_.wheel, soil_, gravity_, along_mps, left_mps, rim_mps);
+  // Upward force grows with the sinkage from nothing: bracketed outward from the one found last,
+  // then the secant method kept within the bracket (Illinois).
+  double low = 0.97 * last_sinkage_m_, f_low = rim.at(low).up - load_n;
+  while (f_low > 0) {
+    low *= 0.7;
+    f_low = rim.at(low).up - load_n;
+  }
+  double high = std::max(1.03 * last_sinkage_m_, 1.01 * low), f_high = rim.at(high).up - load_n;
+  while (f_high < 0) {
+    low = high;
+    f_low = f_high;
+    high *= 1.3;
+    if (high >= vehicle_.wheel.radius_m) return {.carried = false};
+    f_high = rim.at(high).up - load_n;
+  }
+  double sinkage = high;
+  for (int round = 0; round < 60; ++round) {
+    sinkage = high - f_high * (high - low) / (f_high - f_low);
+    const double f = rim.at(sinkage).up - load_n;
+    if (std::abs(f) < 1e-8 * load_n) break;
+    if ((f < 0) == (f_low < 0)) {
+      low = sinkage;
+      f_low = f;
+      f_high /= 2;
+    } else {
+      high = sinkage;
+      f_high = f;
+      f_low /= 2;
+    }
+  }
+  last_sinkage_m_ = sinkage;
+  const Contact contact = rim.at(sinkage, true);
+  return {.along_n = faded(contact.along, along_mps, rim_mps),
+          .left_n = -std::copysign(faded(contact.aside, left_mps, rim_mps), left_mps),
+          .torque_nm = faded(contact.torque, along_mps, rim_mps),
+          .sinkage_m = sinkage};
+}
+
+IndependentSimulator::Sum IndependentSimulator::forces(const Motion& motion, const Posture& at,
+                                                       double transfer_along, double transfer_left,
+                                                       std::vector<WheelNow>* wheels) const {
+  const double normal =
+      vehicle_.mass_kg * (gravity_ / at.tall() + motion.along * motion.along * at.hollow);
+  // The turn centre, seen from the vehicle's origin; the crab angle turns it about the origin.
+  const double k = at.curvature, xc = vehicle_.turn_centre_x_m;
+  const double ahead = std::sqrt(1 - k * xc * k * xc), aside = -k * xc;
+  const double c = std::cos(at.crab), s = std::sin(at.crab);
+  const double course_x = c * ahead - s * aside, course_y = s * ahead + c * aside;
+  Sum sum;
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    const WheelMount& mount = vehicle_.wheels[i];
+    const double gx = course_x - k * mount.y_m, gy = course_y + k * mount.x_m;
+    const double steer = mount.steered ? std::atan2(gy, gx) : 0;
+    const double rim = at.rim * (mount.steered ? std::hypot(gx, gy) : gx);
+    const double vx = motion.along - motion.turn * mount.y_m;
+    const double vy = motion.left + motion.turn * mount.x_m;
+    const double cs = std::cos(steer), sn = std::sin(steer);
+    const double along = cs * vx + sn * vy, left = cs * vy - sn * vx;
+    const double weight = load(i, normal, transfer_along, transfer_left);
+    WheelAnswer answer;
+    if (weight > 0) answer = wheel(weight, along, left, rim);
+    const double fx = cs * answer.along_n - sn * answer.left_n;
+    const double fy = sn * answer.along_n + cs * answer.left_n;
+    sum.along += fx;
+    sum.left += fy;
+    sum.moment += mount.x_m * fy - mount.y_m * fx;
+    if (wheels == nullptr) continue;
+    wheels->push_back({.load_n = weight,
+                       .steer_rad = steer,
+                       .rim_speed_mps = rim,
+                       .slip = rim > along ? (rim - along) / rim : (rim - along) / along,
+                       .slip_angle_rad = std::atan2(left, std::abs(along)),
+                       .torque_nm = answer.torque_nm,
+                       .sinkage_m = answer.sinkage_m});
+  }
+  return sum;
+}
+
+GroundPatch IndependentSimulator::ground(const VehicleState& state) const {
+  return ground_(state.x_m, state.y_m, state.yaw_rad);
+}
+
+/// TR-BDF2 (Bank et al. 1985): a trapezoidal stage to gamma h, then BDF2 over the rest; Newton's
+/// method with slopes by differences.
+StepResult IndependentSimulator::substep(const VehicleState& state, const VehicleControl& control,
+                                         double h) const {
+  const double gamma = 2 - std::numbers::sqrt2;
+  const double m = vehicle_.mass_kg, inertia = vehicle_.yaw_inertia_kgm2;
+  bool known = true, balanced = true;
+  const auto posture_at = [&](double after, double x, double y, double yaw) {
+    const GroundPatch patch = ground_(x, y, yaw);
+    known = known && patch.known;
+    const double turn = vehicle_.curvature_rate_max_1pms * after;
+    double arm = 0;
+    for (const WheelMount& w : vehicle_.wheels) arm = std::max(arm, std::hypot(w.x_m, w.y_m));
+    return Posture{.slope_along = patch.slope_forward,
+                   .slope_left = patch.slope_left,
+                   .hollow = patch.curvature_1pm,
+                   .yaw = yaw,
+                   .curvature = moved_to(state.curvature_1pm, control.curvature_target_1pm, turn),
+                   .crab = moved_to(state.crab_rad, control.crab_target_rad, turn * arm),
+                   .rim = moved_to(state.rim_speed_mps, control.speed_target_mps,
+                                   vehicle_.acceleration_max_mps2 * after)};
+  };
+  using Rates = std::array<double, 5>;  // of the velocities and of the transferred forces
+  const auto rates = [&](const Rates& y, const Posture& at) {
+    const Sum sum = forces({y[0], y[1], y[2]}, at, y[3], y[4], nullptr);
+    const double p = at.slope_along, q = at.slope_left;
+    const double gx = -gravity_ * p / at.length();
+    const double gy = -gravity_ * q / (at.tall() * at.length());
+    return Rates{sum.along / m + gx + y[1] * y[2], sum.left / m + gy - y[0] * y[2],
+                 sum.moment / inertia, (sum.along - y[3]) / kTransferLag_s,
+                 (sum.left - y[4]) / kTransferLag_s};
+  };
+  const auto drift = [&](const Rates& y, const Posture& at) {
+    const double p = at.slope_along, q = at.slope_left;
+    const double forward = y[0] / at.length() - p * q / (at.tall() * at.length()) * y[1];
+    const double left = at.length() / at.tall() * y[1];
+    const double c = std::cos(at.yaw), s = std::sin(at.yaw);
+    return std::array{c * forward - s * left, s * forward + c * left,
+                      (1 + p * p) / at.tall() * y[2]};
+  };
+  /// y with y = base + step rates(y).
+  const auto implicit = [&](const Rates& base, double step, Rates y, const Posture& at) {
+    const double scale = std::max(std::abs(y[0]), 1e-3);
+    const std::array nudge{1e-5 * scale, 1e-5 * scale, 1e-5 * scale};
+    std::array<Rates, 5> slopes{};
+    const Rates here = rates(y, at);
+    // What the transferred forces change is left to the iteration.
+    for (std::size_t i = 3; i < 5; ++i) slopes[i][i] = -1 / kTransferLag_s;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Rates there = y;
+      there[k] += nudge[k];
+      const Rates changed = rates(there, at);
+      for (std::size_t i = 0; i < 5; ++i) slopes[i][k] = (changed[i] - here[i]) / nudge[k];
+    }
+    Rates now = here;
+    for (int round = 0; round < 40; ++round) {
+      std::array<std::array<double, 6>, 5> rows{};
+      for (std::size_t i = 0; i < 5; ++i) {
+        for (std::size_t k = 0; k < 5; ++k) rows[i][k] = (i == k ? 1 : 0) - step * slopes[i][k];
+        rows[i][5] = base[i] + step * now[i] - y[i];
+      }
+      const Rates change = solved<5>(rows);
+      double largest = 0;
+      for (std::size_t i = 0; i < 5; ++i) {
+        y[i] += change[i];
+        largest = std::max(largest, std::abs(change[i]) / (i < 3 ? scale : m));
+      }
+      if (!(largest < 1e6)) break;
+      if (largest < 1e-7) return y;
+      now = rates(y, at);
+    }
+    balanced = false;
+    return y;
+  };
+
+  const Posture start = posture_at(0, state.x_m, state.y_m, state.yaw_rad);
+  const Rates y0{state.motion.vx_mps, state.motion.vy_mps, state.motion.yaw_rate_rad_s,
+                 state.transfer_forward_n, state.transfer_left_n};
+  const Rates f0 = rates(y0, start);
+  const auto d0 = drift(y0, start);
+  const double g = gamma * h;
+  const Posture between =
+      posture_at(g, state.x_m + g * d0[0], state.y_m + g * d0[1], state.yaw_rad + g * d0[2]);
+  Rates base{};
+  for (std::size_t i = 0; i < 5; ++i) base[i] = y0[i] + g / 2 * f0[i];
+  const Rates y1 = implicit(base, g / 2, y0, between);
+  const auto d1 = drift(y1, between);
+  std::array<double, 3> pose1{state.x_m, state.y_m, state.yaw_rad};
+  for (std::size_t i = 0; i < 3; ++i) pose1[i] += g / 2 * (d0[i] + d1[i]);
+
+  const double a = 1 / (gamma * (2 - gamma)), b = (1 - gamma) * (1 - gamma) * a;
+  const double rest = (1 - gamma) / (2 - gamma) * h;
+  const double ahead = h - g;
+  const Posture end =
+      posture_at(h, pose1[0] + ahead * d1[0], pose1[1] + ahead * d1[1], pose1[2] + ahead * d1[2]);
+  for (std::size_t i = 0; i < 5; ++i) base[i] = a * y1[i] - b * y0[i];
+  const Rates y2 = implicit(base, rest, y1, end);
+  const auto d2 = drift(y2, end);
+  const std::array<double, 3> pose0{state.x_m, state.y_m, state.yaw_rad};
+  std::array<double, 3> pose2{};
+  for (std::size_t i = 0; i < 3; ++i) pose2[i] = a * pose1[i] - b * pose0[i] + rest * d2[i];
+
+  StepResult result{.state = state, .strain = {}};
+  result.on_known_ground = known;
+  result.converged = known && balanced;
+  result.state.x_m = pose2[0];
+  result.state.y_m = pose2[1];
+  result.state.yaw_rad = std::remainder(pose2[2], 2 * kPi);
+  result.state.motion = {.vx_mps = y2[0], .vy_mps = y2[1], .yaw_rate_rad_s = y2[2]};
+  result.state.transfer_forward_n = y2[3];
+  result.state.transfer_left_n = y2[4];
+  result.state.curvature_1pm = end.curvature;
+  result.state.crab_rad = end.crab;
+  result.state.rim_speed_mps = end.rim;
+  result.state.rim_acceleration_mps2 = (end.rim - state.rim_speed_mps) / h;
+  return result;
+}
+
+StepResult IndependentSimulator::step(const VehicleState& state, const VehicleControl& control,
+                                      double duration_s) const {
+  const int pieces = std::max(1, static_cast<int>(std::ceil(duration_s / longest_step_s_ - 1e-9)));
+  StepResult result{.state = state, .strain = {}};
+  for (int i = 0; i < pieces; ++i) {
+    result = substep(result.state, control, duration_s / pieces);
+    if (!result.converged) return result;
+  }
+  return result;
+}
+
+std::vector<WheelNow> IndependentSimulator::wheels(const VehicleState& state) const {
+  const GroundPatch patch = ground(state);
+  std::vector<WheelNow> wheels;
+  forces({state.motion.vx_mps, state.motion.vy_mps, state.motion.yaw_rate_rad_s},
+         {.slope_along = patch.slope_forward,
+          .slope_left = patch.slope_left,
+          .hollow = patch.curvature_1pm,
+          .yaw = state.yaw_rad,
+          .curvature = state.curvature_1pm,
+          .crab = state.crab_rad,
+          .rim = state.rim_speed_mps},
+         state.transfer_forward_n, state.transfer_left_n, &wheels);
+  return wheels;
+}
+
+StateMargins IndependentSimulator::margins(const VehicleState&, const GroundPatch&) const {
+  throw std::logic_error("the independent simulator judges no margins");
+}
+
+bool IndependentSimulator::at_rest(const VehicleState& state) const {
+  return std::abs(state.rim_speed_mps) < 1e-9 &&
+         std::hypot(state.motion.vx_mps, state.motion.vy_mps) < kFadeSpeed_mps;
+}
+
+}  // namespace regoplan::drives

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "driving/driven_world.h"
+
+namespace regoplan::drives {
+
+/// A vehicle that drives on the equations of reference.md by code of its own: stress integrals,
+/// sinkage, wheel loads, steering geometry and integration share nothing with `terramech` but the
+/// structures that describe vehicle, soil and state. Ground: the plane under the wheels, as the map
+/// tells it.
+///
+/// Wheel: Gauss-Legendre quadrature on both sides of the angle of the largest stress, the sinkage
+/// by the secant method. Body: Newton's equations in the plane of the ground, by the two-step
+/// backward difference formula of second order (BDF2), started by the backward Euler method; load
+/// transfer and the fading of forces near standstill as the physics that both simulators are to
+/// agree in. For vehicles whose every wheel is driven at its kinematic speed, and that roll
+/// forward.
+class IndependentSimulator : public DrivenWorld {
+ public:
+  using Slopes = std::array<double, 3>;  ///< known (not 0), along the heading, to its left
+
+  /// \param soil under every wheel \param ground of a place and heading; both must outlive it
+  IndependentSimulator(const Vehicle& vehicle, const Soil& soil, double gravity_mps2,
+                       VehicleDynamics::Ground ground, double longest_step_s);
+
+  const Vehicle& known_vehicle() const override { return vehicle_; }
+  StepResult step(const VehicleState& state, const VehicleControl& control,
+                  double duration_s) const override;
+  std::vector<WheelNow> wheels(const VehicleState& state) const override;
+  GroundPatch ground(const VehicleState& state) const override;
+  /// Not judged here. \throws std::logic_error
+  StateMargins margins(const VehicleState& state, const GroundPatch& patch) const override;
+  bool at_rest(const VehicleState& state) const override;
+  PathPoint on_the_map(double x_m, double y_m) const override { return {x_m, y_m}; }
+  double motor_constant_factor(std::size_t) const override { return 1; }
+
+  struct WheelAnswer {
+    double along_n = 0;  ///< force on the wheel along its heading
+    double left_n = 0;   ///< and to its left
+    double torque_nm = 0;
+    double sinkage_m = 0;
+    bool carried = true;  ///< some sinkage below the radius carries the load
+  };
+  /// \param load_n above 0 \param along_mps, left_mps velocity of the contact \param rim_mps r w
+  WheelAnswer wheel(double load_n, double along_mps, double left_mps, double rim_mps) const;
+
+ private:
+  struct Motion {
+    double along = 0, left = 0, turn = 0;  ///< body velocities
+  };
+  struct Sum {
+    double along = 0, left = 0, moment = 0;
+  };
+  struct Posture;
+  Sum forces(const Motion& motion, const Posture& posture, double transfer_along,
+             double transfer_left, std::vector<WheelNow>* wheels) const;
+  StepResult substep(const VehicleState& state, const VehicleControl& control, double h) const;
+  double load(std::size_t wheel, double normal, double along, double left) const;
+
+  const Vehicle& vehicle_;
+  Soil soil_;
+  double gravity_;
+  VehicleDynamics::Ground ground_;
+  double longest_step_s_;
+  mutable double last_sinkage_m_ = 0.01;  ///< where the next search begins; no result hangs on it
+  std::vector<std::array<double, 3>> shares_;  ///< of the normal, along and lateral force
+};
+
+}  // namespace regoplan::drives

@@ -1,0 +1,132 @@
+#include "planner/following/follower.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "planner/following/trim_schedule.h"
+#include "terramech/basics/input_error.h"
+
+namespace regoplan {
+namespace {
+
+double angle_between(double to_rad, double from_rad) {
+  return std::remainder(to_rad - from_rad, 2 * std::numbers::pi);
+}
+
+class PursuitFollower : public Follower {
+ public:
+  using Follower::Follower;
+
+ protected:
+  FeedForward ahead(double s_m) const override {
+    return {.curvature_1pm = path().curvature_1pm(s_m)};
+  }
+};
+
+/// Steering angles and rim speeds that the trims need are fed forward, as in G. Ishigami,
+/// K. Nagatani, K. Yoshida, "Slope traversal controls for planetary exploration rover on sandy
+/// terrain", J. Field Robotics 26 (2009) 264-286, and D. Helmick et al., "Slip-compensated path
+/// following for planetary exploration rovers", Advanced Robotics 20 (2006) 1257-1280.
+class CompensatedFollower : public Follower {
+ public:
+  CompensatedFollower(const World& planned, const ReferencePath& path, const SteeringLaw& law)
+      : Follower(planned.problem().vehicle, path, law), schedule_(planned, path) {}
+
+ protected:
+  FeedForward ahead(double s_m) const override { return schedule_.at(s_m); }
+
+ private:
+  TrimSchedule schedule_;
+};
+
+}  // namespace
+
+std::string_view name(FollowerKind kind) {
+  return follower_names().at(static_cast<std::size_t>(kind));
+}
+
+std::vector<std::string_view> follower_names() {
+  return {"pursuit", "compensated"};
+}
+
+FollowerKind follower_named(const std::optional<std::string>& name) {
+  if (!name) return FollowerKind::kPursuit;
+  const std::vector<std::string_view> names = follower_names();
+  const auto found = std::ranges::find(names, *name);
+  if (found == names.end()) {
+    throw InputError(
+        fmt::format("follower: '{}' is none (allowed: {})", *name, fmt::join(names, " | ")));
+  }
+  return static_cast<FollowerKind>(found - names.begin());
+}
+
+Follower::Follower(const Vehicle& vehicle, const ReferencePath& path, const SteeringLaw& law)
+    : vehicle_(vehicle),
+      path_(path),
+      law_(law),
+      speed_top_mps_(path.speed.speed_max_mps()),
+      direction_(path.reverse ? -1 : 1),
+      seen_(start_of(path, vehicle)) {}
+
+double Follower::speed() const {
+  return std::hypot(seen_.motion.vx_mps, seen_.motion.vy_mps);
+}
+
+void Follower::observe(const VehicleState& seen, double step_s) {
+  seen_ = seen;
+  s_m_ = nearest_m(path_.curve, seen.x_m, seen.y_m, s_m_);
+  offset_m_ = regoplan::offset_m(path_.curve.at(s_m_), seen.x_m, seen.y_m);
+  const double expected = direction_ * seen.rim_speed_mps / ahead(s_m_).rim_per_speed;
+  if (std::abs(expected) > 0.05 * speed_top_mps_) {
+    const double share = step_s / (step_s + law_.slip_memory_s);
+    const double ratio = std::clamp(speed() / expected, 0.5, 1.5);
+    slip_factor_ += share * (ratio - slip_factor_);
+  }
+}
+
+bool Follower::arrived(double step_s) const {
+  const double near_m = std::max(0.02, 2 * speed() * step_s);
+  return s_m_ >= path_.curve.length_m() - near_m;
+}
+
+VehicleControl Follower::control(double step_s) const {
+  const double v = speed();
+  const CurvePlace place = path_.curve.at(s_m_);
+  const FeedForward forward = ahead(s_m_ + v * law_.reaction_s);
+  const double length =
+      std::max(law_.lookahead_wheelbases * wheelbase_m(vehicle_), law_.lookahead_s * v);
+  // At rest there is no course; the heading tells where it will go.
+  const BodyMotion& motion = seen_.motion;
+  const double slip_angle =
+      v > 0.01 * speed_top_mps_
+          ? std::atan2(direction_ * motion.vy_mps, direction_ * motion.vx_mps)
+          : kinematic_body_slip_angle_rad(vehicle_, seen_.curvature_1pm) + seen_.crab_rad;
+  const double heading = seen_.yaw_rad + (path_.reverse ? std::numbers::pi : 0);
+  const double course = angle_between(heading + slip_angle, place.heading_rad);
+  const double curvature =
+      forward.curvature_1pm -
+      direction_ * (offset_m_ / (length * length) + 2 * law_.damping * course / length);
+  // From rest, the speed a little farther on: at rest itself the path says to stay.
+  const double a = vehicle_.acceleration_max_mps2;
+  const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * step_s);
+  const double target =
+      std::max(creep_mps, path_.speed.at(s_m_ + v * step_s + a * step_s * step_s / 2).speed_mps);
+  return {.speed_target_mps = direction_ * target * ahead(s_m_).rim_per_speed / slip_factor_,
+          .curvature_target_1pm =
+              std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm),
+          .crab_target_rad = forward.crab_rad};
+}
+
+std::unique_ptr<Follower> make_follower(const FollowerChoice& choice, const World& planned,
+                                        const ReferencePath& path) {
+  if (choice.kind == FollowerKind::kPursuit) {
+    return std::make_unique<PursuitFollower>(planned.problem().vehicle, path, choice.law);
+  }
+  return std::make_unique<CompensatedFollower>(planned, path, choice.law);
+}
+
+}  // namespace regoplan

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/following/reference_path.h"
+#include "planner/problem/world.h"
+
+namespace regoplan {
+
+/// The feedback of every follower:
+///   commanded curvature = curvature of the path a reaction length ahead
+///                         - offset / L^2 - 2 damping (course - heading of the path) / L
+/// (in reverse, what the vehicle is told has the other sign) with the offset to the left of the
+/// nearest place of the path, the course that of the velocity, and L the longer of
+/// `lookahead_wheelbases` wheelbases and the way of `lookahead_s`. Rim speed: the path's speed over
+/// the ratio of speed and rim speed that the wheels have lately had.
+struct SteeringLaw {
+  double lookahead_wheelbases = 1;
+  double lookahead_s = 0.8;
+  double damping = 1;
+  double reaction_s = 0.1;  ///< besides the vehicle's own rate of steering
+  double slip_memory_s = 1;
+};
+
+/// How a path is followed.
+enum class FollowerKind {
+  kPursuit,      ///< nothing is known of the ground: the curvature that is commanded is the path's
+  kCompensated,  ///< what the trims of the planner's model need there is commanded
+};
+
+/// As it stands in files and on the command line: `pursuit`, `compensated`.
+std::string_view name(FollowerKind kind);
+std::vector<std::string_view> follower_names();
+/// \returns `pursuit` where no name is given \throws InputError for a name that is none of them
+FollowerKind follower_named(const std::optional<std::string>& name);
+
+/// A follower and its gains.
+struct FollowerChoice {
+  FollowerKind kind = FollowerKind::kPursuit;
+  SteeringLaw law;
+};
+
+/// What slip-free driving or a model of the ground has commanded at a place of a path.
+struct FeedForward {
+  double curvature_1pm = 0;
+  double rim_per_speed = 1;  ///< rim speed over the speed of the vehicle
+  double crab_rad = 0;
+};
+
+/// Keeps a vehicle to a path. It is told where the vehicle seems to be, and answers with targets
+/// within the vehicle's own range; that these are reached at its limited rates is the vehicle's
+/// part.
+///
+/// Feedback by offset and course is the linear law of path following in its critically damped form
+/// (A. De Luca, G. Oriolo, C. Samson, "Feedback control of a nonholonomic car-like robot", in
+/// J.-P. Laumond (ed.), Robot Motion Planning and Control, 1998).
+class Follower {
+ public:
+  /// All must outlive it.
+  Follower(const Vehicle& vehicle, const ReferencePath& path, const SteeringLaw& law);
+  virtual ~Follower() = default;
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
+
+  /// Told where the vehicle is after a step: pose, motion and what was commanded by then.
+  void observe(const VehicleState& seen, double step_s);
+
+  /// What to command in the next step.
+  VehicleControl control(double step_s) const;
+
+  double s_m() const { return s_m_; }
+  /// To the left of the path.
+  double offset_m() const { return offset_m_; }
+  /// Whether the end of the path is as near as the vehicle can tell.
+  bool arrived(double step_s) const;
+
+ protected:
+  virtual FeedForward ahead(double s_m) const = 0;
+
+  const Vehicle& vehicle() const { return vehicle_; }
+  const ReferencePath& path() const { return path_; }
+  double direction() const { return direction_; }
+
+ private:
+  double speed() const;
+
+  const Vehicle& vehicle_;
+  const ReferencePath& path_;
+  SteeringLaw law_;
+  double speed_top_mps_;
+  double direction_;  ///< 1 ahead, -1 in reverse
+  VehicleState seen_;
+  double s_m_ = 0, offset_m_ = 0;
+  double slip_factor_ = 1;  ///< speed over the one that the rims should have given
+};
+
+/// \param planned the world as it is planned in: what `compensated` knows of the ground
+/// \param planned, path must outlive it
+std::unique_ptr<Follower> make_follower(const FollowerChoice& choice, const World& planned,
+                                        const ReferencePath& path);
+
+}  // namespace regoplan

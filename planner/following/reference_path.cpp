@@ -1,0 +1,70 @@
+#include "planner/following/reference_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace regoplan {
+
+double ReferencePath::curvature_1pm(double s_m) const {
+  if (recorded.empty()) return (reverse ? -1 : 1) * curve.at(s_m).curvature_1pm;
+  const auto above =
+      std::upper_bound(recorded.begin(), recorded.end(), s_m,
+                       [](double s, const RecordedMoment& moment) { return s < moment.s_m; });
+  if (above == recorded.begin()) return recorded.front().state.curvature_1pm;
+  if (above == recorded.end()) return recorded.back().state.curvature_1pm;
+  const RecordedMoment &b = *above, &a = *(above - 1);
+  const double share = (s_m - a.s_m) / (b.s_m - a.s_m);
+  return a.state.curvature_1pm + share * (b.state.curvature_1pm - a.state.curvature_1pm);
+}
+
+VehicleState ReferencePath::state_at(const Vehicle& vehicle, double s_m) const {
+  const CurvePlace place = curve.at(s_m);
+  const double curvature = curvature_1pm(s_m);
+  const double slip_free = kinematic_body_slip_angle_rad(
+      vehicle, std::clamp(curvature, -vehicle.curvature_max_1pm, vehicle.curvature_max_1pm));
+  const SpeedProfile::Value value = speed.at(s_m);
+  const double direction = reverse ? -1 : 1, v = direction * value.speed_mps;
+  const double behind = reverse ? std::numbers::pi : 0;
+  return {.x_m = place.x_m,
+          .y_m = place.y_m,
+          .yaw_rad = std::remainder(place.heading_rad - slip_free - behind, 2 * std::numbers::pi),
+          .motion = {.vx_mps = v * std::cos(slip_free),
+                     .vy_mps = v * std::sin(slip_free),
+                     .yaw_rate_rad_s = v * curvature},
+          .curvature_1pm = curvature,
+          .rim_speed_mps = v,
+          .rim_acceleration_mps2 = direction * value.acceleration_mps2};
+}
+
+VehicleState start_of(const ReferencePath& path, const Vehicle& vehicle) {
+  return path.recorded.empty() ? path.state_at(vehicle, 0) : path.recorded.front().state;
+}
+
+double wheelbase_m(const Vehicle& vehicle) {
+  const auto [rear, front] =
+      std::minmax_element(vehicle.wheels.begin(), vehicle.wheels.end(),
+                          [](const WheelMount& a, const WheelMount& b) { return a.x_m < b.x_m; });
+  return front->x_m - rear->x_m;
+}
+
+double nearest_m(const PathCurve& curve, double x_m, double y_m, double s_m) {
+  double s = s_m;
+  for (int i = 0; i < 3; ++i) {
+    const CurvePlace place = curve.at(s);
+    const double c = std::cos(place.heading_rad), n = std::sin(place.heading_rad);
+    const double along = c * (x_m - place.x_m) + n * (y_m - place.y_m);
+    const double left = c * (y_m - place.y_m) - n * (x_m - place.x_m);
+    // On the inner side of a turn the path is shorter than the way.
+    const double shrink = std::clamp(1 - place.curvature_1pm * left, 0.2, 5.0);
+    s = std::clamp(s + along / shrink, 0.0, curve.length_m());
+  }
+  return s;
+}
+
+double offset_m(const CurvePlace& place, double x_m, double y_m) {
+  return std::cos(place.heading_rad) * (y_m - place.y_m) -
+         std::sin(place.heading_rad) * (x_m - place.x_m);
+}
+
+}  // namespace regoplan

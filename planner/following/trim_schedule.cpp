@@ -1,0 +1,141 @@
+#include "planner/following/trim_schedule.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace regoplan {
+namespace {
+
+/// A station's trim.
+struct Trimmed {
+  double steer_curvature_1pm = 0;
+  double body_slip_angle_rad = 0;
+  double drive_factor = 1;
+  double crab_rad = 0;
+};
+
+/// Solves one station after the other, each from the trim of the one before.
+class StationSolver {
+ public:
+  StationSolver(const World& planned, const ReferencePath& path)
+      : world_(planned), vehicle_(planned.problem().vehicle), path_(path) {}
+
+  std::optional<Trimmed> solve(double s_m) {
+    const VehicleDynamics& dynamics = world_.dynamics();
+    VehicleState state = path_.state_at(vehicle_, s_m);
+    const double sign = path_.reverse ? -1 : 1;
+    state.curvature_1pm = std::clamp(sign * path_.curve.at(s_m).curvature_1pm,
+                                     -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm);
+    const GroundPatch patch = dynamics.ground(state.x_m, state.y_m, state.yaw_rad);
+    if (!patch.known) return std::nullopt;
+    std::vector<WheelLaw> laws;
+    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+      laws.push_back(world_.soil_laws()[static_cast<std::size_t>(patch.soil.at(i))]);
+    }
+    std::optional<Trimmed> trimmed;
+    // A crab angle that takes up all of the slip angle is found by taking off what is left of it.
+    const int rounds = vehicle_.steering == Steering::kCrab ? 4 : 1;
+    for (int round = 0; round < rounds; ++round) {
+      state.crab_rad = crab_rad_;
+      trimmed = solve(state, patch, laws, s_m);
+      if (!trimmed) return std::nullopt;
+      if (round + 1 < rounds) crab_rad_ -= trimmed->body_slip_angle_rad;
+    }
+    return trimmed;
+  }
+
+ private:
+  std::optional<Trimmed> solve(const VehicleState& state, const GroundPatch& patch,
+                               const std::vector<WheelLaw>& laws, double s_m) {
+    const SupplyQuestion question = question_of(world_.dynamics(), state, patch);
+    if (!(question.normal_n > 0)) return std::nullopt;
+    const SteadyManoeuvre manoeuvre =
+        manoeuvre_of(vehicle_, world_.dynamics().sharing(), laws, question);
+    const ForceLine line{.from = {.forward_n = question.force.forward_n,
+                                  .left_n = question.force.left_n,
+                                  .yaw_nm = turning_nm(s_m)},
+                         .per_unit = {}};
+    std::optional<SteadyManoeuvre::Point> point;
+    if (last_) point = manoeuvre.solve(*last_, line);
+    if (!point) point = manoeuvre.solve_from_rolling(line);
+    last_ = point;
+    if (!point) return std::nullopt;
+    const Trim trim = manoeuvre.trim(*point, line);
+    return Trimmed{.steer_curvature_1pm = trim.steer_curvature_1pm,
+                   .body_slip_angle_rad = trim.body_slip_angle_rad,
+                   .drive_factor = trim.drive_factor,
+                   .crab_rad = state.crab_rad};
+  }
+
+  /// Moment that speeds the turning up as the path asks: I d(v k)/dt.
+  double turning_nm(double s_m) const {
+    const double reach_m = wheelbase_m(vehicle_) / 4;
+    const double from = std::max(s_m - reach_m, 0.0);
+    const double to = std::min(s_m + reach_m, path_.curve.length_m());
+    const double per_m =
+        (path_.curve.at(to).curvature_1pm - path_.curve.at(from).curvature_1pm) / (to - from);
+    const SpeedProfile::Value speed = path_.speed.at(s_m);
+    return vehicle_.yaw_inertia_kgm2 *
+           (speed.speed_mps * speed.speed_mps * per_m +
+            speed.acceleration_mps2 * path_.curve.at(s_m).curvature_1pm);
+  }
+
+  const World& world_;
+  const Vehicle& vehicle_;
+  const ReferencePath& path_;
+  std::optional<SteadyManoeuvre::Point> last_;
+  double crab_rad_ = 0;
+};
+
+}  // namespace
+
+TrimSchedule::TrimSchedule(const World& planned, const ReferencePath& path) {
+  const Vehicle& vehicle = planned.problem().vehicle;
+  const double length_m = path.curve.length_m();
+  constexpr double kMost = 40000;  // stations: of longer paths they lie farther apart
+  const double apart_m = std::max(wheelbase_m(vehicle) / 8, length_m / kMost);
+  const auto pieces = std::max(2, static_cast<int>(std::ceil(length_m / apart_m)));
+  apart_m_ = length_m / pieces;
+
+  StationSolver solver(planned, path);
+  std::vector<std::optional<Trimmed>> trims;
+  for (int i = 0; i <= pieces; ++i) trims.push_back(solver.solve(i * apart_m_));
+  const auto trimmed =
+      std::ranges::count_if(trims, [](const auto& trim) { return trim.has_value(); });
+  share_trimmed_ = static_cast<double>(trimmed) / static_cast<double>(trims.size());
+
+  const double direction = path.reverse ? -1 : 1;
+  const auto slip_angle_per_m = [&](std::size_t i) {
+    constexpr std::size_t kReach = 2;
+    const std::size_t from = i < kReach ? 0 : i - kReach;
+    const std::size_t to = std::min(i + kReach, trims.size() - 1);
+    if (!trims[from] || !trims[to]) return 0.0;
+    return (trims[to]->body_slip_angle_rad - trims[from]->body_slip_angle_rad) /
+           (static_cast<double>(to - from) * apart_m_);
+  };
+  for (std::size_t i = 0; i < trims.size(); ++i) {
+    const double s_m = static_cast<double>(i) * apart_m_;
+    FeedForward station{.curvature_1pm = path.curvature_1pm(s_m)};
+    if (const auto& trim = trims[i]) {
+      if (path.recorded.empty()) {
+        station.curvature_1pm = trim->steer_curvature_1pm - direction * slip_angle_per_m(i);
+      }
+      station.rim_per_speed = trim->drive_factor;
+      station.crab_rad = trim->crab_rad;
+    }
+    stations_.push_back(station);
+  }
+}
+
+FeedForward TrimSchedule::at(double s_m) const {
+  const double u = std::clamp(s_m / apart_m_, 0.0, static_cast<double>(stations_.size() - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(u), stations_.size() - 2);
+  const double share = u - static_cast<double>(i);
+  const FeedForward &a = stations_[i], &b = stations_[i + 1];
+  const auto between = [share](double from, double to) { return from + share * (to - from); };
+  return {.curvature_1pm = between(a.curvature_1pm, b.curvature_1pm),
+          .rim_per_speed = between(a.rim_per_speed, b.rim_per_speed),
+          .crab_rad = between(a.crab_rad, b.crab_rad)};
+}
+
+}  // namespace regoplan

@@ -1,0 +1,102 @@
+// `drive` as a person meets it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/app/flat_map.h"
+#include "tests/app/program_run.h"
+
+namespace regoplan {
+namespace {
+
+class DriveProgram : public testing::Test {
+ protected:
+  DriveProgram() {
+    write_flat_scenario(folder_);
+    folder_.write("path.csv", "x_m,y_m,speed_mps\n8,20,0\n14,20,1\n20,20.5,0\n");
+  }
+
+  ProgramRun drive(const std::string& arguments, const std::string& out = "out") const {
+    return run_program(folder_, "drive '" + folder_.path("scenario.yaml") + "' '" +
+                                    folder_.path("path.csv") + "' --out '" + folder_.path(out) +
+                                    "' " + arguments);
+  }
+  nlohmann::json result() const { return nlohmann::json::parse(folder_.read("out/drive.json")); }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(DriveProgram, ReachesTheEndAndRecords) {
+  const ProgramRun run = drive("--sensors A --follower compensated");
+  EXPECT_EQ(run.status, 0) << run.errors << run.output;
+  EXPECT_EQ(result()["status"], "reached");
+  EXPECT_EQ(result()["follower"], "compensated");
+  EXPECT_LT(result()["cross_track_rms_m"], 0.2);
+  const std::string recording = folder_.read("out/drive.csv");
+  EXPECT_TRUE(recording.starts_with("drive_id,time_s,x_m,y_m,yaw_deg,roll_deg,pitch_deg,"));
+  EXPECT_NE(recording.find("torque_front_left_nm"), std::string::npos);
+  EXPECT_EQ(recording.find("sinkage_"), std::string::npos);  // grade A does not measure it
+  const auto truth = nlohmann::json::parse(folder_.read("out/truth.json"));
+  EXPECT_EQ(truth["time_s"].size(), truth["wheels"]["front_left"]["slip"].size());
+}
+
+TEST_F(DriveProgram, TheSameSeedWritesTheSameBytes) {
+  ASSERT_EQ(drive("--sensors B --seed 3", "one").status,
+            drive("--sensors B --seed 3", "two").status);
+  for (const char* file : {"drive.csv", "truth.json", "drive.json"}) {
+    EXPECT_EQ(folder_.read(std::string("one/") + file), folder_.read(std::string("two/") + file));
+  }
+}
+
+TEST_F(DriveProgram, StrayingIsANoThatSaysWhere) {
+  folder_.write("truth.yaml", "vehicle: {wheels: {front_left: {steer_offset_deg: 20}}}\n");
+  const ProgramRun run =
+      drive("--deviation-max-m 0.05 --truth '" + folder_.path("truth.yaml") + "'");
+  EXPECT_EQ(run.status, 2) << run.errors;
+  EXPECT_EQ(result()["status"], "not_reached");
+  EXPECT_EQ(result()["reason"], "deviation");
+  EXPECT_GT(result()["place"]["s_m"], 0);
+}
+
+TEST_F(DriveProgram, TruthFilesAreReadStrictly) {
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& words) {
+    folder_.write("truth.yaml", text);
+    expect_refusal(drive("--truth '" + folder_.path("truth.yaml") + "'"), words);
+  };
+  refused("mud: 1\n", {"truth.yaml:1", "mud"});
+  refused("vehicle: {wheels: {fifth: {drag_nm: 1}}}\n", {"fifth"});
+  refused("vehicle:\n  wheels:\n    front_left: {radius_factor: 3}\n",
+          {"truth.yaml:3", "radius_factor", "0.5 to 2"});
+  refused("zones: [{name: a, like: nowhere, corners_m: [[0, 0], [1, 0], [1, 1]]}]\n", {"nowhere"});
+  refused("ruts: {stiffening: -1}\n", {"stiffening", "0 to 10"});
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
+}
+
+TEST_F(DriveProgram, SensorFilesAreReadStrictly) {
+  folder_.write("sensors.yaml", "position: {rate_hz: 1, noise_deg: 2}\n");
+  expect_refusal(drive("--sensors '" + folder_.path("sensors.yaml") + "'"),
+                 {"sensors.yaml:1", "noise_deg"});
+  folder_.write("sensors.yaml", "torque: {noise_share: 0.1}\n");
+  expect_refusal(drive("--sensors '" + folder_.path("sensors.yaml") + "'"), {"rate_hz"});
+}
+
+TEST(TruthFile, NoOtherCommandOpensIt) {
+  const std::filesystem::path root = REGOPLAN_SOURCE_DIR;
+  for (const char* house : {"app", "planner", "driving", "diagnosis", "benchmarking", "maps"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / house)) {
+      const std::filesystem::path& file = entry.path();
+      if (file.extension() != ".cpp" && file.extension() != ".h") continue;
+      if (file.parent_path() == root / "app/drive") continue;
+      std::ifstream stream(file);
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      EXPECT_EQ(text.find("truth.json"), std::string::npos) << file;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace regoplan
