@@ -143,7 +143,7 @@ class Drive {
     const double known = state_.rim_speed_mps;
     std::optional<double> gyro;
     if (std::isfinite(yaw_rate_seen_)) gyro = yaw_rate_seen_;
-    filter_->predict(state_, known * rim_ratio_seen_, gyro, step_s_);
+    filter_->predict(state_, follower_->foreseen(), known * rim_ratio_seen_, gyro, step_s_);
     if (row_now) {
       if (const auto fix = sensors_.fix(row_)) filter_->correct(*fix);
     }

@@ -27,16 +27,18 @@ PoseFilter::PoseFilter(const Vehicle& vehicle, const VehicleState& start, const 
   past_.push_back({0, start.x_m, start.y_m, start.yaw_rad});
 }
 
-void PoseFilter::predict(const VehicleState& commanded, double measured_rim_mps,
-                         std::optional<double> yaw_rate_rad_s, double step_s) {
+void PoseFilter::predict(const VehicleState& commanded, const ForeseenSlip& foreseen,
+                         double measured_rim_mps, std::optional<double> yaw_rate_rad_s,
+                         double step_s) {
   commanded_ = commanded;
+  foreseen_ = foreseen;
   rim_mps_ = measured_rim_mps;
   yaw_rate_rad_s_ = yaw_rate_rad_s;
-  const double k = commanded.curvature_1pm;
-  const double way = rim_mps_ * step_s;  // that slip-free wheels would make
+  const double k = commanded.curvature_1pm + foreseen.curvature_1pm;
+  const double way = foreseen.speed_ratio * rim_mps_ * step_s;
   const double v = mean_[kSpeedRatio] * way;
   const double turn = yaw_rate_rad_s ? *yaw_rate_rad_s * step_s : v * (k + mean_[kCurvature]);
-  const double angle = kinematic_body_slip_angle_rad(vehicle_, k) + commanded.crab_rad;
+  const double angle = slip_free_angle_rad() + foreseen.slip_angle_rad;
   const double course = mean_[kYaw] + angle + mean_[kSlipAngle] + turn / 2;
   const double c = std::cos(course), s = std::sin(course);
   mean_[kX] += v * c;
@@ -94,15 +96,18 @@ void PoseFilter::correct(const PoseFix& fix) {
   mean_[kSpeedRatio] = std::clamp(mean_[kSpeedRatio], 0.05, 2.0);
 }
 
+double PoseFilter::slip_free_angle_rad() const {
+  return kinematic_body_slip_angle_rad(vehicle_, commanded_.curvature_1pm) + commanded_.crab_rad;
+}
+
 VehicleState PoseFilter::state() const {
   VehicleState state = commanded_;
   state.x_m = mean_[kX];
   state.y_m = mean_[kY];
   state.yaw_rad = std::remainder(mean_[kYaw], 2 * std::numbers::pi);
-  const double v = mean_[kSpeedRatio] * rim_mps_;
-  const double k = commanded_.curvature_1pm;
-  const double angle =
-      kinematic_body_slip_angle_rad(vehicle_, k) + commanded_.crab_rad + mean_[kSlipAngle];
+  const double v = mean_[kSpeedRatio] * foreseen_.speed_ratio * rim_mps_;
+  const double k = commanded_.curvature_1pm + foreseen_.curvature_1pm;
+  const double angle = slip_free_angle_rad() + foreseen_.slip_angle_rad + mean_[kSlipAngle];
   state.motion = {.vx_mps = v * std::cos(angle),
                   .vy_mps = v * std::sin(angle),
                   .yaw_rate_rad_s = yaw_rate_rad_s_.value_or(v * (k + mean_[kCurvature]))};

@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 
+#include "planner/following/follower.h"
 #include "terramech/vehicle/vehicle_dynamics.h"
 
 namespace regoplan {
@@ -22,15 +23,15 @@ struct PoseNoise {
 
 /// Where the vehicle takes itself to be: dead reckoning by rim speeds and steering, put right by
 /// pose fixes, which also tell how the wheels slip. An extended Kalman filter over position, yaw,
-/// and three slips: speed over rim speed, slip angle beyond that of slip-free steering, and
-/// curvature beyond the commanded one; these drift with the way as a random walk.
+/// and what three slips are beyond those foreseen: speed over rim speed (as a factor), slip angle,
+/// and curvature beyond the commanded one; these drift with the way as a random walk.
 class PoseFilter {
  public:
   PoseFilter(const Vehicle& vehicle, const VehicleState& start, const PoseNoise& noise);
 
   /// A step with what was commanded at its end. \param measured_rim_mps slip-free speed that the
   /// wheels' measured speeds stand for \param yaw_rate_rad_s of a gyro, where there is one
-  void predict(const VehicleState& commanded, double measured_rim_mps,
+  void predict(const VehicleState& commanded, const ForeseenSlip& foreseen, double measured_rim_mps,
                std::optional<double> yaw_rate_rad_s, double step_s);
 
   /// A fix, which may lie a few seconds back; one older than `kMemory_s` is left out.
@@ -46,6 +47,7 @@ class PoseFilter {
   using Matrix = Eigen::Matrix<double, 6, 6>;
   enum : Eigen::Index { kX, kY, kYaw, kSpeedRatio, kSlipAngle, kCurvature };
 
+  double slip_free_angle_rad() const;
   void correct_one(Eigen::Index part, double innovation, double deviation);
 
   const Vehicle& vehicle_;
@@ -53,6 +55,7 @@ class PoseFilter {
   Vector mean_;
   Matrix covariance_;
   VehicleState commanded_;
+  ForeseenSlip foreseen_;
   double time_s_ = 0;
   double rim_mps_ = 0;
   std::optional<double> yaw_rate_rad_s_;

@@ -450,10 +450,22 @@ StepResult IndependentSimulator::step(const VehicleState& state, const VehicleCo
   const int pieces = std::max(1, static_cast<int>(std::ceil(duration_s / longest_step_s_ - 1e-9)));
   StepResult result{.state = state, .strain = {}};
   for (int i = 0; i < pieces; ++i) {
-    result = substep(result.state, control, duration_s / pieces);
+    result = halved_substep(result.state, control, duration_s / pieces, 0);
     if (!result.converged) return result;
   }
   return result;
+}
+
+/// From a state that no balance is near to, as at the start on a side slope, the way to it is made
+/// in shorter steps.
+StepResult IndependentSimulator::halved_substep(const VehicleState& state,
+                                                const VehicleControl& control, double h,
+                                                int halvings) const {
+  constexpr int kMost = 8;
+  const StepResult whole = substep(state, control, h);
+  if (whole.converged || !whole.on_known_ground || halvings == kMost) return whole;
+  const StepResult half = halved_substep(state, control, h / 2, halvings + 1);
+  return half.converged ? halved_substep(half.state, control, h / 2, halvings + 1) : half;
 }
 
 std::vector<WheelNow> IndependentSimulator::wheels(const VehicleState& state) const {

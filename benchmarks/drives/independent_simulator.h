@@ -57,6 +57,8 @@ class IndependentSimulator : public DrivenWorld {
   struct Posture;
   Sum forces(const Motion& motion, const Posture& posture, double transfer_along,
              double transfer_left, std::vector<WheelNow>* wheels) const;
+  StepResult halved_substep(const VehicleState& state, const VehicleControl& control, double h,
+                            int halvings) const;
   StepResult substep(const VehicleState& state, const VehicleControl& control, double h) const;
   double load(std::size_t wheel, double normal, double along, double left) const;
 

@@ -25,6 +25,7 @@ class PursuitFollower : public Follower {
   FeedForward ahead(double s_m) const override {
     return {.curvature_1pm = path().curvature_1pm(s_m)};
   }
+  ForeseenSlip foreseen_at(double) const override { return {}; }
 };
 
 /// Steering angles and rim speeds that the trims need are fed forward, as in G. Ishigami,
@@ -38,6 +39,7 @@ class CompensatedFollower : public Follower {
 
  protected:
   FeedForward ahead(double s_m) const override { return schedule_.at(s_m); }
+  ForeseenSlip foreseen_at(double s_m) const override { return schedule_.slip_at(s_m); }
 
  private:
   TrimSchedule schedule_;

@@ -51,6 +51,14 @@ struct FeedForward {
   double crab_rad = 0;
 };
 
+/// How a vehicle that keeps to its path is expected to move over the ground: what is left is for
+/// its sensors to find.
+struct ForeseenSlip {
+  double speed_ratio = 1;     ///< speed over the one that slip-free wheels would give
+  double slip_angle_rad = 0;  ///< of the body, beyond that of slip-free steering
+  double curvature_1pm = 0;   ///< yaw rate over speed, beyond the commanded curvature
+};
+
 /// Keeps a vehicle to a path. It is told where the vehicle seems to be, and answers with targets
 /// within the vehicle's own range; that these are reached at its limited rates is the vehicle's
 /// part.
@@ -72,6 +80,9 @@ class Follower {
   /// What to command in the next step.
   VehicleControl control(double step_s) const;
 
+  /// At the place of the path where the vehicle is.
+  ForeseenSlip foreseen() const { return foreseen_at(s_m_); }
+
   double s_m() const { return s_m_; }
   /// To the left of the path.
   double offset_m() const { return offset_m_; }
@@ -80,6 +91,7 @@ class Follower {
 
  protected:
   virtual FeedForward ahead(double s_m) const = 0;
+  virtual ForeseenSlip foreseen_at(double s_m) const = 0;
 
   const Vehicle& vehicle() const { return vehicle_; }
   const ReferencePath& path() const { return path_; }

@@ -115,27 +115,51 @@ TrimSchedule::TrimSchedule(const World& planned, const ReferencePath& path) {
   };
   for (std::size_t i = 0; i < trims.size(); ++i) {
     const double s_m = static_cast<double>(i) * apart_m_;
-    FeedForward station{.curvature_1pm = path.curvature_1pm(s_m)};
+    Station station{.forward = {.curvature_1pm = path.curvature_1pm(s_m)}, .slip = {}};
     if (const auto& trim = trims[i]) {
       if (path.recorded.empty()) {
-        station.curvature_1pm = trim->steer_curvature_1pm - direction * slip_angle_per_m(i);
+        station.forward.curvature_1pm = trim->steer_curvature_1pm - direction * slip_angle_per_m(i);
       }
-      station.rim_per_speed = trim->drive_factor;
-      station.crab_rad = trim->crab_rad;
+      station.forward.rim_per_speed = trim->drive_factor;
+      station.forward.crab_rad = trim->crab_rad;
+      const double slip_free_rad =
+          kinematic_body_slip_angle_rad(vehicle, trim->steer_curvature_1pm) + trim->crab_rad;
+      station.slip = {.speed_ratio = 1 / trim->drive_factor,
+                      .slip_angle_rad = trim->body_slip_angle_rad - slip_free_rad,
+                      .curvature_1pm =
+                          direction * path.curve.at(s_m).curvature_1pm - trim->steer_curvature_1pm};
     }
     stations_.push_back(station);
   }
 }
 
-FeedForward TrimSchedule::at(double s_m) const {
+struct TrimSchedule::Between {
+  const Station &before, &after;
+  double share = 0;
+
+  double of(double from, double to) const { return from + share * (to - from); }
+};
+
+TrimSchedule::Between TrimSchedule::between(double s_m) const {
   const double u = std::clamp(s_m / apart_m_, 0.0, static_cast<double>(stations_.size() - 1));
   const std::size_t i = std::min(static_cast<std::size_t>(u), stations_.size() - 2);
-  const double share = u - static_cast<double>(i);
-  const FeedForward &a = stations_[i], &b = stations_[i + 1];
-  const auto between = [share](double from, double to) { return from + share * (to - from); };
-  return {.curvature_1pm = between(a.curvature_1pm, b.curvature_1pm),
-          .rim_per_speed = between(a.rim_per_speed, b.rim_per_speed),
-          .crab_rad = between(a.crab_rad, b.crab_rad)};
+  return {stations_[i], stations_[i + 1], u - static_cast<double>(i)};
+}
+
+FeedForward TrimSchedule::at(double s_m) const {
+  const Between here = between(s_m);
+  const FeedForward &a = here.before.forward, &b = here.after.forward;
+  return {.curvature_1pm = here.of(a.curvature_1pm, b.curvature_1pm),
+          .rim_per_speed = here.of(a.rim_per_speed, b.rim_per_speed),
+          .crab_rad = here.of(a.crab_rad, b.crab_rad)};
+}
+
+ForeseenSlip TrimSchedule::slip_at(double s_m) const {
+  const Between here = between(s_m);
+  const ForeseenSlip &a = here.before.slip, &b = here.after.slip;
+  return {.speed_ratio = here.of(a.speed_ratio, b.speed_ratio),
+          .slip_angle_rad = here.of(a.slip_angle_rad, b.slip_angle_rad),
+          .curvature_1pm = here.of(a.curvature_1pm, b.curvature_1pm)};
 }
 
 }  // namespace regoplan

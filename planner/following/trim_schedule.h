@@ -24,12 +24,21 @@ class TrimSchedule {
   TrimSchedule(const World& planned, const ReferencePath& path);
 
   FeedForward at(double s_m) const;
+  /// What the trims slip there; nothing where there is no trim.
+  ForeseenSlip slip_at(double s_m) const;
   /// Of the stations that have a trim.
   double share_trimmed() const { return share_trimmed_; }
 
  private:
+  struct Station {
+    FeedForward forward;
+    ForeseenSlip slip;
+  };
+  struct Between;  ///< two stations, and where between them
+  Between between(double s_m) const;
+
   double apart_m_ = 1;
-  std::vector<FeedForward> stations_;
+  std::vector<Station> stations_;
   double share_trimmed_ = 0;
 };
 
