@@ -15,7 +15,7 @@ function(report_files variable folder)
 endfunction()
 
 report_files(page_scripts page format.js dom.js colours.js axes.js legend.js pointing.js save.js figure.js)
-# Paths on a map: what the reports of plans and evaluations share.
+# Paths on a map: what the reports of plans, evaluations and drives share.
 report_files(map_scripts map terrain.js model.js candidate_table.js map_frame.js map_canvas.js vehicle.js map_overlay.js
              map_view.js charts.js layers.js readout.js playback.js rejections.js)
 report_files(benchmark_scripts benchmark planners.js tables.js profiles.js spread.js progress.js paths.js
@@ -33,6 +33,8 @@ regoplan_embed(
   kPlanScript ${map_scripts} app/report/plan/facts.js app/report/plan/main.js
   kEvaluationHtml app/report/map/map.html
   kEvaluationScript ${map_scripts} app/report/evaluation/main.js
+  kDriveHtml app/report/map/map.html app/report/drive/drive.html
+  kDriveScript ${map_scripts} app/report/drive/charts.js app/report/drive/limits.js app/report/drive/main.js
   kDiagnosisHtml app/report/diagnosis/diagnosis.html
   kDiagnosisScript ${diagnosis_scripts}
   kDrivesHtml app/report/drives/drives.html

@@ -2,17 +2,16 @@
 
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "app/command/command.h"
 #include "app/command/plan_options.h"
 #include "app/command/progress_line.h"
-#include "app/drive/drive_files.h"
+#include "app/drive/drive_report.h"
 #include "app/evaluate/path_files.h"
 #include "app/io/interrupt.h"
 #include "app/settings/sensor_settings.h"
+#include "app/settings/settings_node.h"
 #include "app/settings/truth_settings.h"
 #include "planner/evaluation/evaluation.h"
 #include "planner/evaluation/manoeuvres.h"
@@ -29,11 +28,6 @@ struct Options {
   bool json = false, quiet = false;
 };
 
-std::string content_of(const std::string& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 bool leads_to_the_goal(const ReferencePath& path, const Goal& goal) {
   const CurvePlace end = path.curve.at(path.curve.length_m());
   return std::hypot(end.x_m - goal.x_m, end.y_m - goal.y_m) <= goal.radius_m;
@@ -49,6 +43,17 @@ DriveSettings settings_of(const Options& options, const PlanningProblem& problem
   return settings;
 }
 
+/// What a truth makes of a vehicle and its soils may be no vehicle: an error of its file.
+TrueWorld true_world(const PlanningProblem& problem, const DriveRecord& record) {
+  if (record.truth.empty()) return {problem, {}};
+  const DriveTruth truth = parse_truth(record.truth_text, record.truth, problem);
+  try {
+    return {problem, truth};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", record.truth, error.what()));
+  }
+}
+
 std::string summary(const DriveRecord& record, double computed_in_s) {
   const DriveResult& r = record.result;
   std::string text = drive_headline(record) + "\n";
@@ -56,22 +61,20 @@ std::string summary(const DriveRecord& record, double computed_in_s) {
     text += fmt::format("smallest margins: cornering {:.3f}, tip-over {:.3f}, traction {:.3f}\n",
                         r.margin_cornering_min, r.margin_tip_over_min, r.margin_traction_min);
   }
-  for (const LimitBroken& one : r.broken) {
-    text += fmt::format("limit broken: {} first at ({:.2f}, {:.2f}), {:.1f} s\n", one.limit,
-                        one.x_m, one.y_m, one.time_s);
-  }
+  for (const LimitBroken& one : r.broken) text += broken_text(one) + "\n";
   text += fmt::format(
       "{:.1f} m in {:.1f} s, {:.1f} kJ; computed in {:.2f} s, {:.0f} times as fast\n", r.length_m,
       r.duration_s, r.energy_j / 1000, computed_in_s, r.duration_s / computed_in_s);
   return text;
 }
 
-void write(const DriveRecord& record, const PlanningProblem& problem, const TrueWorld& world,
-           const ResultFolder& folder) {
-  const std::string truth_text = record.truth.empty() ? "" : content_of(record.truth);
-  const std::vector<RenderedFile> files{{"drive.csv", drive_csv(record, problem.vehicle)},
-                                        {"truth.json", truth_json(record, world, truth_text)},
-                                        {"drive.json", drive_json(record, problem)}};
+void write(const DriveRecord& record, const PlanningProblem& problem, const ReferencePath& path,
+           const TrueWorld& world, const ResultFolder& folder) {
+  const std::vector<RenderedFile> files{
+      {"drive.csv", drive_csv(record, problem.vehicle)},
+      {"truth.json", truth_json(record, world)},
+      {"drive.json", drive_json(record, problem)},
+      {"report.html", drive_report(problem, path, record, world)}};
   StagedFiles staged(folder);
   for (const RenderedFile& file : files) staged.write(file);
   staged.commit();
@@ -84,15 +87,16 @@ ExitStatus run(const Options& options) {
   PlanningProblem problem = scenario.problem;
   problem.speed_max_mps *=
       kSpeedTolerance;  // a vehicle may roll a little faster than it is meant to
-  const DriveTruth truth =
-      options.truth_file ? read_truth(*options.truth_file, problem) : DriveTruth{};
+  const std::string truth_text = options.truth_file ? settings_text(*options.truth_file) : "";
   DriveRecord record{.scenario = options.scenario,
                      .path = options.path,
                      .truth = options.truth_file.value_or(""),
+                     .truth_text = truth_text,
                      .sensors = options.sensors.value_or(""),
                      .ends_in_goal = leads_to_the_goal(given.path, problem.goal),
                      .settings = settings_of(options, problem)};
-  require_results_fit(options.folder, {"drive.csv", "truth.json", "drive.json"});
+  const TrueWorld world = true_world(problem, record);
+  require_results_fit(options.folder, {"drive.csv", "truth.json", "drive.json", "report.html"});
   for (const std::string& notice : scenario.notices) notify(notice, options.quiet);
   for (const std::string& notice : given.notices) notify(notice, options.quiet);
   if (!record.ends_in_goal) {
@@ -100,7 +104,6 @@ ExitStatus run(const Options& options) {
   }
 
   const World planned(problem, WorldUse::kVerdict, 1);
-  const TrueWorld world(problem, truth);
   const auto begun = std::chrono::steady_clock::now();
   {
     ProgressLine line(options.quiet);
@@ -109,12 +112,12 @@ ExitStatus run(const Options& options) {
   }
   const double computed_in_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  write(record, problem, world, options.folder);
+  write(record, problem, given.path, world, options.folder);
   if (options.json) {
     fmt::print("{}", drive_json(record, problem));
   } else if (!options.quiet) {
-    fmt::print("{}recording: {}\n", summary(record, computed_in_s),
-               (options.folder.path / "drive.csv").string());
+    fmt::print("{}report: {}\n", summary(record, computed_in_s),
+               (options.folder.path / "report.html").string());
   }
   if (record.result.interrupted) return kInterrupted;
   return record.result.reached && record.result.within_limits() ? kYes : kNo;
@@ -127,7 +130,8 @@ Command add_drive_command(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "drive",
       "Follow a path in closed loop, and record it as a rover would.\n"
-      "Writes drive.csv, drive.json and truth.json; exit 0: reached within all limits.");
+      "Writes drive.csv, drive.json, truth.json and report.html; exit 0: reached within all "
+      "limits.");
   parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, limits, as planned")
       ->required();
   parser
@@ -152,7 +156,7 @@ Command add_drive_command(CLI::App& program) {
       ->type_name("A|B|FILE.yaml");
   parser->add_option("--seed", options->overrides.seed, "of all that is drawn")
       ->type_name("N")
-      ->check(in_range(kAtLeast0));
+      ->check(a_seed());
   parser
       ->add_option("--model", options->overrides.model_file,
                    "wheel model that was planned with, as in plan")

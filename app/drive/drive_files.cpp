@@ -29,32 +29,43 @@ Json place(double x_m, double y_m, double s_m, double time_s) {
   return {{"x_m", x_m}, {"y_m", y_m}, {"s_m", s_m}, {"time_s", time_s}};
 }
 
-/// Angles of limits are told in degrees.
-bool is_angle(const std::string& limit) {
-  return limit == "slope" || limit == "slip_angle";
+/// How the number that a reason names is shown.
+struct Shown {
+  double si = 1;  ///< of the unit
+  std::string_view unit;
+};
+
+Shown shown(const std::string& reason) {
+  if (reason == "slope" || reason == "slip_angle") return {1 / kInDegrees, " deg"};
+  if (reason == "speed" || reason == "does_not_stop") return {1, " m/s"};
+  const bool length = reason == "sinkage" || reason == "deviation" || reason == "goal_missed";
+  return {1, length ? " m" : ""};
+}
+
+std::string words(std::string reason) {
+  std::ranges::replace(reason, '_', ' ');
+  return reason;
 }
 
 Json limits_json(const DriveResult& result) {
   Json broken = Json::array();
   for (const LimitBroken& one : result.broken) {
-    const double unit = is_angle(one.limit) ? kInDegrees : 1;
+    const double si = shown(one.limit).si;
     broken.push_back({{"limit", one.limit},
                       {"first", place(one.x_m, one.y_m, one.s_m, one.time_s)},
-                      {"value", one.value * unit},
-                      {"worst", one.worst * unit},
-                      {"allowed", one.allowed * unit}});
+                      {"value", one.value / si},
+                      {"worst", one.worst / si},
+                      {"allowed", one.allowed / si}});
   }
   return broken;
 }
 
 /// Why, with the numbers that there are.
 std::string reason_text(const DriveResult& result) {
-  std::string words = result.reason;
-  std::ranges::replace(words, '_', ' ');
-  if (!std::isfinite(result.value)) return words;
-  const double unit = is_angle(result.reason) ? kInDegrees : 1;
-  return fmt::format("{} {:.4g}{} (allowed: {:.4g})", words, result.value * unit,
-                     is_angle(result.reason) ? " deg" : "", result.allowed * unit);
+  const auto [si, unit] = shown(result.reason);
+  if (!std::isfinite(result.value)) return words(result.reason);
+  return fmt::format("{} {:.3g}{} (allowed: {:.3g})", words(result.reason), result.value / si, unit,
+                     result.allowed / si);
 }
 
 template <class Value>
@@ -118,7 +129,7 @@ std::string drive_csv(const DriveRecord& record, const Vehicle& vehicle) {
 std::string drive_json(const DriveRecord& record, const PlanningProblem& problem) {
   const DriveResult& result = record.result;
   const SteeringLaw& law = record.settings.follower.law;
-  const double unit = is_angle(result.reason) ? kInDegrees : 1;
+  const double si = shown(result.reason).si;
   Json margins{
       {"cornering", Json()}, {"tip_over", Json()}, {"traction", Json()}, {"smallest", Json()}};
   if (const auto& smallest = result.smallest_margin) {
@@ -135,8 +146,8 @@ std::string drive_json(const DriveRecord& record, const PlanningProblem& problem
                                         : "not_reached"},
             {"reason", result.reason},
             {"place", place(result.x_m, result.y_m, result.s_m, result.time_s)},
-            {"value", number(result.value * unit)},
-            {"allowed", number(result.allowed * unit)},
+            {"value", number(result.value / si)},
+            {"allowed", number(result.allowed / si)},
             {"goal", record.ends_in_goal ? "goal of the scenario" : "end of the path"},
             {"cross_track_rms_m", result.cross_track_rms_m},
             {"cross_track_max_m", result.cross_track_max_m},
@@ -164,8 +175,7 @@ std::string drive_json(const DriveRecord& record, const PlanningProblem& problem
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string truth_json(const DriveRecord& record, const TrueWorld& world,
-                       const std::string& truth_text) {
+std::string truth_json(const DriveRecord& record, const TrueWorld& world) {
   const std::vector<DriveMoment>& moments = record.result.moments;
   Json wheels = Json::object();
   const std::vector<WheelMount>& mounts = world.known_vehicle().wheels;
@@ -185,7 +195,7 @@ std::string truth_json(const DriveRecord& record, const TrueWorld& world,
   const auto values = [&](const auto& value) { return by_moment(moments, value); };
   const Json json{
       {"truth_file", record.truth},
-      {"truth", truth_text},
+      {"truth", record.truth_text},
       {"seed", record.settings.seed},
       {"time_s", values([](const DriveMoment& m) { return m.time_s; })},
       {"x_m", values([](const DriveMoment& m) { return m.state.x_m; })},
@@ -199,6 +209,14 @@ std::string truth_json(const DriveRecord& record, const TrueWorld& world,
       {"soil", soils},
       {"wheels", wheels}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string broken_text(const LimitBroken& broken) {
+  const auto [si, unit] = shown(broken.limit);
+  return fmt::format(
+      "Limit broken: {} {:.3g}{} at worst (allowed: {:.3g}), first at ({:.2f}, {:.2f}), {:.1f} s.",
+      words(broken.limit), broken.worst / si, unit, broken.allowed / si, broken.x_m, broken.y_m,
+      broken.time_s);
 }
 
 std::string drive_headline(const DriveRecord& record) {

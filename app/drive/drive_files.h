@@ -13,6 +13,7 @@ namespace regoplan {
 struct DriveRecord {
   std::string scenario, path;  ///< file names
   std::string truth;           ///< of the truth file; empty: as planned
+  std::string truth_text;      ///< what stands in it
   std::string sensors;         ///< name or file of the sensors; empty: exact
   bool ends_in_goal = true;
   DriveSettings settings;
@@ -25,9 +26,11 @@ std::string drive_csv(const DriveRecord& record, const Vehicle& vehicle);
 /// How the drive went.
 std::string drive_json(const DriveRecord& record, const PlanningProblem& problem);
 
-/// What no rover knows. \param truth_text the truth file's content
-std::string truth_json(const DriveRecord& record, const TrueWorld& world,
-                       const std::string& truth_text);
+/// What no rover knows.
+std::string truth_json(const DriveRecord& record, const TrueWorld& world);
+
+/// A limit that was broken, in a sentence.
+std::string broken_text(const LimitBroken& broken);
 
 /// How the drive went, in a sentence.
 std::string drive_headline(const DriveRecord& record);

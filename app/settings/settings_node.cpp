@@ -256,7 +256,7 @@ SettingsNode parse_settings(const std::string& text, const std::string& file) {
   }
 }
 
-SettingsNode read_settings(const std::string& file) {
+std::string settings_text(const std::string& file) {
   if (!std::filesystem::exists(file)) throw SettingsError(file + ": no such file");
   std::ifstream stream(file, std::ios::binary);
   // One byte more tells a file that is too long; a pipe does not say its size.
@@ -266,7 +266,11 @@ SettingsNode read_settings(const std::string& file) {
     throw SettingsError(file + ": cannot be read");
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  return parse_settings(text, file);
+  return text;
+}
+
+SettingsNode read_settings(const std::string& file) {
+  return parse_settings(settings_text(file), file);
 }
 
 }  // namespace regoplan

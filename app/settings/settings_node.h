@@ -85,6 +85,9 @@ struct SettingsEntry {
 /// bytes or 100 000 values
 SettingsNode read_settings(const std::string& file);
 
+/// The text that `read_settings` reads, once: pipes give it only once.
+std::string settings_text(const std::string& file);
+
 /// As `read_settings`, for text that stands in `file`.
 SettingsNode parse_settings(const std::string& text, const std::string& file);
 

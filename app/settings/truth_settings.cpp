@@ -183,7 +183,12 @@ PathPoint read_shift(const SettingsNode& node) {
 }  // namespace
 
 DriveTruth read_truth(const std::string& file, const PlanningProblem& problem) {
-  const SettingsNode root = read_settings(file);
+  return parse_truth(settings_text(file), file, problem);
+}
+
+DriveTruth parse_truth(const std::string& text, const std::string& file,
+                       const PlanningProblem& problem) {
+  const SettingsNode root = parse_settings(text, file);
   const Planned planned{problem, std::filesystem::path(file).parent_path()};
   return read_mapping(root, [&](SettingsMapping& mapping) {
     DriveTruth truth;

@@ -11,4 +11,8 @@ namespace regoplan {
 /// \throws SettingsError
 DriveTruth read_truth(const std::string& file, const PlanningProblem& problem);
 
+/// As `read_truth`, for text that stands in `file`.
+DriveTruth parse_truth(const std::string& text, const std::string& file,
+                       const PlanningProblem& problem);
+
 }  // namespace regoplan

@@ -48,7 +48,7 @@ function marginLegend() {
   return element(
       'div', {}, element('h3', {}, 'Stability margin along the paths'), bar, ticks,
       PLAN.overturned.length ?
-          element('div', {class: 'note'}, under, 'below the limit (overturned paths, dashed)') :
+          element('div', {class: 'note'}, under, view.said.under) :
           null);
 }
 
@@ -93,13 +93,12 @@ function rejectedPanel() {
   const update = () => detail.replaceChildren(...(view.mark ? rejectionDetail(view.mark) : [
     element(
         'p', {class: 'note'},
-        reasons.length ? 'Choose a mark on the map to read why that state was rejected.' :
-                         'No rejected states were kept for display.')
+        reasons.length ? view.said.choose : view.said.none)
   ]));
   update();
   view.events.on('marks.detail', update);
   return element(
-      'fieldset', {}, element('legend', {}, element('h3', {}, 'Rejected states')), ...boxes, detail,
+      'fieldset', {}, element('legend', {}, element('h3', {}, view.said.marks)), ...boxes, detail,
       reasons.length ? element(
                            'div', {class: 'step screen-only'}, stepButton('Previous', -1),
                            stepButton('Next', 1)) :

@@ -52,7 +52,9 @@ function mapOverlay(svg, frame) {
   function drawPaths() {
     const shown =
         view.paths.filter(p => p.visible && p.length)
-            .sort((a, b) => (a === view.selected) - (b === view.selected) || b.rank - a.rank);
+            .sort(
+                (a, b) => Boolean(a.guide) - Boolean(b.guide) ||
+                    (a === view.selected) - (b === view.selected) || b.rank - a.rank);
     const groups = pathLayer.selectAll('g.path')
                        .data(shown, p => p.label)
                        .join('g')
@@ -63,6 +65,13 @@ function mapOverlay(svg, frame) {
       const outline = runs.map(run => line(run.points)).join('');
       const group = d3.select(this);
       group.selectAll('*').remove();
+      if (path.guide) {
+        group.append('path')
+            .attr('class', 'guide')
+            .attr('d', outline)
+            .attr('vector-effect', 'non-scaling-stroke');
+        return;
+      }
       group.append('path')
           .attr('class', 'casing')
           .attr('d', outline)
@@ -102,7 +111,8 @@ function mapOverlay(svg, frame) {
         .attr('d', 'M0,0V-17L11,-13L0,-9')
         .attr('transform', `translate(${gx},${gy})`);
     label('Start', sx, sy + 20);
-    label('Goal', gx, gy + 16);
+    label(goal.label || 'Goal', gx, gy + 16);
+    for (const {x_m, y_m, text} of view.named) label(text, ...frame.screen(x_m, y_m), 11, 14);
     for (const path of view.paths.filter(p => p.visible && p.length)) {
       const share = path.verified_path ? 0.35 + 0.3 * ((path.rank * 0.382) % 1) : 0.5,
             i = Math.round(share * (path.length - 1));

@@ -78,7 +78,7 @@ function mapView(host) {
   /// The point of a visible path nearest to a pixel, within reach.
   function nearestPoint(pixel, reach_px) {
     let best = null, nearest = reach_px;
-    for (const path of view.paths.filter(p => p.visible)) {
+    for (const path of view.paths.filter(p => p.visible && !p.guide)) {
       for (let i = 0; i < path.length; ++i) {
         if (!isKnown(path.points.x_m[i]) || !isKnown(path.points.y_m[i])) continue;
         const [x, y] = frame.screen(path.points.x_m[i], path.points.y_m[i]);

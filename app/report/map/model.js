@@ -19,6 +19,14 @@ const view = {
   reasons: new Set(),  // of rejection, shown on the map
   mark: null,          // a rejected state
   playing: false,
+  named: [],  // places {x_m, y_m, text} that the map names
+  said: {
+    marks: 'Rejected states',
+    rejected: 'Rejected for',
+    choose: 'Choose a mark on the map to read why that state was rejected.',
+    none: 'No rejected states were kept for display.',
+    under: 'below the limit (overturned paths, dashed)',
+  },
   events:
       d3.dispatch('selected', 'visible', 'cursor', 'axis', 'marks', 'layers', 'goto', 'playback'),
 };

@@ -104,7 +104,7 @@ function rejectionBars(host) {
 function rejectionDetail(state) {
   const style = reasonStyle(state.reason);
   const first = element(
-      'p', {}, element('b', {}, `Rejected for ${words(state.reason)}`),
+      'p', {}, element('b', {}, `${view.said.rejected} ${words(state.reason)}`),
       `: ${REASON_TEXT[state.reason] || ''}.`);
   const numbers = style.found && isKnown(state.value) ?
       element(

@@ -1,0 +1,133 @@
+#include "app/drive/broken_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "terramech/basics/angles.h"
+
+namespace regoplan {
+namespace {
+
+using nlohmann::json;
+
+/// A limit that rows are held against.
+struct HeldLimit {
+  std::string name;
+  double allowed = 0;  ///< SI
+  double unit = 1;     ///< SI value of what is shown
+  bool at_least = false;
+  std::function<double(const DriveMoment&, const MarginMoment*)> value;  ///< NaN: not known
+};
+
+std::vector<HeldLimit> held_limits(const Limits& limits) {
+  const auto strain = [](double WheelNow::*number) {
+    return [number](const DriveMoment& moment, const MarginMoment*) {
+      return largest_of_wheels(moment, number);
+    };
+  };
+  const auto margin = [](double MarginMoment::*number) {
+    return [number](const DriveMoment&, const MarginMoment* margins) {
+      return margins == nullptr ? DriveResult::kNone : margins->*number;
+    };
+  };
+  return {
+      {"sinkage", limits.sinkage_max_m, 1, false, strain(&WheelNow::sinkage_m)},
+      {"slip", limits.slip_max, 1, false, strain(&WheelNow::slip)},
+      {"slip_angle", limits.slip_angle_max_rad, kDegree, false, strain(&WheelNow::slip_angle_rad)},
+      {"traction", limits.margin_min, 1, true, margin(&MarginMoment::traction)},
+      {"tip_over", limits.margin_min, 1, true, margin(&MarginMoment::tip_over)},
+      {"cornering", limits.margin_min, 1, true, margin(&MarginMoment::cornering)}};
+}
+
+json mark(const std::string& reason, const DriveMoment& at, std::optional<double> value,
+          std::optional<double> allowed) {
+  const auto shown = [](std::optional<double> number) {
+    return number && std::isfinite(*number) ? json(*number) : json();
+  };
+  return {{"reason", reason},
+          {"x_m", at.state.x_m},
+          {"y_m", at.state.y_m},
+          {"yaw_deg", degrees(at.state.yaw_rad)},
+          {"speed_mps", std::hypot(at.state.motion.vx_mps, at.state.motion.vy_mps)},
+          {"curvature_1pm", at.state.curvature_1pm},
+          {"time_s", at.time_s},
+          {"s_m", at.s_m},
+          {"value", shown(value)},
+          {"limit", shown(allowed)}};
+}
+
+/// The worst row of each stretch in which a limit is broken.
+void add_stretches(const HeldLimit& held, const DriveResult& result, json& marks) {
+  // Margins are known at some rows only, and hold until the next.
+  auto margins = result.margins.begin();
+  const MarginMoment* now = nullptr;
+  const DriveMoment* worst = nullptr;
+  double worst_value = 0;
+  const auto end_stretch = [&] {
+    if (worst) {
+      marks.push_back(mark(held.name, *worst, worst_value / held.unit, held.allowed / held.unit));
+    }
+    worst = nullptr;
+  };
+  for (const DriveMoment& moment : result.moments) {
+    while (margins != result.margins.end() && margins->time_s <= moment.time_s) now = &*margins++;
+    const double value = held.value(moment, now);
+    const bool broken = held.at_least ? value < held.allowed : std::abs(value) > held.allowed;
+    if (!broken) {
+      end_stretch();
+      continue;
+    }
+    const bool further =
+        held.at_least ? value < worst_value : std::abs(value) > std::abs(worst_value);
+    if (!worst || further) {
+      worst = &moment;
+      worst_value = value;
+    }
+  }
+  end_stretch();
+}
+
+/// The row nearest in time.
+const DriveMoment& row_at(const DriveResult& result, double time_s) {
+  const auto above = std::ranges::lower_bound(result.moments, time_s, {}, &DriveMoment::time_s);
+  return above == result.moments.end() ? result.moments.back() : *above;
+}
+
+}  // namespace
+
+double largest_of_wheels(const DriveMoment& moment, double WheelNow::*number) {
+  double most = moment.wheels.empty() ? DriveResult::kNone : 0;
+  for (const WheelNow& wheel : moment.wheels) {
+    if (std::abs(wheel.*number) > std::abs(most)) most = wheel.*number;
+  }
+  return most;
+}
+
+json broken_limits_json(const Limits& limits, const DriveResult& result) {
+  json marks = json::array();
+  for (const HeldLimit& held : held_limits(limits)) add_stretches(held, result, marks);
+  const auto marked = [&](const std::string& limit) {
+    return std::ranges::any_of(marks, [&](const json& one) { return one.at("reason") == limit; });
+  };
+  // What is broken between two rows only, and what no column of a wheel tells.
+  for (const LimitBroken& one : result.broken) {
+    if (marked(one.limit)) continue;
+    const double unit = one.limit == "slope" ? kDegree : 1;
+    marks.push_back(
+        mark(one.limit, row_at(result, one.time_s), one.value / unit, one.allowed / unit));
+    marks.back()["x_m"] = one.x_m;
+    marks.back()["y_m"] = one.y_m;
+  }
+  if (!result.reached && !result.reason.empty() && !result.moments.empty()) {
+    marks.push_back(mark(result.reason, result.moments.back(), result.value, result.allowed));
+  }
+  constexpr std::size_t kMarksMax = 2000;
+  if (marks.size() > kMarksMax) marks.erase(marks.begin() + kMarksMax, marks.end());
+  return marks;
+}
+
+}  // namespace regoplan
