@@ -11,6 +11,6 @@ if(Python3_FOUND AND NOT REGOPLAN_DEV)
   add_test(NAME robustness.kills
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/benchmarks/robustness/kill_campaign.py
                    --program $<TARGET_FILE:regoplan> --kills 4 "map make" "map import" wheel
-                   "wheel figures" evaluate)
+                   "wheel figures" evaluate drive)
   set_tests_properties(robustness.kills PROPERTIES LABELS robustness TIMEOUT 300)
 endif()

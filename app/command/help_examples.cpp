@@ -16,6 +16,10 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
       {"regoplan evaluate scenario.yaml path.csv --out result",
        "regoplan evaluate scenario.yaml result/candidate-1.csv result/candidate-2.csv --out "
        "judged"}},
+     {"drive",
+      {"regoplan drive scenario.yaml result/candidate-1.csv --out driven",
+       "regoplan drive scenario.yaml path.csv --follower compensated --sensors B --truth "
+       "truth.yaml --out driven"}},
      {"benchmark",
       {"regoplan benchmark suite.yaml --out part-1 --shard 1/4",
        "regoplan benchmark merge part-1 part-2 --out whole"}},

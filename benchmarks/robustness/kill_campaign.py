@@ -32,7 +32,8 @@ def commands(folder):
         "diagnose": ["diagnose", folder / "r.csv", "--setup", setup, "--out", out],
         "reference": ["diagnose", folder / "r.csv", "--reference", folder / "r.csv", "--setup", setup,
                       "--out", out],
-        "drive": ["diagnose", folder / "d.csv", "--scenario", folder / "s.yaml", "--out", out],
+        "diagnose drives": ["diagnose", folder / "d.csv", "--scenario", folder / "s.yaml", "--out", out],
+        "drive": ["drive", folder / "s.yaml", folder / "p.csv", "--sensors", "B", "--out", out],
         "demo": ["demo", "--iterations", "200", "--out", out],
         "export": ["export", folder / "planned", "--nav2", out],
     }

@@ -49,6 +49,8 @@ def commands(folder):
         "plan": (["plan", folder / "s.yaml", "--time", "15"], "plan.json"),
         "evaluate": (["evaluate", folder / "s.yaml", folder / "p.csv", "--draws", "20000"],
                      "evaluation.json"),
+        "drive": (["drive", folder / "s.yaml", folder / "p.csv", "--follower", "compensated"],
+                  "drive.json"),
         "demo": (["demo"], "plan.json"),
     }
 

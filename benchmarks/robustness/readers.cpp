@@ -18,9 +18,12 @@
 #include "app/settings/manoeuvre_settings.h"
 #include "app/settings/model_settings.h"
 #include "app/settings/scenario_settings.h"
+#include "app/settings/sensor_settings.h"
 #include "app/settings/soil_settings.h"
 #include "app/settings/suite_settings.h"
+#include "app/settings/truth_settings.h"
 #include "app/settings/vehicle_settings.h"
+#include "driving/true_world.h"
 #include "maps/raster_files.h"
 #include "maps/rock_files.h"
 #include "terramech/basics/input_error.h"
@@ -71,6 +74,9 @@ const std::vector<Reader>& readers() {
       {"setup", "in.yaml", [](const std::string& file) { read_setup_file(file); }},
       {"suite", "in.yaml", [](const std::string& file) { read_suite(file); }},
       {"manoeuvres", "in.yaml", [](const std::string& file) { read_manoeuvres(file, problem()); }},
+      {"truth", "in.yaml",
+       [](const std::string& file) { TrueWorld(problem(), read_truth(file, problem())); }},
+      {"sensors", "in.yaml", [](const std::string& file) { read_sensors(file); }},
       {"path", "in.csv", read_path_file},
       {"candidate", "in.csv", read_path_file},
       {"recording", "in.csv",

@@ -14,6 +14,7 @@
 #include "maps/terrain_summary.h"
 #include "tests/app/diagnosis_fixture.h"
 #include "tests/app/documents.h"
+#include "tests/app/drive_fixture.h"
 #include "tests/app/plan_report_fixture.h"
 #include "tests/benchmarking/made_up_runs.h"
 #include "tests/terramech/wheel_specs.h"
@@ -25,8 +26,8 @@ using Json = nlohmann::json;
 using Keys = std::set<std::string>;
 
 /// Keys whose values have names of things for keys: of columns, channels, soils, parameters.
-const Keys kNamesOfThings{"region", "parameters", "conditions",         "fit",
-                          "soil",   "soils",      "smallest_detectable"};
+const Keys kNamesOfThings{"region", "parameters", "conditions",          "fit",
+                          "soil",   "soils",      "smallest_detectable", "wheels"};
 
 void add_keys(const Json& json, Keys& keys, bool names_of_things = false) {
   if (json.is_object()) {
@@ -79,6 +80,22 @@ TEST(DocsOfResults, HoldEveryKeyOfEvaluationJson) {
       .evaluation = evaluation, .on_the_map = false, .recorded_margin_min = {}};
   const std::string text = evaluation_json(problem, {.paths = {given, manoeuvre}, .settings = {}});
   EXPECT_EQ(undocumented(keys_of(text), {"evaluation-json.md"}), Keys{});
+}
+
+TEST(DocsOfResults, HoldEveryKeyAndColumnOfADrive) {
+  const PlanningProblem problem = report_test_problem(report_test_map(40));
+  const DriveRecord drive = made_up_drive(problem, 20);
+  EXPECT_EQ(undocumented(keys_of(drive_json(drive, problem)), {"drive.md"}), Keys{});
+  EXPECT_EQ(undocumented(keys_of(truth_json(drive, TrueWorld(problem, {}))), {"drive.md"}), Keys{});
+  Keys columns;
+  for (std::string column : columns_of(drive_csv(drive, problem.vehicle))) {
+    for (const WheelMount& wheel : problem.vehicle.wheels) {
+      column = std::regex_replace(column, std::regex("_" + wheel.name + "_"), "_<wheel>_");
+    }
+    columns.insert(column);
+  }
+  EXPECT_GE(columns.size(), 11U);
+  EXPECT_EQ(undocumented(columns, {"drive.md"}), Keys{});
 }
 
 TEST(DocsOfResults, HoldEveryKeyOfDiagnosisJson) {

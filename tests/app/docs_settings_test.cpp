@@ -10,7 +10,9 @@
 #include "app/settings/manoeuvre_settings.h"
 #include "app/settings/model_settings.h"
 #include "app/settings/scenario_settings.h"
+#include "app/settings/sensor_settings.h"
 #include "app/settings/suite_settings.h"
+#include "app/settings/truth_settings.h"
 #include "terramech/mechanisms/mechanism.h"
 #include "tests/app/documents.h"
 #include "tests/app/error_text.h"
@@ -173,6 +175,34 @@ TEST_F(DocsOfSettings, HoldEveryKeyOfAManoeuvre) {
                                 read_manoeuvres(folder_.write("m.yaml", t), problem);
                               }),
                     {"evaluation.md"}, 15);
+}
+
+TEST_F(DocsOfSettings, HoldEveryKeyOfATruth) {
+  const PlanningProblem problem = read_scenario(write_flat_scenario(folder_), {}).problem;
+  const std::string text = R"(
+soils: {mare: {friction_angle_deg: {std: 0}}}
+zones: [{name: dune, like: mare, soil: {n: 1.1}, corners_m: [[0, 0], [9, 0], [9, 9]]}]
+mechanisms: [{id: slip_sinkage, form: exponent, wheels: [front_left]}]
+vehicle: {payload_kg: 1, wheels: {front_left: {drag_nm: 1}}}
+map: {east_m: 1}
+soil_border: {east_m: 1}
+ruts: {stiffening: 1}
+)";
+  expect_documented(
+      keys_read(text,
+                [&](const std::string& t) { read_truth(folder_.write("t.yaml", t), problem); }),
+      {"drive.md", "vehicle-and-soil.md", "mechanisms.md", "wheel.md"}, 35);
+}
+
+TEST_F(DocsOfSettings, HoldEveryKeyOfSensors) {
+  std::string text = "steering_noise_deg: 1\nground_scatter: {drift_deg: 1}\n";
+  for (const char* channel :
+       {"position", "yaw", "attitude", "wheel_speed", "torque", "sinkage", "yaw_rate"}) {
+    text += std::string(channel) + ": {rate_hz: 1}\n";
+  }
+  expect_documented(
+      keys_read(text, [this](const std::string& t) { read_sensors(folder_.write("s.yaml", t)); }),
+      {"drive.md"}, 30);
 }
 
 TEST_F(DocsOfSettings, HoldEveryKeyOfASuite) {

@@ -8,6 +8,7 @@
 #include "app/evaluate/evaluation_files.h"
 #include "app/plan/plan_files.h"
 #include "tests/app/diagnosis_fixture.h"
+#include "tests/app/drive_fixture.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/plan_report_fixture.h"
@@ -36,6 +37,10 @@ TEST(Schemas, HoldWhatTheWritersWriteOfEverything) {
       .evaluation = evaluation, .on_the_map = false, .recorded_margin_min = {}};
   expect_kept("evaluation",
               evaluation_json(problem, {.paths = {given, manoeuvre}, .settings = {}}));
+
+  const DriveRecord driven = made_up_drive(problem, 20);
+  expect_kept("drive", drive_json(driven, problem));
+  expect_kept("truth", truth_json(driven, TrueWorld(problem, {})));
 
   expect_kept("diagnosis", diagnosis_json(claimed_diagnosis()));
   expect_kept("diagnosis", diagnosis_json(consistent_diagnosis()));
@@ -69,6 +74,9 @@ TEST(Schemas, HoldWhatRunsWrite) {
   const ProgramRun judged = run("evaluate '" + scenario + "'", found);
   ASSERT_EQ(judged.status, 0) << judged.errors;
   expect_kept("evaluation", folder.read("out/evaluation.json"));
+  ASSERT_NE(run("drive --sensors B '" + scenario + "'", found).status, 1);
+  expect_kept("drive", folder.read("out/drive.json"));
+  expect_kept("truth", folder.read("out/truth.json"));
   ASSERT_EQ(run("plan --again", folder.path("out/plan.json")).status, 0);
   expect_kept("plan", folder.read("out/plan.json"));
   ASSERT_EQ(run("benchmark", suite).status, 0);
