@@ -12,6 +12,9 @@ namespace {
 /// some degrees, are common on loose slopes.
 constexpr double kFirst[] = {0.1, 0.05, 0.02};
 constexpr double kDrift_per_sqrt_m[] = {0.02, 0.02, 0.01};
+/// The same of what the trims of the planned soils leave: a quarter, as soils within their spread
+/// change slip by about a quarter; steering transients stay.
+constexpr double kDriftBesideTrims_per_sqrt_m[] = {0.005, 0.005, 0.01};
 /// Of the prediction itself, per root metre of way.
 constexpr double kOdometry_m = 0.005, kOdometry_rad = 0.003;
 
@@ -60,7 +63,8 @@ void PoseFilter::predict(const VehicleState& commanded, const ForeseenSlip& fore
   covariance_(kY, kY) += kOdometry_m * kOdometry_m * metres;
   covariance_(kYaw, kYaw) += kOdometry_rad * kOdometry_rad * metres;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const double drift = kDrift_per_sqrt_m[i];
+    const double drift =
+        (foreseen.from_trims ? kDriftBesideTrims_per_sqrt_m : kDrift_per_sqrt_m)[i];
     covariance_(kSpeedRatio + i, kSpeedRatio + i) += drift * drift * metres;
   }
   time_s_ += step_s;

@@ -54,6 +54,7 @@ struct FeedForward {
 /// How a vehicle that keeps to its path is expected to move over the ground: what is left is for
 /// its sensors to find.
 struct ForeseenSlip {
+  bool from_trims = false;    ///< else nothing is known of the ground, and none is foreseen
   double speed_ratio = 1;     ///< speed over the one that slip-free wheels would give
   double slip_angle_rad = 0;  ///< of the body, beyond that of slip-free steering
   double curvature_1pm = 0;   ///< yaw rate over speed, beyond the commanded curvature

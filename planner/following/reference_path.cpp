@@ -7,15 +7,28 @@
 namespace regoplan {
 
 double ReferencePath::curvature_1pm(double s_m) const {
-  if (recorded.empty()) return (reverse ? -1 : 1) * curve.at(s_m).curvature_1pm;
+  if (!recorded.empty()) return recorded_at(s_m).curvature_1pm;
+  return (reverse ? -1 : 1) * curve.at(s_m).curvature_1pm;
+}
+
+VehicleState ReferencePath::recorded_at(double s_m) const {
   const auto above =
       std::upper_bound(recorded.begin(), recorded.end(), s_m,
                        [](double s, const RecordedMoment& moment) { return s < moment.s_m; });
-  if (above == recorded.begin()) return recorded.front().state.curvature_1pm;
-  if (above == recorded.end()) return recorded.back().state.curvature_1pm;
+  if (above == recorded.begin()) return recorded.front().state;
+  if (above == recorded.end()) return recorded.back().state;
   const RecordedMoment &b = *above, &a = *(above - 1);
   const double share = (s_m - a.s_m) / (b.s_m - a.s_m);
-  return a.state.curvature_1pm + share * (b.state.curvature_1pm - a.state.curvature_1pm);
+  const auto between = [share](double from, double to) { return from + share * (to - from); };
+  VehicleState state = a.state;
+  state.x_m = between(a.state.x_m, b.state.x_m);
+  state.y_m = between(a.state.y_m, b.state.y_m);
+  state.yaw_rad += share * std::remainder(b.state.yaw_rad - a.state.yaw_rad, 2 * std::numbers::pi);
+  state.motion.vx_mps = between(a.state.motion.vx_mps, b.state.motion.vx_mps);
+  state.motion.yaw_rate_rad_s =
+      between(a.state.motion.yaw_rate_rad_s, b.state.motion.yaw_rate_rad_s);
+  state.curvature_1pm = between(a.state.curvature_1pm, b.state.curvature_1pm);
+  return state;
 }
 
 VehicleState ReferencePath::state_at(const Vehicle& vehicle, double s_m) const {

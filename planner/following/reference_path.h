@@ -29,6 +29,8 @@ struct ReferencePath {
   /// Commanded curvature, as the vehicle counts it: in reverse a path that bends to the left of the
   /// way lies to the right of the vehicle.
   double curvature_1pm(double s_m) const;
+  /// The record's state there, linear between its moments. \pre there is a record
+  VehicleState recorded_at(double s_m) const;
   /// The vehicle on the path at s_m, slip-free: it heads where Ackermann steering has it head.
   VehicleState state_at(const Vehicle& vehicle, double s_m) const;
 };

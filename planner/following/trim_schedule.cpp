@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace regoplan {
 namespace {
+
+using std::numbers::pi;
 
 /// A station's trim.
 struct Trimmed {
@@ -87,6 +90,19 @@ class StationSolver {
   double crab_rad_ = 0;
 };
 
+/// What a record tells of the slip that it was driven with; near rest it tells nothing.
+void add_recorded(const Vehicle& vehicle, const ReferencePath& path, double s_m,
+                  ForeseenSlip& slip) {
+  const VehicleState recorded = path.recorded_at(s_m);
+  const double speed_mps = recorded.motion.vx_mps;
+  if (std::abs(speed_mps) < 0.1 * path.speed.speed_max_mps()) return;
+  const double k = recorded.curvature_1pm;
+  const double course_rad = path.curve.at(s_m).heading_rad + (speed_mps < 0 ? pi : 0);
+  slip.slip_angle_rad = std::remainder(
+      course_rad - recorded.yaw_rad - kinematic_body_slip_angle_rad(vehicle, k), 2 * pi);
+  slip.curvature_1pm = recorded.motion.yaw_rate_rad_s / speed_mps - k;
+}
+
 }  // namespace
 
 TrimSchedule::TrimSchedule(const World& planned, const ReferencePath& path) {
@@ -124,11 +140,13 @@ TrimSchedule::TrimSchedule(const World& planned, const ReferencePath& path) {
       station.forward.crab_rad = trim->crab_rad;
       const double slip_free_rad =
           kinematic_body_slip_angle_rad(vehicle, trim->steer_curvature_1pm) + trim->crab_rad;
-      station.slip = {.speed_ratio = 1 / trim->drive_factor,
+      station.slip = {.from_trims = true,
+                      .speed_ratio = 1 / trim->drive_factor,
                       .slip_angle_rad = trim->body_slip_angle_rad - slip_free_rad,
                       .curvature_1pm =
                           direction * path.curve.at(s_m).curvature_1pm - trim->steer_curvature_1pm};
     }
+    if (!path.recorded.empty()) add_recorded(vehicle, path, s_m, station.slip);
     stations_.push_back(station);
   }
 }
@@ -157,7 +175,8 @@ FeedForward TrimSchedule::at(double s_m) const {
 ForeseenSlip TrimSchedule::slip_at(double s_m) const {
   const Between here = between(s_m);
   const ForeseenSlip &a = here.before.slip, &b = here.after.slip;
-  return {.speed_ratio = here.of(a.speed_ratio, b.speed_ratio),
+  return {.from_trims = a.from_trims && b.from_trims,
+          .speed_ratio = here.of(a.speed_ratio, b.speed_ratio),
           .slip_angle_rad = here.of(a.slip_angle_rad, b.slip_angle_rad),
           .curvature_1pm = here.of(a.curvature_1pm, b.curvature_1pm)};
 }
