@@ -13,6 +13,7 @@ namespace regoplan {
 namespace {
 
 using nlohmann::json;
+constexpr int kMarksOfLimitMax = 80;
 
 /// A limit that rows are held against.
 struct HeldLimit {
@@ -60,15 +61,16 @@ json mark(const std::string& reason, const DriveMoment& at, std::optional<double
           {"limit", shown(allowed)}};
 }
 
-/// The worst row of each stretch in which a limit is broken.
+/// The worst row of each stretch in which a limit is broken; of more the first ones.
 void add_stretches(const HeldLimit& held, const DriveResult& result, json& marks) {
   // Margins are known at some rows only, and hold until the next.
   auto margins = result.margins.begin();
   const MarginMoment* now = nullptr;
   const DriveMoment* worst = nullptr;
   double worst_value = 0;
+  int count = 0;
   const auto end_stretch = [&] {
-    if (worst) {
+    if (worst && count++ < kMarksOfLimitMax) {
       marks.push_back(mark(held.name, *worst, worst_value / held.unit, held.allowed / held.unit));
     }
     worst = nullptr;
@@ -109,6 +111,7 @@ double largest_of_wheels(const DriveMoment& moment, double WheelNow::*number) {
 
 json broken_limits_json(const Limits& limits, const DriveResult& result) {
   json marks = json::array();
+  if (result.moments.empty()) return marks;
   for (const HeldLimit& held : held_limits(limits)) add_stretches(held, result, marks);
   const auto marked = [&](const std::string& limit) {
     return std::ranges::any_of(marks, [&](const json& one) { return one.at("reason") == limit; });
@@ -116,17 +119,15 @@ json broken_limits_json(const Limits& limits, const DriveResult& result) {
   // What is broken between two rows only, and what no column of a wheel tells.
   for (const LimitBroken& one : result.broken) {
     if (marked(one.limit)) continue;
-    const double unit = one.limit == "slope" ? kDegree : 1;
+    const double unit = one.limit == "slope" || one.limit == "slip_angle" ? kDegree : 1;
     marks.push_back(
         mark(one.limit, row_at(result, one.time_s), one.value / unit, one.allowed / unit));
     marks.back()["x_m"] = one.x_m;
     marks.back()["y_m"] = one.y_m;
   }
-  if (!result.reached && !result.reason.empty() && !result.moments.empty()) {
+  if (!result.reached && !result.reason.empty()) {
     marks.push_back(mark(result.reason, result.moments.back(), result.value, result.allowed));
   }
-  constexpr std::size_t kMarksMax = 2000;
-  if (marks.size() > kMarksMax) marks.erase(marks.begin() + kMarksMax, marks.end());
   return marks;
 }
 

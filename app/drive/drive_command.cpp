@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "app/command/command.h"
@@ -33,20 +34,30 @@ bool leads_to_the_goal(const ReferencePath& path, const Goal& goal) {
   return std::hypot(end.x_m - goal.x_m, end.y_m - goal.y_m) <= goal.radius_m;
 }
 
+/// A grade, or a file that there is.
+SensorSuite sensors_named(const std::string& name) {
+  const std::string file = sensors_file(name);
+  if (!std::filesystem::exists(file)) {
+    throw InputError(fmt::format("--sensors: {}: no such file (grades: A | B)", name));
+  }
+  return read_sensors(file);
+}
+
 DriveSettings settings_of(const Options& options, const PlanningProblem& problem) {
   DriveSettings settings{
       .follower = {.kind = follower_named(options.follower)},
       .deviation_max_m = options.deviation_max_m.value_or(default_deviation_max_m(problem.vehicle)),
       .seed = problem.search.seed,
       .stop = stop_on_interrupt()};
-  if (options.sensors) settings.sensors = read_sensors(sensors_file(*options.sensors));
+  if (options.sensors) settings.sensors = sensors_named(*options.sensors);
   return settings;
 }
 
 /// What a truth makes of a vehicle and its soils may be no vehicle: an error of its file.
-TrueWorld true_world(const PlanningProblem& problem, const DriveRecord& record) {
+TrueWorld true_world(const PlanningProblem& problem, DriveRecord& record) {
   if (record.truth.empty()) return {problem, {}};
   const DriveTruth truth = parse_truth(record.truth_text, record.truth, problem);
+  record.zones = truth.zones;
   try {
     return {problem, truth};
   } catch (const InputError& error) {

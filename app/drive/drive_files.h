@@ -14,7 +14,8 @@ struct DriveRecord {
   std::string scenario, path;  ///< file names
   std::string truth;           ///< of the truth file; empty: as planned
   std::string truth_text;      ///< what stands in it
-  std::string sensors;         ///< name or file of the sensors; empty: exact
+  std::vector<SoilZone> zones = {};
+  std::string sensors;  ///< name or file of the sensors; empty: exact
   bool ends_in_goal = true;
   DriveSettings settings;
   DriveResult result;

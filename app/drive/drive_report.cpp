@@ -250,6 +250,16 @@ void add_ends(json& data, const ReferencePath& path, const DriveRecord& record,
   data["problem"]["goal"] = {{"x_m", end.x_m}, {"y_m", end.y_m}, {"radius_m", 0}, {"label", "End"}};
 }
 
+json zones_json(const std::vector<SoilZone>& zones) {
+  json rows = json::array();
+  for (const SoilZone& zone : zones) {
+    json corners = json::array();
+    for (const PathPoint& corner : zone.corners) corners.push_back({corner.x_m, corner.y_m});
+    rows.push_back({{"name", zone.name}, {"corners", corners}});
+  }
+  return rows;
+}
+
 json report_data(const PlanningProblem& problem, const ReferencePath& path,
                  const DriveRecord& record, const TrueWorld& world) {
   const DriveResult& result = record.result;
@@ -262,6 +272,7 @@ json report_data(const PlanningProblem& problem, const ReferencePath& path,
   data["kind"] = "drive";
   data["drive"] = json::parse(drive_json(record, problem));
   data["truth_text"] = record.truth_text;
+  data["zones"] = zones_json(record.zones);
   data["status"] = data["drive"]["status"];
   json& driven = data["candidates"][0];
   driven["points_total"] = result.moments.size();

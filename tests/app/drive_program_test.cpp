@@ -1,4 +1,5 @@
 // `drive` as a person meets it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -47,7 +48,7 @@ TEST_F(DriveProgram, ReachesTheEndAndRecords) {
 TEST_F(DriveProgram, TheSameSeedWritesTheSameBytes) {
   ASSERT_EQ(drive("--sensors B --seed 3", "one").status,
             drive("--sensors B --seed 3", "two").status);
-  for (const char* file : {"drive.csv", "truth.json", "drive.json"}) {
+  for (const char* file : {"drive.csv", "truth.json", "drive.json", "report.html"}) {
     EXPECT_EQ(folder_.read(std::string("one/") + file), folder_.read(std::string("two/") + file));
   }
 }
@@ -82,6 +83,34 @@ TEST_F(DriveProgram, SensorFilesAreReadStrictly) {
                  {"sensors.yaml:1", "noise_deg"});
   folder_.write("sensors.yaml", "torque: {noise_share: 0.1}\n");
   expect_refusal(drive("--sensors '" + folder_.path("sensors.yaml") + "'"), {"rate_hz"});
+  expect_refusal(drive("--sensors C"), {"--sensors: C", "A | B"});
+}
+
+TEST_F(DriveProgram, WhatIsNoVehicleAnyMoreIsAMistakeInTheTruth) {
+  folder_.write("truth.yaml", "vehicle: {cg_left_m: 5}\n");
+  expect_refusal(drive("--truth '" + folder_.path("truth.yaml") + "'"),
+                 {"truth.yaml: ", "centre of gravity"});
+}
+
+TEST_F(DriveProgram, ATruthComesThroughAPipeToo) {
+  const std::string shell = fmt::format(
+      "bash -c \"timeout 20 '{}' drive '{}' '{}' --quiet --out '{}' --truth <(echo "
+      "'ruts: {{stiffening: 1}}')\"",
+      REGOPLAN_PROGRAM, folder_.path("scenario.yaml"), folder_.path("path.csv"),
+      folder_.path("out"));
+  EXPECT_EQ(std::system(shell.c_str()), 0);
+  const auto truth = nlohmann::json::parse(folder_.read("out/truth.json"));
+  EXPECT_EQ(truth["truth"], "ruts: {stiffening: 1}\n");
+}
+
+TEST_F(DriveProgram, NothingIsLeftOfAMistakeAndNothingOfOthersIsReplaced) {
+  expect_refusal(drive("--seed -1"), {"--seed: -1"});
+  expect_refusal(drive("--deviation-max-m 0"), {"--deviation-max-m: 0"});
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
+  std::filesystem::create_directory(folder_.path("out"));
+  folder_.write("out/report.html", "mine");
+  expect_refusal(drive(""), {"report.html: ", "--force"});
+  EXPECT_EQ(folder_.read("out/report.html"), "mine");
 }
 
 TEST(TruthFile, NoOtherCommandOpensIt) {

@@ -137,6 +137,7 @@ TEST_F(Faults, APipeThatNobodyWritesToCanBeInterrupted) {
   for (const std::string& arguments :
        {"wheel" + pipe + "--model" + file("m.yaml"), "wheel" + file("c.csv") + "--model" + pipe,
         "evaluate" + file("scenario.yaml") + pipe + "--out" + file("out"),
+        "drive" + file("scenario.yaml") + pipe + "--out" + file("out"),
         "diagnose" + pipe + "--setup" + file("m.yaml") + "--out" + file("out"),
         "map info" + pipe}) {
     // Late enough that it has started on a busy machine as well, and waits.

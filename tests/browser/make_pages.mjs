@@ -1,4 +1,4 @@
-// Makes the four reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
+// Makes the five reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
@@ -38,6 +38,13 @@ regoplan(
 regoplan(
     'evaluate', scenario('fast_corner'), cornerPath('wide.csv', 14, 1),
     cornerPath('tight.csv', 8, 2.9), '--draws', '20', '--out', join(folder, 'evaluation'));
+writeFileSync(join(folder, 'truth.yaml'), `zones:
+  - {name: soft, like: loose_regolith, soil: {kphi: 1e5}, corners_m: [[60, 80], [120, 80], [120, 120]]}
+vehicle: {wheels: {front_left: {steer_offset_deg: 12}}}
+`);
+regoplan(
+    'drive', scenario('fast_corner'), join(folder, 'tight.csv'), '--sensors', 'B', '--truth',
+    join(folder, 'truth.yaml'), '--out', join(folder, 'drive'));
 const recording = name => join(source, 'scenarios/diagnosis', name);
 regoplan(
     'diagnose', recording('recording.csv'), '--setup', recording('setup.yaml'), '--out',

@@ -53,6 +53,8 @@ view.named = DRIVE.limits_broken.map(({limit, first}) => ({...first, text: words
 if (PLAN.status === 'not_reached' && DRIVE.reason)
   view.named.push({...DRIVE.place, text: words(DRIVE.reason)});
 
+view.zones = PLAN.zones;
+view.marksOver = true;
 view.said = {
   marks: 'Limits broken',
   rejected: 'Marked for',

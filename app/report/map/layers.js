@@ -10,7 +10,7 @@ function layerPanel(host, {contour_interval_m, stretch}) {
     return element('div', {}, element('label', {}, box, text), extra);
   };
   const soils = element(
-      'ul', {}, ...MAP.soils.map((soil, k) => {
+      'ul', {}, ...MAP.soils.filter(soil => !soil.zone).map((soil, k) => {
         const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
         swatch.style.background = soilColour(k);
         return element('li', {}, swatch, soil.name);

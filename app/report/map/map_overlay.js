@@ -112,7 +112,7 @@ function mapOverlay(svg, frame) {
         .attr('transform', `translate(${gx},${gy})`);
     label('Start', sx, sy + 20);
     label(goal.label || 'Goal', gx, gy + 16);
-    for (const {x_m, y_m, text} of view.named) label(text, ...frame.screen(x_m, y_m), 11, 14);
+    drawNamed();
     for (const path of view.paths.filter(p => p.visible && p.length)) {
       const share = path.verified_path ? 0.35 + 0.3 * ((path.rank * 0.382) % 1) : 0.5,
             i = Math.round(share * (path.length - 1));
@@ -144,6 +144,30 @@ function mapOverlay(svg, frame) {
     }
     drawAxes();
     drawMarker();
+  }
+
+  /// Zones in outline, marks that lie over the paths, and names one below the other.
+  function drawNamed() {
+    for (const {name, corners} of view.zones) {
+      const outline = corners.map(([x_m, y_m]) => frame.screen(x_m, y_m));
+      placeLayer.append('path').attr('class', 'zone').attr('d', `${d3.line()(outline)}Z`);
+      label(name, ...d3.polygonCentroid(outline));
+    }
+    for (const state of view.marksOver ? shownMarks() : []) {
+      const [x, y] = frame.screen(state.x_m, state.y_m);
+      placeLayer.append('path')
+          .attr('class', 'mark-over')
+          .attr('d', symbolPath(state.reason, 60))
+          .attr('fill', reasonStyle(state.reason).colour)
+          .attr('transform', `translate(${x},${y})`);
+    }
+    const named = [];
+    for (const {x_m, y_m, text} of view.named) {
+      let [x, y] = frame.screen(x_m, y_m);
+      while (named.some(([nx, ny]) => Math.abs(nx - x) < 80 && Math.abs(ny - y) < 14)) y += 14;
+      named.push([x, y]);
+      label(text, x, y, 12, 14);
+    }
   }
 
   function label(text, x, y, dx = 0, dy = 0) {

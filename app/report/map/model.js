@@ -19,7 +19,9 @@ const view = {
   reasons: new Set(),  // of rejection, shown on the map
   mark: null,          // a rejected state
   playing: false,
-  named: [],  // places {x_m, y_m, text} that the map names
+  named: [],         // places {x_m, y_m, text} that the map names
+  zones: [],         // {name, corners: [[x_m, y_m]]} that it outlines
+  marksOver: false,  // marks lie over the paths, not under them
   said: {
     marks: 'Rejected states',
     rejected: 'Rejected for',
