@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -292,13 +293,17 @@ std::vector<std::string> drive_lead(const DriveRecord& record) {
   std::vector<std::string> lead;
   if (result.interrupted) lead.emplace_back("Interrupted: this is what was driven by then.");
   for (const LimitBroken& one : result.broken) lead.push_back(broken_text(one));
+  const auto short_name = [](const std::string& file) {
+    return std::filesystem::path(file).filename().string();
+  };
   lead.push_back(fmt::format(
       "Driven by {} in {}, {}.", name(record.settings.follower.kind),
-      record.truth.empty() ? "the world as it is planned"
-                           : fmt::format("a world that differs as {} says", record.truth),
-      record.sensors.empty()
-          ? "with exact sensors"
-          : fmt::format("with sensors {}, seed {}", record.sensors, record.settings.seed)));
+      record.truth.empty()
+          ? "the world as it is planned"
+          : fmt::format("a world that differs as {} says", short_name(record.truth)),
+      record.sensors.empty() ? "with exact sensors"
+                             : fmt::format("with sensors {}, seed {}", short_name(record.sensors),
+                                           record.settings.seed)));
   return lead;
 }
 
