@@ -12,11 +12,11 @@ from ._vehicle import Margins, SafeCurvature, Vehicle, VehicleOnSoil
 from ._wheel import STATUS, Wheel, WheelForces, cornering_and_drag, mechanisms
 
 # What needs the program's commands is loaded with their first use.
-_LATER = {"plan": "_commands", "evaluate": "_commands", "diagnose": "_commands",
-          "diagnose_drives": "_commands", "benchmark": "_commands", "TerrainMap": "_maps",
-          "Plan": "_results", "Candidate": "_results", "Evaluation": "_results",
-          "Diagnosis": "_results", "DriveDiagnosis": "_results", "Benchmark": "_results",
-          "ProgramError": "_program"}
+_LATER = {"plan": "_commands", "evaluate": "_commands", "drive": "_commands",
+          "diagnose": "_commands", "diagnose_drives": "_commands", "benchmark": "_commands",
+          "TerrainMap": "_maps", "Plan": "_results", "Candidate": "_results",
+          "Evaluation": "_results", "Drive": "_results", "Diagnosis": "_results",
+          "DriveDiagnosis": "_results", "Benchmark": "_results", "ProgramError": "_program"}
 
 __all__ = ["InputError", "Margins", "STATUS", "SafeCurvature", "Soil", "Vehicle", "VehicleOnSoil",
            "Wheel", "WheelForces", "cornering_and_drag", "mechanisms", *_LATER]

@@ -184,6 +184,11 @@ class Diagnosis(_Result):
                         nominal_load_n: float | None = ...) -> Wheel: ...
     def to_dataframe(self) -> pd.DataFrame: ...
 
+class Drive(_Result):
+    @property
+    def recording(self) -> dict[str, np.ndarray]: ...
+    def to_dataframe(self) -> pd.DataFrame: ...
+
 class DriveDiagnosis(_Result): ...
 
 class Benchmark(_Result):
@@ -209,6 +214,12 @@ def diagnose(recording: _Table | _File, setup: _Settings | _File, *,
              reference: _Table | _File | Sequence[_Table | _File] = ..., seed: int | None = ...,
              threads: int | None = ..., out: _File | None = ..., force: bool = ...,
              progress: _Progress | None = ...) -> Diagnosis: ...
+def drive(scenario: _Settings | _File, path: _Table | Candidate | _File, *,
+          follower: str | None = ..., truth: _Settings | _File | None = ...,
+          sensors: str | _Settings | _File | None = ...,
+          model: _Settings | _File | Wheel | None = ..., deviation_max_m: float | None = ...,
+          seed: int | None = ..., out: _File | None = ..., force: bool = ...,
+          progress: _Progress | None = ...) -> Drive: ...
 def diagnose_drives(drives: _Table | _File | Sequence[_Table | _File],
                     scenario: _Settings | _File, *, setup: _Settings | _File | None = ...,
                     columns: _Settings | _File | None = ..., seed: int | None = ...,

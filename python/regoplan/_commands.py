@@ -1,15 +1,16 @@
-"""plan, evaluate, diagnose and benchmark: the program's commands over dicts, tables and files."""
+"""plan, evaluate, drive, diagnose and benchmark: the program's commands over dicts, tables and files."""
 
 import os
 
 from . import _arguments, _physics, _program, _tables
 from ._errors import InputError
 from ._maps import TerrainMap, absolute
-from ._results import Benchmark, Candidate, Diagnosis, DriveDiagnosis, Evaluation, Plan
+from ._results import Benchmark, Candidate, Diagnosis, Drive, DriveDiagnosis, Evaluation, Plan
 
 _MAP_FILES = ("elevation", "soil_class", "soils", "rocks")
 _FILE_NAME_BYTES_MAX = 100
-_WORDS = ("planner", "shard")
+_WORDS = ("planner", "shard", "follower")
+_SENSOR_GRADES = ("A", "B")
 _REALS = {"time_s": "--time", "speed_mps": "--speed", "deviation_max_m": "--deviation-max-m"}
 
 
@@ -88,6 +89,42 @@ def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
     arguments += call.options(speed_mps=speed_mps, deviation_max_m=deviation_max_m, draws=draws,
                               seed=seed, threads=threads)
     return call.run(arguments, Evaluation)
+
+
+def drive(scenario, path, *, follower=None, truth=None, sensors=None, model=None,
+          deviation_max_m=None, seed=None, out=None, force=False, progress=None):
+    """Follows a path in closed loop and records it as a rover would: ``regoplan drive``.
+
+    Parameters
+    ----------
+    scenario : dict or file name
+        As of ``plan``: the world as it is planned in.
+    path : DataFrame, dict of columns, Candidate or file name
+        As one of ``evaluate``.
+    follower : ``pursuit`` or ``compensated``, optional
+    truth : dict or file name, optional
+        How the world driven in differs (docs/drive.md); the files that it names are absolute.
+    sensors : ``A``, ``B``, dict or file name, optional
+        Without: exact, and seen by the follower.
+    deviation_max_m, seed : optional
+        As the program's options.
+    model, out, force, progress : optional
+        As of ``plan``.
+
+    Returns
+    -------
+    Drive
+    """
+    call = _Call(out, force, progress)
+    arguments = ["drive", call.scenario("scenario", scenario), call.table("path", path)]
+    if truth is not None:
+        arguments += ["--truth", call.settings("truth", truth)]
+    if sensors is not None:
+        graded = isinstance(sensors, str) and sensors in _SENSOR_GRADES
+        arguments += ["--sensors", sensors if graded else call.settings("sensors", sensors)]
+    arguments += call.model(model)
+    arguments += call.options(follower=follower, deviation_max_m=deviation_max_m, seed=seed)
+    return call.run(arguments, Drive)
 
 
 def diagnose(recording, setup, *, reference=(), seed=None, threads=None, out=None, force=False,

@@ -124,6 +124,25 @@ class Evaluation(Result):
         return f"Evaluation({feasible} of {len(self.json['paths'])} feasible)"
 
 
+class Drive(Result):
+    """How a path was driven: ``status``, ``reason``, and all keys of ``drive.json``
+    (docs/drive.md)."""
+
+    _FILE = "drive.json"
+
+    @property
+    def recording(self):
+        """Columns of ``drive.csv``, what a rover would have recorded; NaN: not sampled."""
+        return _tables.read_csv(self._folder.text("drive.csv"))
+
+    def to_dataframe(self):
+        """A pandas DataFrame of ``recording``."""
+        return dataframe(self.recording)
+
+    def __repr__(self):
+        return f"Drive({self.status}{': ' + self.reason if self.reason else ''})"
+
+
 class Diagnosis(Result):
     """Where a recording and the model differ, and why; keys of ``diagnosis.json``
     (docs/diagnosis.md)."""

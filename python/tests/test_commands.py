@@ -92,6 +92,33 @@ def test_an_evaluation_is_the_programs(program, scenario, planned, tmp_path):
     assert judged.paths[0]["recorded"]["difference"] < 0.02
 
 
+def test_a_drive_is_the_programs(program, scenario, planned, tmp_path):
+    truth = {"vehicle": {"wheels": {"front_left": {"drag_nm": 2}}}}
+    driven = regoplan.drive(scenario, planned.candidates[0], follower="compensated", sensors="A",
+                            truth=truth, seed=3)
+    assert driven.status in ("reached", "limits_broken", "not_reached")
+    (tmp_path / "path.csv").write_text(planned.candidates[0].csv)
+    (tmp_path / "truth.yaml").write_text(json.dumps(truth))
+    ran = program("drive", as_file(scenario, tmp_path), tmp_path / "path.csv", "--out",
+                  tmp_path / "out", "--follower", "compensated", "--sensors", "A", "--truth",
+                  tmp_path / "truth.yaml", "--seed", "3", "--quiet")
+    assert ran.returncode in (0, 2), ran.stderr
+    theirs = _tables.read_csv((tmp_path / "out" / "drive.csv").read_text())
+    assert driven.recording.keys() == theirs.keys()
+    for key in driven.recording.keys() - {"drive_id"}:
+        np.testing.assert_array_equal(driven.recording[key], theirs[key], key)
+    assert np.isnan(driven.recording["x_m"]).any()  # a pose comes once a second
+    assert len(driven.to_dataframe()) == len(theirs["time_s"])
+
+
+def test_what_a_drive_cannot_take_is_named(scenario, planned):
+    for wrong, word in (({"follower": "bold"}, "follower"), ({"sensors": "C"}, "sensors"),
+                        ({"truth": {"mud": 1}}, "mud"), ({"deviation_max_m": -1}, "deviation_max_m"),
+                        ({"seed": 1.5}, "seed")):
+        with pytest.raises(regoplan.InputError, match=word):
+            regoplan.drive(scenario, planned.candidates[0], **wrong)
+
+
 def test_manoeuvres_are_evaluated_without_a_path(scenario):
     judged = regoplan.evaluate(scenario, manoeuvres=[
         {"kind": "steady_turn", "radius_m": 20, "speed_mps": 1}], draws=10)
