@@ -25,6 +25,18 @@ PoseNoise noise_of(const SensorSuite& suite) {
   return noise;
 }
 
+/// Feedback acts on poses as old as the wait for the next fix, and looks as much farther ahead.
+FollowerChoice with_wait_for_fixes(FollowerChoice follower,
+                                   const std::optional<SensorSuite>& sensors) {
+  if (!sensors) return follower;
+  double longest_s = 0;
+  for (const auto& channel : {sensors->position, sensors->yaw}) {
+    if (channel) longest_s = std::max(longest_s, 1 / channel->rate_hz + channel->latency_s);
+  }
+  follower.law.lookahead_s += longest_s;
+  return follower;
+}
+
 /// All there is, as it is, at every row.
 SensorSuite everything() {
   const SensorChannel exact{.rate_hz = 1 / kRowEvery_s};
@@ -52,7 +64,8 @@ class Drive {
         vehicle_(planned.problem().vehicle),
         step_s_(drive_step_s(path.speed.speed_max_mps())),
         steps_per_row_(static_cast<int>(std::lround(row_interval_s(step_s_) / step_s_))),
-        follower_(make_follower(settings.follower, planned, path)),
+        choice_(with_wait_for_fixes(settings.follower, settings.sensors)),
+        follower_(make_follower(choice_, planned, path)),
         state_(start_of(path, vehicle_)),
         seen_(state_),
         sensors_(settings.sensors.value_or(everything()), vehicle_, settings.seed),
@@ -60,6 +73,7 @@ class Drive {
     constexpr double kMarginsEvery_s = 0.5, kMarginsEvery_m = 0.25;
     const double every_s = std::max(kMarginsEvery_s, kMarginsEvery_m / path.speed.speed_max_mps());
     steps_per_margin_ = std::max(1, static_cast<int>(std::lround(every_s / step_s_)));
+    result_.law = choice_.law;
     if (settings.sensors) filter_.emplace(vehicle_, state_, noise_of(*settings.sensors));
   }
 
@@ -339,8 +353,8 @@ class Drive {
     if (result_.length_m > 0) {
       result_.cross_track_rms_m = std::sqrt(squares_m3_ / result_.length_m);
     }
-    if (!result_.reason.empty() || result_.interrupted) return;
-    if (result_.broken.empty()) {
+    if (!result_.reason.empty()) return;
+    if (result_.broken.empty() || result_.interrupted) {
       end("");
       return;
     }
@@ -362,6 +376,7 @@ class Drive {
   const Vehicle& vehicle_;
   double step_s_;
   int steps_per_row_, steps_per_margin_ = 1, steps_ = 0;
+  FollowerChoice choice_;
   std::unique_ptr<Follower> follower_;
   VehicleState state_, seen_;
   WheelStrain strain_;

@@ -15,6 +15,7 @@
 namespace regoplan {
 
 struct DriveSettings {
+  /// With sensors its `lookahead_s` is lengthened by the wait for their pose fixes.
   FollowerChoice follower;
   /// Nothing: the follower sees the true pose, and the recording has every channel without noise.
   std::optional<SensorSuite> sensors = {};
@@ -61,6 +62,7 @@ struct DriveResult {
   double x_m = 0, y_m = 0, s_m = 0, time_s = 0;  ///< of what the reason names, else of the end
   double value = kNone, allowed = kNone;         ///< of what the reason names
 
+  SteeringLaw law;  ///< as it was in effect
   std::vector<LimitBroken> broken;
   double cross_track_rms_m = 0;  ///< over the way
   double cross_track_max_m = 0;

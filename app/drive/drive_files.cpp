@@ -128,7 +128,7 @@ std::string drive_csv(const DriveRecord& record, const Vehicle& vehicle) {
 
 std::string drive_json(const DriveRecord& record, const PlanningProblem& problem) {
   const DriveResult& result = record.result;
-  const SteeringLaw& law = record.settings.follower.law;
+  const SteeringLaw& law = result.law;
   const double si = shown(result.reason).si;
   Json margins{
       {"cornering", Json()}, {"tip_over", Json()}, {"traction", Json()}, {"smallest", Json()}};

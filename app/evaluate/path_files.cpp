@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 
@@ -22,6 +23,7 @@ namespace {
 class PathTable {
  public:
   explicit PathTable(const std::string& file) : file_(file) {
+    if (std::filesystem::is_directory(file)) throw InputError(file + ": is a folder");
     std::ifstream stream(file);
     if (!stream) throw InputError(file + ": no such file, or it cannot be read");
     std::string line;

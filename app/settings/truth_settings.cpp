@@ -15,6 +15,9 @@
 namespace regoplan {
 namespace {
 
+/// As far as any projection reaches, and farther.
+constexpr ValueRange kMapCoordinate{.min = -1e9, .max = 1e9};
+
 /// Where a truth begins: the problem that it departs from.
 struct Planned {
   const PlanningProblem& problem;
@@ -95,9 +98,12 @@ SoilZone read_zone(const SettingsNode& node, const Planned& planned) {
     for (const SettingsNode& corner : corners.list()) {
       if (corner.list().size() != 2) throw corner.not_allowed("[x_m, y_m]");
       zone.corners.push_back(
-          {corner.list()[0].number(kAnyNumber), corner.list()[1].number(kAnyNumber)});
+          {corner.list()[0].number(kMapCoordinate), corner.list()[1].number(kMapCoordinate)});
     }
-    if (zone.corners.size() < 3) throw corners.not_allowed("at least three corners");
+    if (zone.corners.size() < 3) {
+      throw corners.error(fmt::format("{} corners are not valid (allowed: at least 3)",
+                                      zone.corners.size()));
+    }
     return zone;
   });
 }
@@ -111,6 +117,7 @@ ZoneRaster read_zone_raster(const SettingsNode& node, const Planned& planned) {
                       .soils = {}};
     adopt_crs(raster.classes, planned.problem.map.elevation().frame, name.text());
     const SettingsNode& codes = mapping.required("codes");
+    if (codes.mapping().empty()) throw codes.not_allowed("at least one code");
     for (const SettingsEntry& entry : codes.mapping()) {
       std::int32_t code = 0;
       const char* end = entry.key.data() + entry.key.size();

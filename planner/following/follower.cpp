@@ -40,6 +40,7 @@ class CompensatedFollower : public Follower {
  protected:
   FeedForward ahead(double s_m) const override { return schedule_.at(s_m); }
   ForeseenSlip foreseen_at(double s_m) const override { return schedule_.slip_at(s_m); }
+  double slip_memory_m() const override { return 3 * wheelbase_m(vehicle()); }
 
  private:
   TrimSchedule schedule_;
@@ -78,10 +79,25 @@ double Follower::speed() const {
   return std::hypot(seen_.motion.vx_mps, seen_.motion.vy_mps);
 }
 
+double Follower::foreseen_slip_angle_rad() const {
+  return kinematic_body_slip_angle_rad(vehicle_, seen_.curvature_1pm) + seen_.crab_rad +
+         foreseen().slip_angle_rad;
+}
+
 void Follower::observe(const VehicleState& seen, double step_s) {
   seen_ = seen;
   s_m_ = nearest_m(path_.curve, seen.x_m, seen.y_m, s_m_);
   offset_m_ = regoplan::offset_m(path_.curve.at(s_m_), seen.x_m, seen.y_m);
+  const BodyMotion& motion = seen.motion;
+  // At rest there is no course; the heading tells where it will go.
+  if (speed() > 0.01 * speed_top_mps_) {
+    const double way_m = speed() * step_s;
+    const double angle = std::atan2(direction_ * motion.vy_mps, direction_ * motion.vx_mps);
+    unforeseen_rad_ +=
+        way_m / (way_m + slip_memory_m()) * (angle - foreseen_slip_angle_rad() - unforeseen_rad_);
+  } else {
+    unforeseen_rad_ = 0;
+  }
   const double expected = direction_ * seen.rim_speed_mps / ahead(s_m_).rim_per_speed;
   if (std::abs(expected) > 0.05 * speed_top_mps_) {
     const double share = step_s / (step_s + law_.slip_memory_s);
@@ -101,12 +117,7 @@ VehicleControl Follower::control(double step_s) const {
   const FeedForward forward = ahead(s_m_ + v * law_.reaction_s);
   const double length =
       std::max(law_.lookahead_wheelbases * wheelbase_m(vehicle_), law_.lookahead_s * v);
-  // At rest there is no course; the heading tells where it will go.
-  const BodyMotion& motion = seen_.motion;
-  const double slip_angle =
-      v > 0.01 * speed_top_mps_
-          ? std::atan2(direction_ * motion.vy_mps, direction_ * motion.vx_mps)
-          : kinematic_body_slip_angle_rad(vehicle_, seen_.curvature_1pm) + seen_.crab_rad;
+  const double slip_angle = foreseen_slip_angle_rad() + unforeseen_rad_;
   const double heading = seen_.yaw_rad + (path_.reverse ? std::numbers::pi : 0);
   const double course = angle_between(heading + slip_angle, place.heading_rad);
   const double curvature =

@@ -93,6 +93,9 @@ class Follower {
  protected:
   virtual FeedForward ahead(double s_m) const = 0;
   virtual ForeseenSlip foreseen_at(double s_m) const = 0;
+  /// Way over which the slip angle that was not foreseen is averaged. A vehicle takes up its slip
+  /// angle late: feedback of each moment's course would swing on soft ground.
+  virtual double slip_memory_m() const { return 0; }
 
   const Vehicle& vehicle() const { return vehicle_; }
   const ReferencePath& path() const { return path_; }
@@ -100,6 +103,7 @@ class Follower {
 
  private:
   double speed() const;
+  double foreseen_slip_angle_rad() const;
 
   const Vehicle& vehicle_;
   const ReferencePath& path_;
@@ -108,7 +112,8 @@ class Follower {
   double direction_;  ///< 1 ahead, -1 in reverse
   VehicleState seen_;
   double s_m_ = 0, offset_m_ = 0;
-  double slip_factor_ = 1;  ///< speed over the one that the rims should have given
+  double unforeseen_rad_ = 0;  ///< slip angle of the body beyond that foreseen
+  double slip_factor_ = 1;     ///< speed over the one that the rims should have given
 };
 
 /// \param planned the world as it is planned in: what `compensated` knows of the ground

@@ -73,6 +73,10 @@ TEST_F(DriveProgram, TruthFilesAreReadStrictly) {
   refused("vehicle:\n  wheels:\n    front_left: {radius_factor: 3}\n",
           {"truth.yaml:3", "radius_factor", "0.5 to 2"});
   refused("zones: [{name: a, like: nowhere, corners_m: [[0, 0], [1, 0], [1, 1]]}]\n", {"nowhere"});
+  refused("zones: [{name: a, like: mare, corners_m: [[0, 0], [1, 0]]}]\n",
+          {"truth.yaml:1", "2 corners", "at least 3"});
+  refused("zones: [{name: a, like: mare, corners_m: [[0, 0], [1, 0], [1e300, 0]]}]\n",
+          {"1e300", "-1000000000 to 1000000000"});
   refused("ruts: {stiffening: -1}\n", {"stiffening", "0 to 10"});
   EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
 }

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Verified candidates of the feasible scenarios, driven in closed loop.
+
+    benchmarks/drives/candidates.py PROGRAM [--time S] [--draws N] [--seed N]
+
+With the planned soils every candidate should reach the goal with no limit broken that its verdict
+called held. With soils drawn from their spread, the share of drives of the best candidate within all
+limits is held against the plan's `probability_feasible`.
+"""
+import argparse
+import json
+import random
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+SCENARIOS = Path(__file__).resolve().parents[1] / "scenarios"
+
+
+def run(program, *arguments):
+    """Exit status 0 or 2, and the JSON that is printed."""
+    done = subprocess.run([program, *map(str, arguments), "--json", "--quiet", "--force"],
+                          capture_output=True, text=True)
+    if done.returncode not in (0, 2):
+        sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr}")
+    return json.loads(done.stdout)
+
+
+def uncertain(scenario):
+    """Mean and standard deviation of the numbers of each soil that have a spread."""
+    import yaml
+    settings = yaml.safe_load(scenario.read_text())
+    soils = settings["map"]["soils"]
+    if isinstance(soils, str):
+        soils = yaml.safe_load((scenario.parent / soils).read_text())
+    return {name: {key: (float(value["mean"]), float(value["std"])) for key, value in soil.items()
+                   if isinstance(value, dict) and float(value.get("std", 0)) > 0}
+            for name, soil in soils["soils"].items()}
+
+
+def drive(program, scenario, path, folder, follower, truth=None):
+    options = ["--truth", truth] if truth else []
+    return run(program, "drive", scenario, path, "--out", folder / "drive", "--follower", follower,
+               *options)
+
+
+def deviations(mean, std, chance):
+    """Of a normal distribution that stops at 0, as the plan draws."""
+    while True:
+        k = chance.gauss(0, 1)
+        if mean + k * std > 0:
+            return k
+
+
+def drawn_truth(numbers, chance, file):
+    soils = {name: {key: {"std": deviations(*spread, chance)} for key, spread in keys.items()}
+             for name, keys in numbers.items() if keys}
+    file.write_text(json.dumps({"soils": soils}))
+    return file
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--time", type=float, default=15)
+    parser.add_argument("--draws", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    chance = random.Random(options.seed)
+    print(f"{'scenario':>16} {'rank':>4} {'probability, 95 %':>24} "
+          f"{'pursuit':>26} {'compensated':>26} {'held, drawn soils':>18}")
+    for scenario in sorted(SCENARIOS.glob("*.yaml")):
+        if scenario.name.startswith("infeasible"):
+            continue
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            plan = run(options.program, "plan", scenario, "--out", folder / "plan",
+                       "--time", options.time)
+            numbers = uncertain(scenario)
+            for entry in plan["candidates"]:
+                path = folder / "plan" / entry["file"]
+                told = []
+                for follower in ("pursuit", "compensated"):
+                    driven = drive(options.program, scenario, path, folder, follower)
+                    why = driven["status"] if driven["status"] == "reached" else driven["reason"]
+                    told.append(f"{why} {driven['cross_track_max_m']:.3f} m")
+                held = ""
+                if entry["rank"] == 1 and options.draws and any(numbers.values()):
+                    shares = 0
+                    for _ in range(options.draws):
+                        truth = drawn_truth(numbers, chance, folder / "truth.yaml")
+                        driven = drive(options.program, scenario, path, folder, "compensated", truth)
+                        shares += driven["status"] == "reached"
+                    held = f"{shares} of {options.draws}"
+                likely = "not drawn"
+                if entry["probability_feasible"] is not None:
+                    low, high = entry["probability_feasible_ci95"]
+                    likely = f"{entry['probability_feasible']:.2f} [{low:.2f}, {high:.2f}]"
+                print(f"{scenario.stem:>16} {entry['rank']:>4} {likely:>24} {told[0]:>26} "
+                      f"{told[1]:>26} {held:>18}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
