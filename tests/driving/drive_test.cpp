@@ -84,6 +84,43 @@ TEST(Drive, CompensationTakesTheOffsetOnASideSlopeAway) {
   EXPECT_LT(std::abs(fed_m), 0.5 * std::abs(plain_m));
 }
 
+/// A slalom on soft soil, as fast as its margins allow.
+PreparedManoeuvre fast_slalom() {
+  PreparedManoeuvre slope = Traverse::made(0, 2.6);
+  UncertainSoil soft = regolith();
+  soft.mean.friction_angle_rad = 30 * kDegree;
+  soft.mean.kphi = 2e5;
+  soft.mean.kx0_m = soft.mean.ky0_m = 0.025;
+  return prepare({.kind = ManoeuvreKind::kSlalom,
+                  .vehicle = preset_vehicle("lrv"),
+                  .soil = {"soft", "", soft},
+                  .speed_mps = 2.6,
+                  .amplitude_m = 2,
+                  .wavelength_m = 30,
+                  .waves = 6},
+                 slope.problem.limits, slope.problem);
+}
+
+TEST(Drive, FeedbackDoesNotSwingOnSoftSoil) {
+  const PreparedManoeuvre slalom = fast_slalom();
+  const World planned(slalom.problem, WorldUse::kVerdict, 1);
+  const TrueWorld world(slalom.problem, {});
+  const DriveResult run = drive(planned, world, std::get<ReferencePath>(slalom.course), false,
+                                {.follower = {FollowerKind::kCompensated, {}}});
+  ASSERT_TRUE(run.reached) << run.reason;
+  EXPECT_LT(run.cross_track_max_m, 0.25);
+}
+
+TEST(Drive, FeedbackLooksAheadByTheWaitForAFix) {
+  const Traverse traverse;
+  SensorSuite late = noisy();
+  late.position->latency_s = 0.5;
+  const double exact_s = traverse.driven({}, {}).law.lookahead_s;
+  EXPECT_EQ(exact_s, SteeringLaw{}.lookahead_s);
+  EXPECT_EQ(traverse.driven({}, {.sensors = noisy()}).law.lookahead_s, exact_s + 1);
+  EXPECT_EQ(traverse.driven({}, {.sensors = late}).law.lookahead_s, exact_s + 1.5);
+}
+
 TEST(Drive, TheSameSeedGivesTheSameBits) {
   const Traverse traverse;
   const DriveSettings settings{.sensors = noisy(), .seed = 7};
