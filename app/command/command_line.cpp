@@ -10,12 +10,11 @@ std::vector<Command> add_commands(CLI::App& program) {
   program.description(
       "Plans for wheeled vehicles on loose soil: which paths the ground can carry, and why.");
   program.require_subcommand(1);
-  std::vector<Command> commands{add_demo_command(program),       add_plan_command(program),
-                                add_evaluate_command(program),   add_drive_command(program),
-                                add_benchmark_command(program),
-                                add_diagnose_command(program),   add_wheel_command(program),
-                                add_mechanisms_command(program), add_vehicle_command(program),
-                                add_soil_command(program),       add_scenario_command(program)};
+  std::vector<Command> commands{
+      add_demo_command(program),  add_plan_command(program),       add_evaluate_command(program),
+      add_drive_command(program), add_benchmark_command(program),  add_diagnose_command(program),
+      add_wheel_command(program), add_mechanisms_command(program), add_vehicle_command(program),
+      add_soil_command(program),  add_scenario_command(program)};
   CLI::App* map = program.add_subcommand("map", "Make, check and describe maps");
   map->require_subcommand(1);
   commands.push_back(add_map_make_command(*map));

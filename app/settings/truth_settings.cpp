@@ -101,8 +101,8 @@ SoilZone read_zone(const SettingsNode& node, const Planned& planned) {
           {corner.list()[0].number(kMapCoordinate), corner.list()[1].number(kMapCoordinate)});
     }
     if (zone.corners.size() < 3) {
-      throw corners.error(fmt::format("{} corners are not valid (allowed: at least 3)",
-                                      zone.corners.size()));
+      throw corners.error(
+          fmt::format("{} corners are not valid (allowed: at least 3)", zone.corners.size()));
     }
     return zone;
   });

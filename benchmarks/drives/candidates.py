@@ -4,26 +4,29 @@
     benchmarks/drives/candidates.py PROGRAM [--time S] [--draws N] [--seed N]
 
 With the planned soils every candidate should reach the goal with no limit broken that its verdict
-called held. With soils drawn from their spread, the share of drives of the best candidate within all
+called held. With soils drawn from their spread, the share of drives within all
 limits is held against the plan's `probability_feasible`.
 """
 import argparse
 import json
 import random
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 SCENARIOS = Path(__file__).resolve().parents[1] / "scenarios"
 
 
+class Refused(Exception):
+    """What the program says of its input."""
+
+
 def run(program, *arguments):
-    """Exit status 0 or 2, and the JSON that is printed."""
+    """The JSON that is printed."""
     done = subprocess.run([program, *map(str, arguments), "--json", "--quiet", "--force"],
                           capture_output=True, text=True)
     if done.returncode not in (0, 2):
-        sys.exit(f"{' '.join(map(str, arguments))}: {done.stderr}")
+        raise Refused(done.stderr.strip())
     return json.loads(done.stdout)
 
 
@@ -60,18 +63,40 @@ def drawn_truth(numbers, chance, file):
     return file
 
 
+def driven_candidate(options, scenario, entry, folder, numbers, chance):
+    """The cells of a candidate's row."""
+    path = folder / "plan" / entry["file"]
+    told = []
+    for follower in ("pursuit", "compensated"):
+        driven = drive(options.program, scenario, path, folder, follower)
+        why = driven["status"] if driven["status"] == "reached" else driven["reason"]
+        told.append(f"{why} {driven['cross_track_max_m']:.3f} m")
+    likely = "not drawn"
+    if entry["probability_feasible"] is not None:
+        low, high = entry["probability_feasible_ci95"]
+        likely = f"{entry['probability_feasible']:.2f} [{low:.2f}, {high:.2f}]"
+    held = ""
+    if options.draws and any(numbers.values()) and entry["probability_feasible"] is not None:
+        reached = sum(drive(options.program, scenario, path, folder, "compensated",
+                            drawn_truth(numbers, chance, folder / "truth.yaml"))["status"] == "reached"
+                      for _ in range(options.draws))
+        held = f"{reached} of {options.draws}"
+    return f"{likely:>24} {told[0]:>26} {told[1]:>26} {held:>18}"
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("--time", type=float, default=15)
     parser.add_argument("--draws", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", action="append", help="names of scenarios; without: all feasible ones")
     options = parser.parse_args()
     chance = random.Random(options.seed)
     print(f"{'scenario':>16} {'rank':>4} {'probability, 95 %':>24} "
           f"{'pursuit':>26} {'compensated':>26} {'held, drawn soils':>18}")
     for scenario in sorted(SCENARIOS.glob("*.yaml")):
-        if scenario.name.startswith("infeasible"):
+        if scenario.name.startswith("infeasible") or scenario.stem not in (options.only or [scenario.stem]):
             continue
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
@@ -79,26 +104,11 @@ def main():
                        "--time", options.time)
             numbers = uncertain(scenario)
             for entry in plan["candidates"]:
-                path = folder / "plan" / entry["file"]
-                told = []
-                for follower in ("pursuit", "compensated"):
-                    driven = drive(options.program, scenario, path, folder, follower)
-                    why = driven["status"] if driven["status"] == "reached" else driven["reason"]
-                    told.append(f"{why} {driven['cross_track_max_m']:.3f} m")
-                held = ""
-                if entry["rank"] == 1 and options.draws and any(numbers.values()):
-                    shares = 0
-                    for _ in range(options.draws):
-                        truth = drawn_truth(numbers, chance, folder / "truth.yaml")
-                        driven = drive(options.program, scenario, path, folder, "compensated", truth)
-                        shares += driven["status"] == "reached"
-                    held = f"{shares} of {options.draws}"
-                likely = "not drawn"
-                if entry["probability_feasible"] is not None:
-                    low, high = entry["probability_feasible_ci95"]
-                    likely = f"{entry['probability_feasible']:.2f} [{low:.2f}, {high:.2f}]"
-                print(f"{scenario.stem:>16} {entry['rank']:>4} {likely:>24} {told[0]:>26} "
-                      f"{told[1]:>26} {held:>18}", flush=True)
+                try:
+                    row = driven_candidate(options, scenario, entry, folder, numbers, chance)
+                except Refused as why:
+                    row = f"refused: {why}"
+                print(f"{scenario.stem:>16} {entry['rank']:>4} {row}", flush=True)
 
 
 if __name__ == "__main__":
