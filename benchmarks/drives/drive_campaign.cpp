@@ -1,12 +1,10 @@
-// Campaigns of drives: `drive_campaign equal_physics` and `drive_campaign followers [DRAWS]
-// [--tune]`. Figures stand in README.md.
+// Campaigns of drives, one a word of the command line. Figures stand in README.md.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <random>
 #include <string>
 
@@ -14,27 +12,15 @@
 #include "driving/drive.h"
 #include "driving/true_world.h"
 #include "planner/evaluation/manoeuvres.h"
+#include "terramech/basics/angles.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan::drives {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// The soils of scenarios/demo/soils.yaml that the campaigns use.
 UncertainSoil firm_regolith() {
-  return {.mean = {.cohesion_pa = 170,
-                   .friction_angle_rad = 36 * kDegree,
-                   .kc = 1400,
-                   .kphi = 8.2e5,
-                   .n = 1,
-                   .a0 = 0.4,
-                   .a1 = 0.15,
-                   .lambda = 0.9,
-                   .density_kgpm3 = 1500,
-                   .kx0_m = 0.018,
-                   .kx1_m = 0.043,
-                   .ky0_m = 0.013,
-                   .ky1_m = 0.02},
+  return {.mean = named_soils::firm_regolith(),
           .standard_deviation = {.cohesion_pa = 50,
                                  .friction_angle_rad = 2 * kDegree,
                                  .kc = 350,
@@ -51,19 +37,7 @@ UncertainSoil firm_regolith() {
 }
 
 UncertainSoil loose_regolith() {
-  return {.mean = {.cohesion_pa = 100,
-                   .friction_angle_rad = 33 * kDegree,
-                   .kc = 900,
-                   .kphi = 4.5e5,
-                   .n = 1,
-                   .a0 = 0.4,
-                   .a1 = 0.15,
-                   .lambda = 0.9,
-                   .density_kgpm3 = 1350,
-                   .kx0_m = 0.025,
-                   .kx1_m = 0.043,
-                   .ky0_m = 0.018,
-                   .ky1_m = 0.02},
+  return {.mean = named_soils::loose_regolith(),
           .standard_deviation = {.cohesion_pa = 40,
                                  .friction_angle_rad = 2 * kDegree,
                                  .kc = 225,
@@ -170,10 +144,7 @@ double rms_m(const Course& course, const UncertainSoil& soil, FollowerChoice fol
   const double longest_s = problem.vehicle.speed_max_mps > 1 ? 0.025 : 0.25;
   const IndependentSimulator simulator(
       problem.vehicle, truth, problem.gravity_mps2,
-      [&](double x, double y, double yaw) {
-        GroundPatch patch = course.planned.dynamics().ground(x, y, yaw);
-        return patch;
-      },
+      [&](double x, double y, double yaw) { return course.planned.dynamics().ground(x, y, yaw); },
       longest_s);
   const DriveResult result = drive(course.planned, simulator, course.path, false,
                                    {.follower = follower,

@@ -5,116 +5,15 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "benchmarks/drives/linear_system.h"
+#include "benchmarks/drives/load_shares.h"
+#include "benchmarks/drives/rim_integral.h"
+
 namespace regoplan::drives {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kFadeSpeed_mps = 1e-3, kTransferLag_s = 0.1;
-
-/// Nodes and weights on (-1, 1), by Newton's method on the Legendre polynomial.
-template <int kNodes>
-struct Quadrature {
-  std::array<double, kNodes> node{}, weight{};
-  Quadrature() {
-    for (int i = 0; i < kNodes; ++i) {
-      double x = std::cos(kPi * (i + 0.75) / (kNodes + 0.5)), slope = 1;
-      for (int round = 0; round < 50; ++round) {
-        double below = 1, here = x;
-        for (int k = 2; k <= kNodes; ++k) {
-          const double next = ((2 * k - 1) * x * here - (k - 1) * below) / k;
-          below = here;
-          here = next;
-        }
-        slope = kNodes * (x * here - below) / (x * x - 1);
-        x -= here / slope;
-      }
-      node.at(static_cast<std::size_t>(i)) = x;
-      weight.at(static_cast<std::size_t>(i)) = 2 / ((1 - x * x) * slope * slope);
-    }
-  }
-};
-
-/// What the rim feels at a sinkage, per wheel.
-struct Contact {
-  double up = 0, along = 0, aside = 0, torque = 0;
-};
-
-/// One wheel in one state of motion; the sinkage is asked for.
-class RimIntegral {
- public:
-  RimIntegral(const Wheel& wheel, const Soil& soil, double gravity, double along, double left,
-              double rim)
-      : wheel_(wheel), soil_(soil), gravity_(gravity) {
-    ratio_ = along / rim;  // of a rim that turns forward
-    sideways_ = std::abs(left) / rim;
-    beta_ = std::atan2(std::abs(left), std::abs(along));
-    slip_ = rim > along ? (rim - along) / rim : (rim - along) / along;
-    kx_ = soil.kx0_m + soil.kx1_m * beta_;
-    ky_ = soil.ky0_m + soil.ky1_m * beta_;
-    stiffness_ = std::pow(wheel.radius_m, soil.n) * (soil.kc / wheel.width_m + soil.kphi);
-  }
-
-  Contact at(double sinkage, bool whole = false) const {
-    const double r = wheel_.radius_m;
-    const double front = std::acos(1 - sinkage / r);
-    const double rear = -std::acos(1 - std::min(soil_.lambda * sinkage / r, 2.0));
-    const double peak = (soil_.a0 + soil_.a1 * slip_) * front;
-    Contact sum;
-    add(sum, rear, peak, front, rear, peak);
-    add(sum, peak, front, front, rear, peak);
-    if (!whole) return sum;
-    const double mobilised = 1 - std::exp(-r * sideways_ * (front - rear) / ky_);
-    sum.aside += mobilised * bulldozed(front, rear);
-    return sum;
-  }
-
- private:
-  void add(Contact& sum, double from, double to, double front, double rear, double peak) const {
-    static const Quadrature<8> rule;
-    const double r = wheel_.radius_m, b = wheel_.width_m, half = (to - from) / 2;
-    for (std::size_t i = 0; i < rule.node.size(); ++i) {
-      const double angle = (from + to) / 2 + half * rule.node[i];
-      const double mirrored =
-          angle >= peak ? angle : front - (angle - rear) / (peak - rear) * (front - peak);
-      const double depth = std::max(std::cos(mirrored) - std::cos(front), 0.0);
-      const double pressure = stiffness_ * (soil_.n == 1 ? depth : std::pow(depth, soil_.n));
-      const double strength = soil_.cohesion_pa + pressure * std::tan(soil_.friction_angle_rad);
-      const double jx = r * (front - angle - ratio_ * (std::sin(front) - std::sin(angle)));
-      const double jy = r * sideways_ * (front - angle);
-      const double tx = std::copysign(strength * -std::expm1(-std::abs(jx) / kx_), jx);
-      const double ty = strength * -std::expm1(-jy / ky_);
-      const double area = r * b * half * rule.weight[i];
-      sum.up += area * (tx * std::sin(angle) + pressure * std::cos(angle));
-      sum.along += area * (tx * std::cos(angle) - pressure * std::sin(angle));
-      sum.aside += area * ty;
-      sum.torque += area * r * tx;
-    }
-  }
-
-  double bulldozed(double front, double rear) const {
-    static const Quadrature<8> rule;
-    const double phi = soil_.friction_angle_rad, wedge = kPi / 4 - phi / 2;
-    const double cot = 1 / std::tan(wedge);
-    const double d1 = cot + std::tan(wedge + phi), d2 = cot + cot * cot / std::tan(phi);
-    const double r = wheel_.radius_m;
-    double sum = 0;
-    // Where the rim is above the soil it pushes nothing: the rear part beyond the front's angle.
-    const double from = std::max(rear, -front), half = (front - from) / 2;
-    for (std::size_t i = 0; i < rule.node.size(); ++i) {
-      const double angle = (from + front) / 2 + half * rule.node[i];
-      const double deep = std::max(r * (std::cos(angle) - std::cos(front)), 0.0);
-      const double resistance =
-          d1 * (soil_.cohesion_pa * deep + d2 * soil_.density_kgpm3 * gravity_ * deep * deep / 2);
-      sum += half * rule.weight[i] * resistance * (r - deep * std::cos(angle));
-    }
-    return sum;
-  }
-
-  const Wheel& wheel_;
-  const Soil& soil_;
-  double gravity_, ratio_ = 1, sideways_ = 0, beta_ = 0, slip_ = 0, kx_ = 1, ky_ = 1;
-  double stiffness_ = 0;
-};
 
 double faded(double force, double a, double b) {
   const double speed = std::hypot(a, b);
@@ -123,95 +22,6 @@ double faded(double force, double a, double b) {
 
 double moved_to(double value, double target, double most) {
   return value + std::clamp(target - value, -most, most);
-}
-
-/// Solves a small linear system by elimination.
-template <std::size_t kSize>
-std::array<double, kSize> solved(std::array<std::array<double, kSize + 1>, kSize> rows) {
-  for (std::size_t i = 0; i < kSize; ++i) {
-    std::size_t best = i;
-    for (std::size_t k = i + 1; k < kSize; ++k) {
-      if (std::abs(rows[k][i]) > std::abs(rows[best][i])) best = k;
-    }
-    std::swap(rows[i], rows[best]);
-    for (std::size_t k = 0; k < kSize; ++k) {
-      if (k == i) continue;
-      const double share = rows[k][i] / rows[i][i];
-      for (std::size_t column = i; column <= kSize; ++column) {
-        rows[k][column] -= share * rows[i][column];
-      }
-    }
-  }
-  std::array<double, kSize> answer{};
-  for (std::size_t i = 0; i < kSize; ++i) answer[i] = rows[i][kSize] / rows[i][i];
-  return answer;
-}
-
-/// Loads for a normal force, a force along and one to the left, of one newton each.
-std::vector<std::array<double, 3>> sprung(const Vehicle& v) {
-  double sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
-  for (const WheelMount& w : v.wheels) {
-    sx += w.x_m;
-    sy += w.y_m;
-    sxx += w.x_m * w.x_m;
-    sxy += w.x_m * w.y_m;
-    syy += w.y_m * w.y_m;
-  }
-  const auto count = static_cast<double>(v.wheels.size());
-  std::vector<std::array<double, 3>> shares(v.wheels.size());
-  const double right_side[3][3] = {{1, 0, 0}, {0, -v.cg_height_m, 0}, {0, 0, -v.cg_height_m}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [a, b, c] = solved<3>({{{count, sx, sy, right_side[k][0]},
-                                       {sx, sxx, sxy, right_side[k][1]},
-                                       {sy, sxy, syy, right_side[k][2]}}});
-    for (std::size_t i = 0; i < v.wheels.size(); ++i) {
-      shares[i][k] = a + b * v.wheels[i].x_m + c * v.wheels[i].y_m;
-    }
-  }
-  return shares;
-}
-
-/// Rocker and bogie of each side; front, middle and rear are told by x.
-std::vector<std::array<double, 3>> rocking(const Vehicle& v) {
-  const double rocker = v.rocker_bogie->rocker_pivot_x_m;
-  const double bogie = v.rocker_bogie->bogie_pivot_x_m;
-  std::array<std::array<std::size_t, 3>, 2> sides{};  // left, right: front, middle, rear
-  for (std::size_t side = 0; side < 2; ++side) {
-    std::vector<std::size_t> of_side;
-    for (std::size_t i = 0; i < v.wheels.size(); ++i) {
-      if ((v.wheels[i].y_m > 0) == (side == 0)) of_side.push_back(i);
-    }
-    std::ranges::sort(
-        of_side, [&](std::size_t a, std::size_t b) { return v.wheels[a].x_m > v.wheels[b].x_m; });
-    std::ranges::copy(of_side, sides[side].begin());
-  }
-  /// Loads of a side's wheels for its load and its half of the pitch moment.
-  const auto split = [&](std::size_t side, double load, double moment) {
-    const auto [f, m, r] = sides[side];
-    const double front = (load * (rocker - bogie) + moment) / (v.wheels[f].x_m - bogie);
-    const double rest = load - front;
-    const double middle = rest * (bogie - v.wheels[r].x_m) / (v.wheels[m].x_m - v.wheels[r].x_m);
-    return std::array{front, middle, rest - middle};
-  };
-  const auto roll = [&](std::size_t side, const std::array<double, 3>& loads) {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += loads[i] * v.wheels[sides[side][i]].y_m;
-    return sum;
-  };
-  std::vector<std::array<double, 3>> shares(v.wheels.size());
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double normal = k == 0 ? 1 : 0;
-    const double pitch = k == 1 ? -v.cg_height_m : 0, lean = k == 2 ? -v.cg_height_m : 0;
-    const double moment = (pitch - normal * rocker) / 2;
-    const double unit_left = roll(0, split(0, 1, 0)), unit_right = roll(1, split(1, 1, 0));
-    const double given = roll(0, split(0, 0, moment)) + roll(1, split(1, 0, moment));
-    const auto [left, right] = solved<2>({{{1, 1, normal}, {unit_left, unit_right, lean - given}}});
-    for (std::size_t side = 0; side < 2; ++side) {
-      const auto loads = split(side, side == 0 ? left : right, moment);
-      for (std::size_t i = 0; i < 3; ++i) shares[sides[side][i]][k] = loads[i];
-    }
-  }
-  return shares;
 }
 
 }  // namespace
@@ -233,7 +43,7 @@ IndependentSimulator::IndependentSimulator(const Vehicle& vehicle, const Soil& s
       gravity_(gravity_mps2),
       ground_(std::move(ground)),
       longest_step_s_(longest_step_s),
-      shares_(vehicle.rocker_bogie ? rocking(vehicle) : sprung(vehicle)) {}
+      shares_(load_shares(vehicle)) {}
 
 double IndependentSimulator::load(std::size_t wheel, double normal, double along,
                                   double left) const {

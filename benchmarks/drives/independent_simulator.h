@@ -13,16 +13,14 @@ namespace regoplan::drives {
 /// tells it.
 ///
 /// Wheel: Gauss-Legendre quadrature on both sides of the angle of the largest stress, the sinkage
-/// by the secant method. Body: Newton's equations in the plane of the ground, by the two-step
-/// backward difference formula of second order (BDF2), started by the backward Euler method; load
-/// transfer and the fading of forces near standstill as the physics that both simulators are to
-/// agree in. For vehicles whose every wheel is driven at its kinematic speed, and that roll
-/// forward.
+/// by the secant method. Body: Newton's equations in the plane of the ground, by TR-BDF2, in halved
+/// steps where that finds no balance; load transfer and the fading of forces near standstill as the
+/// physics that both simulators are to agree in. For vehicles whose every wheel is driven at its
+/// kinematic speed, and that roll forward.
 class IndependentSimulator : public DrivenWorld {
  public:
-  using Slopes = std::array<double, 3>;  ///< known (not 0), along the heading, to its left
-
-  /// \param soil under every wheel \param ground of a place and heading; both must outlive it
+  /// \param vehicle must outlive it \param soil under every wheel
+  /// \param ground of a place and heading
   IndependentSimulator(const Vehicle& vehicle, const Soil& soil, double gravity_mps2,
                        VehicleDynamics::Ground ground, double longest_step_s);
 

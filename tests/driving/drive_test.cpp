@@ -7,24 +7,13 @@
 #include "driving/true_world.h"
 #include "planner/evaluation/manoeuvres.h"
 #include "terramech/basics/angles.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
 
 UncertainSoil regolith() {
-  return {.mean = {.cohesion_pa = 170,
-                   .friction_angle_rad = 36 * kDegree,
-                   .kc = 1400,
-                   .kphi = 8.2e5,
-                   .n = 1,
-                   .a0 = 0.4,
-                   .a1 = 0.15,
-                   .lambda = 0.9,
-                   .density_kgpm3 = 1500,
-                   .kx0_m = 0.018,
-                   .kx1_m = 0.043,
-                   .ky0_m = 0.013,
-                   .ky1_m = 0.02}};
+  return {.mean = named_soils::firm_regolith()};
 }
 
 /// A traverse of a side slope by the lunar rover, ready to be driven.
