@@ -62,7 +62,7 @@ class Drive {
         ends_in_goal_(ends_in_goal),
         settings_(settings),
         vehicle_(planned.problem().vehicle),
-        step_s_(drive_step_s(path.speed.speed_max_mps())),
+        step_s_(drive_step_s(path.speed_max_mps())),
         steps_per_row_(static_cast<int>(std::lround(row_interval_s(step_s_) / step_s_))),
         choice_(with_wait_for_fixes(settings.follower, settings.sensors)),
         follower_(make_follower(choice_, planned, path)),
@@ -71,15 +71,15 @@ class Drive {
         sensors_(settings.sensors.value_or(everything()), vehicle_, settings.seed),
         scatter_(settings.sensors ? settings.sensors->scatter : GroundScatter{}, settings.seed) {
     constexpr double kMarginsEvery_s = 0.5, kMarginsEvery_m = 0.25;
-    const double every_s = std::max(kMarginsEvery_s, kMarginsEvery_m / path.speed.speed_max_mps());
+    const double every_s = std::max(kMarginsEvery_s, kMarginsEvery_m / path.speed_max_mps());
     steps_per_margin_ = std::max(1, static_cast<int>(std::lround(every_s / step_s_)));
     result_.law = choice_.law;
     if (settings.sensors) filter_.emplace(vehicle_, state_, noise_of(*settings.sensors));
   }
 
   DriveResult run(const std::function<void(double)>& progress) {
-    const double length_m = path_.curve.length_m();
-    const double patience_s = 2 * path_.speed.duration_s(length_m) + 20 + 200 * step_s_;
+    const double length_m = path_.length_m();
+    const double patience_s = 2 * path_.duration_s() + 20 + 200 * step_s_;
     bool goes_on = judge_place() && note();
     while (goes_on && !follower_->arrived(step_s_)) {
       if (result_.duration_s > patience_s) {
@@ -100,6 +100,9 @@ class Drive {
   }
 
  private:
+  const PathLeg& leg() const { return path_.legs[follower_->leg()]; }
+  double s_on_leg_m() const { return s_m_ - path_.leg_start_m(follower_->leg()); }
+
   bool step(const VehicleControl& control) {
     if (settings_.stop.stop_requested()) {
       result_.interrupted = true;
@@ -140,8 +143,11 @@ class Drive {
 
   /// Where the vehicle truly is beside its path.
   void locate(double way_m) {
-    s_m_ = nearest_m(path_.curve, state_.x_m, state_.y_m, s_m_);
-    offset_ = offset_m(path_.curve.at(s_m_), state_.x_m, state_.y_m);
+    const double start_m = path_.leg_start_m(follower_->leg());
+    const PathCurve& curve = leg().curve;
+    const double s_m = nearest_m(curve, state_.x_m, state_.y_m, std::max(s_m_ - start_m, 0.0));
+    s_m_ = start_m + s_m;
+    offset_ = offset_m(curve.at(s_m), state_.x_m, state_.y_m);
     squares_m3_ += way_m * offset_ * offset_;
     result_.cross_track_max_m = std::max(result_.cross_track_max_m, std::abs(offset_));
   }
@@ -191,7 +197,7 @@ class Drive {
     row_ = sensors_.sample(truth);
     if (std::isfinite(row_.yaw_rate_rad_s)) yaw_rate_seen_ = row_.yaw_rate_rad_s;
     if (row_.wheel_speed_rad_s.empty()) return;
-    const double least_mps = 0.01 * path_.speed.speed_max_mps();
+    const double least_mps = 0.01 * path_.speed_max_mps();
     if (std::abs(state_.rim_speed_mps) < least_mps) return;
     const auto set = steered_wheels(vehicle_, {state_.curvature_1pm, state_.crab_rad});
     double sum = 0, driven = 0;
@@ -208,8 +214,8 @@ class Drive {
     if (steps_ == 0) sense();
     result_.rows.push_back(row_);
     const double course = std::atan2(state_.motion.vy_mps, state_.motion.vx_mps) + state_.yaw_rad;
-    const bool moves = speed_of(state_) > 0.01 * path_.speed.speed_max_mps();
-    const CurvePlace place = path_.curve.at(s_m_);
+    const bool moves = speed_of(state_) > 0.01 * path_.speed_max_mps();
+    const CurvePlace place = leg().curve.at(s_on_leg_m());
     result_.moments.push_back(
         {.time_s = result_.duration_s,
          .s_m = s_m_,
@@ -283,10 +289,10 @@ class Drive {
     if (!patch.known) return;
     VehicleState manoeuvre = state_;
     if (!braking_) {
-      const double direction = path_.reverse ? -1 : 1;
-      manoeuvre.curvature_1pm = std::clamp(path_.curvature_1pm(s_m_), -vehicle_.curvature_max_1pm,
+      const double s_m = s_on_leg_m();
+      manoeuvre.curvature_1pm = std::clamp(leg().curvature_1pm(s_m), -vehicle_.curvature_max_1pm,
                                            vehicle_.curvature_max_1pm);
-      manoeuvre.rim_acceleration_mps2 = direction * path_.speed.at(s_m_).acceleration_mps2;
+      manoeuvre.rim_acceleration_mps2 = leg().direction() * leg().speed.at(s_m).acceleration_mps2;
     }
     const StateMargins margins = truth_.margins(manoeuvre, patch);
     const double cornering = margins.cornering.value_or(-1);

@@ -11,9 +11,9 @@ regoplan::PathEvaluation judged(double speed_mps) {
   const World world(problem, WorldUse::kVerdict, 1);
   PathCurve curve({{10, 25}, {20, 25}, {27, 28}, {30, 35}, {30, 45}});  // a turn to the left
   const double length_m = curve.length_m();
-  const ReferencePath path{.name = "turn",
-                           .curve = std::move(curve),
-                           .speed = SpeedProfile({{0, speed_mps}, {length_m, speed_mps}})};
+  const ReferencePath path{
+      .name = "turn",
+      .legs = {{std::move(curve), SpeedProfile({{0, speed_mps}, {length_m, speed_mps}})}}};
   return evaluate(world, path, {.soil_draws = 20});
 }
 

@@ -30,7 +30,7 @@ struct Options {
 };
 
 bool leads_to_the_goal(const ReferencePath& path, const Goal& goal) {
-  const CurvePlace end = path.curve.at(path.curve.length_m());
+  const CurvePlace end = path.end();
   return std::hypot(end.x_m - goal.x_m, end.y_m - goal.y_m) <= goal.radius_m;
 }
 

@@ -126,16 +126,16 @@ Candidate driven_path(const PlanningProblem& problem, const DriveRecord& record,
 
 Candidate planned_path(const ReferencePath& path) {
   constexpr int kPlaces = 1000;
-  Candidate planned{.length_m = path.curve.length_m(),
-                    .duration_s = path.speed.duration_s(path.curve.length_m())};
+  Candidate planned{.length_m = path.length_m(), .duration_s = path.duration_s()};
   for (int i = 0; i < kPlaces; ++i) {
-    const double s_m = path.curve.length_m() * i / (kPlaces - 1);
-    const CurvePlace place = path.curve.at(s_m);
-    planned.points.push_back({.time_s = path.speed.duration_s(s_m),
+    const double s_m = path.length_m() * i / (kPlaces - 1);
+    const ReferencePath::Place at = path.place(s_m);
+    const CurvePlace place = at.on_curve();
+    planned.points.push_back({.time_s = at.time_s(),
                               .x_m = place.x_m,
                               .y_m = place.y_m,
                               .yaw_rad = place.heading_rad,
-                              .speed_mps = path.speed.at(s_m).speed_mps,
+                              .speed_mps = at.speed().speed_mps,
                               .cornering_margin = kNone,
                               .tip_over_margin = kNone,
                               .traction_margin = kNone,
@@ -175,15 +175,19 @@ class DrivenColumns {
 
 void add_motion(DrivenColumns& columns, const ReferencePath& path) {
   using M = DriveMoment;
-  const double direction = path.reverse ? -1 : 1;
   columns.add("s_m", 3, [](const M& m) { return m.s_m; });
   columns.add("cross_track_m", 4, [](const M& m) { return m.offset_m; });
   columns.add("course_error_deg", 3, [](const M& m) { return degrees(m.heading_error_rad); });
-  columns.add("speed_planned_mps", 3,
-              [&](const M& m) { return direction * path.speed.at(m.s_m).speed_mps; });
+  columns.add("speed_planned_mps", 3, [&](const M& m) {
+    const ReferencePath::Place place = path.place(m.s_m);
+    return place.leg.direction() * place.speed().speed_mps;
+  });
   columns.add("rim_speed_asked_mps", 3, [](const M& m) { return m.asked.speed_target_mps; });
   columns.add("rim_speed_mps", 3, [](const M& m) { return m.state.rim_speed_mps; });
-  columns.add("curvature_planned_1pm", 5, [&](const M& m) { return path.curvature_1pm(m.s_m); });
+  columns.add("curvature_planned_1pm", 5, [&](const M& m) {
+    const ReferencePath::Place place = path.place(m.s_m);
+    return place.leg.curvature_1pm(place.s_m);
+  });
   columns.add("curvature_asked_1pm", 5, [](const M& m) { return m.asked.curvature_target_1pm; });
   columns.add("seen_off_m", 4, [](const M& m) {
     return std::hypot(m.seen.x_m - m.state.x_m, m.seen.y_m - m.state.y_m);
@@ -241,13 +245,13 @@ void add_ends(json& data, const ReferencePath& path, const DriveRecord& record,
               const TrueWorld& world) {
   const std::vector<DriveMoment>& moments = record.result.moments;
   const VehicleState start =
-      moments.empty() ? path.state_at(world.known_vehicle(), 0) : moments.front().state;
+      moments.empty() ? start_of(path, world.known_vehicle()) : moments.front().state;
   data["problem"]["start"] = {{"x_m", start.x_m},
                               {"y_m", start.y_m},
                               {"heading_deg", degrees(start.yaw_rad)},
                               {"speed_mps", 0}};
   if (record.ends_in_goal) return;
-  const CurvePlace end = path.curve.at(path.curve.length_m());
+  const CurvePlace end = path.end();
   data["problem"]["goal"] = {{"x_m", end.x_m}, {"y_m", end.y_m}, {"radius_m", 0}, {"label", "End"}};
 }
 

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <optional>
+#include <ranges>
 
 #include "app/io/csv_cells.h"
 #include "app/io/number_text.h"
@@ -113,18 +115,25 @@ bool is_candidate(const PathTable& table) {
                              [&](const char* column) { return table.has(column); });
 }
 
+/// Rows of a table that are driven in one direction; the last is the first of the next ones.
+struct RowRange {
+  std::size_t first = 0, last = 0;
+  bool reverse = false;
+  double stands_s = 0;  ///< before it
+};
+
 /// A point beyond the map is out of bounds, a verdict; one beyond its surroundings is a mistake.
-PathCurve curve_of(const PathTable& table, const GridFrame& map) {
+PathCurve curve_of(const PathTable& table, const RowRange& rows, const GridFrame& map) {
   constexpr const char* kWhy = ", the map and as far around it as its diagonal";
   const double diagonal_m = std::hypot(map.east_m() - map.west_m, map.north_m - map.south_m());
   const ValueRange x{.min = map.west_m - diagonal_m, .max = map.east_m() + diagonal_m};
   const ValueRange y{.min = map.south_m() - diagonal_m, .max = map.north_m + diagonal_m};
   std::vector<PathPoint> points;
-  for (std::size_t i = 0; i < table.rows(); ++i) {
+  for (std::size_t i = rows.first; i <= rows.last && i < table.rows(); ++i) {
     points.push_back(
         {.x_m = table.number(i, "x_m", x, kWhy), .y_m = table.number(i, "y_m", y, kWhy)});
   }
-  const int last_line = table.rows() == 0 ? 1 : table.line(table.rows() - 1);
+  const int last_line = table.rows() == 0 ? 1 : table.line(std::min(rows.last, table.rows() - 1));
   try {
     PathCurve curve(points);
     if (curve.length_m() <= kCourseLengthMax_m) return curve;
@@ -195,40 +204,93 @@ void add_accelerations(std::vector<RecordedMoment>& moments, double most_mps2) {
   }
 }
 
+/// At rest on a slope a vehicle may creep so fast against its direction.
+constexpr double kCreep_mps = VehicleDynamics::kStandstillSpeed_mps;
+
+/// The slowest moment about a change of direction ends one range and begins the next.
+std::vector<RowRange> ranges_of(const std::vector<RecordedMoment>& moments) {
+  const auto speed = [&](std::size_t i) { return moments[i].state.motion.vx_mps; };
+  const auto slower = [&](std::size_t a, std::size_t b) {
+    return std::abs(speed(a)) < std::abs(speed(b));
+  };
+  std::vector<RowRange> ranges{{.first = 0, .last = moments.size() - 1}};
+  std::optional<std::size_t> moved;  // the last moment that moves
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    if (std::abs(speed(i)) <= kCreep_mps) continue;
+    const bool reverse = speed(i) < 0;
+    if (moved && reverse != ranges.back().reverse) {
+      const auto between = std::views::iota(*moved, i + 1);
+      ranges.back().last = *std::ranges::min_element(between, slower);
+      ranges.push_back({.first = ranges.back().last,
+                        .last = moments.size() - 1,
+                        .stands_s = moments[i].time_s - moments[*moved].time_s});
+    }
+    ranges.back().reverse = reverse;
+    moved = i;
+  }
+  return ranges;
+}
+
+/// Speeds of a range's rows along its curve; the vehicle stands where its direction changes.
+SpeedProfile speed_of(const std::vector<RecordedMoment>& moments, const RowRange& rows,
+                      const PathCurve& curve) {
+  std::vector<SpeedProfile::Node> nodes;
+  for (std::size_t i = rows.first; i <= rows.last; ++i) {
+    const bool changes = (i == rows.first && i > 0) || (i == rows.last && i + 1 < moments.size());
+    const double along = (rows.reverse ? -1 : 1) * moments[i].state.motion.vx_mps;
+    const double speed = changes ? 0 : std::max(0.0, along);
+    const double s_m = curve.point_arc_m()[i - rows.first];
+    if (!nodes.empty() && !(s_m > nodes.back().s_m)) {
+      if (changes) nodes.back().speed_mps = 0;
+      continue;
+    }
+    const bool both_rest = !nodes.empty() && nodes.back().speed_mps + speed <= 0;
+    nodes.push_back({s_m, both_rest ? 1e-3 : speed});
+  }
+  return SpeedProfile(std::move(nodes));
+}
+
 GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
                          double speed_max_mps) {
   const Vehicle& vehicle = problem.vehicle;
-  PathCurve curve = curve_of(table, problem.map.elevation().frame);
-  std::vector<RecordedMoment> moments;
-  std::vector<SpeedProfile::Node> nodes;
-  double margin_min = std::numeric_limits<double>::infinity();
+  // Rolling downhill, the vehicle itself may be a little faster than its limit.
+  constexpr double kRounding = 1e-3;
+  const double fastest_mps = speed_max_mps * (1 + kRounding);
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    // Rolling downhill, the vehicle itself may be a little faster than its limit.
-    constexpr double kRounding = 1e-3;
-    // At rest on a slope it may creep backwards.
-    constexpr double kCreep_mps = VehicleDynamics::kStandstillSpeed_mps;
-    table.number(i, "speed_mps", {.min = -kCreep_mps, .max = speed_max_mps * (1 + kRounding)},
-                 ", the largest speed");
-    RecordedMoment moment = moment_at(table, i, vehicle);
-    moment.s_m = curve.point_arc_m()[i];
-    if (!moments.empty() && !(moment.time_s > moments.back().time_s)) {
+    table.number(i, "speed_mps", {.min = -fastest_mps, .max = fastest_mps}, ", the largest speed");
+  }
+  std::vector<RecordedMoment> moments;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const double before_s = moments.empty() ? -1 : moments.back().time_s;
+    moments.push_back(moment_at(table, i, vehicle));
+    if (!(moments.back().time_s > before_s)) {
       throw table.error(table.line(i), fmt::format("time_s: {} is not valid (allowed: above {}, "
                                                    "the row before)",
-                                                   moment.time_s, moments.back().time_s));
+                                                   moments.back().time_s, before_s));
     }
-    const double speed = std::max(0.0, moment.state.motion.vx_mps);
-    if (nodes.empty() || moment.s_m > nodes.back().s_m) {
-      const bool both_rest = !nodes.empty() && nodes.back().speed_mps + speed <= 0;
-      nodes.push_back({moment.s_m, both_rest ? 1e-3 : speed});
-    }
-    margin_min = std::min(margin_min, table.number_if_any(i, "margin").value_or(margin_min));
-    moments.push_back(moment);
   }
   if (!table.has("acceleration_mps2")) add_accelerations(moments, vehicle.acceleration_max_mps2);
-  return {.path = {.name = table.file(),
-                   .curve = std::move(curve),
-                   .speed = SpeedProfile(std::move(nodes)),
-                   .recorded = std::move(moments)},
+  std::vector<PathLeg> legs;
+  for (const RowRange& rows : ranges_of(moments)) {
+    PathCurve curve = curve_of(table, rows, problem.map.elevation().frame);
+    SpeedProfile speed = speed_of(moments, rows, curve);
+    // A row that two legs share is of the former's record.
+    std::vector<RecordedMoment> recorded;
+    for (std::size_t i = legs.empty() ? rows.first : rows.first + 1; i <= rows.last; ++i) {
+      recorded.push_back(moments[i]);
+      recorded.back().s_m = curve.point_arc_m()[i - rows.first];
+    }
+    legs.push_back({.curve = std::move(curve),
+                    .speed = std::move(speed),
+                    .recorded = std::move(recorded),
+                    .reverse = rows.reverse,
+                    .stands_s = rows.stands_s});
+  }
+  double margin_min = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    margin_min = std::min(margin_min, table.number_if_any(i, "margin").value_or(margin_min));
+  }
+  return {.path = {.name = table.file(), .legs = std::move(legs)},
           .recorded_margin_min = margin_min,
           .notices = {}};
 }
@@ -296,7 +358,8 @@ SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const V
 }
 
 GivenPath point_path(const PathTable& table, const PlanningProblem& problem, double speed_max_mps) {
-  PathCurve curve = curve_of(table, problem.map.elevation().frame);
+  PathCurve curve =
+      curve_of(table, {.first = 0, .last = table.rows()}, problem.map.elevation().frame);
   std::vector<std::string> notices;
   if (curve.thinned() > 0) {
     notices.push_back(fmt::format("{}: {} points nearer than {} m to the one before are left out",
@@ -316,9 +379,9 @@ GivenPath point_path(const PathTable& table, const PlanningProblem& problem, dou
                                  {{0, speed_max_mps}, {curve.length_m(), speed_max_mps}},
                                  problem.start.speed_mps, 0, problem.vehicle.acceleration_max_mps2);
   return {.path = {.name = table.file(),
-                   .curve = std::move(curve),
-                   .speed = std::move(speed),
-                   .reverse = drives_in_reverse(table)},
+                   .legs = {{.curve = std::move(curve),
+                             .speed = std::move(speed),
+                             .reverse = drives_in_reverse(table)}}},
           .recorded_margin_min = {},
           .notices = std::move(notices)};
 }
@@ -332,8 +395,7 @@ GivenPath read_path(const std::string& file, const PlanningProblem& problem, dou
   const ReferencePath& path = given.path;
   if (!(drive_steps(path) <= kDriveStepsMax)) {
     throw InputError(fmt::format("{}: at its speeds it takes {:.3g} s (allowed: at most {:.3g} s)",
-                                 file, path.speed.duration_s(path.curve.length_m()),
-                                 drive_time_max_s(path.speed.speed_max_mps())));
+                                 file, path.duration_s(), drive_time_max_s(path.speed_max_mps())));
   }
   return given;
 }

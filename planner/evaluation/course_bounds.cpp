@@ -5,7 +5,7 @@
 namespace regoplan {
 
 double drive_steps(const ReferencePath& path) {
-  return path.speed.duration_s(path.curve.length_m()) / tracking_step_s(path.speed.speed_max_mps());
+  return path.duration_s() / tracking_step_s(path.speed_max_mps());
 }
 
 double drive_steps(const SpotTurn& turn, const Vehicle& vehicle) {

@@ -16,16 +16,21 @@ namespace {
 
 std::vector<Station> stations_of(const ReferencePath& path, const Vehicle& vehicle) {
   std::vector<Station> stations;
-  for (const RecordedMoment& moment : path.recorded) {
-    stations.push_back({moment.s_m, moment.time_s, moment.state});
+  double way_m = 0;
+  for (const PathLeg& leg : path.legs) {
+    for (const RecordedMoment& moment : leg.recorded) {
+      stations.push_back({way_m + moment.s_m, moment.time_s, moment.state});
+    }
+    way_m += leg.length_m();
   }
   if (!stations.empty()) return stations;
   constexpr double kApart_m = 0.5;
-  const double length = path.curve.length_m();
+  const double length = path.length_m();
   const int pieces = std::max(4, static_cast<int>(std::ceil(length / kApart_m)));
   for (int k = 0; k <= pieces; ++k) {
     const double s = length * k / pieces;
-    stations.push_back({s, path.speed.duration_s(s), path.state_at(vehicle, s)});
+    const ReferencePath::Place place = path.place(s);
+    stations.push_back({s, place.time_s(), place.leg.state_at(vehicle, place.s_m)});
   }
   return stations;
 }
@@ -205,9 +210,9 @@ PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
   const TrackingRun run = track(verdict, path, settings.follower, allowed_m, settings.stop);
   return judged(verdict,
                 {.name = path.name,
-                 .length_m = path.curve.length_m(),
-                 .duration_s = path.speed.duration_s(path.curve.length_m()),
-                 .speed_max_mps = path.speed.speed_max_mps(),
+                 .length_m = path.length_m(),
+                 .duration_s = path.duration_s(),
+                 .speed_max_mps = path.speed_max_mps(),
                  .stations = stations_of(path, vehicle),
                  .run = run,
                  .deviation_allowed_m = allowed_m,

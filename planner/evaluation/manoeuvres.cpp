@@ -169,11 +169,8 @@ std::variant<ReferencePath, SpotTurn> course_of(const Manoeuvre& m,
   }
   PathCurve curve(points);
   SpeedProfile speed = speed_of(m, curve);
-  return ReferencePath{.name = m.name,
-                       .curve = std::move(curve),
-                       .speed = std::move(speed),
-                       .recorded = {},
-                       .goes_on = true};
+  return ReferencePath{
+      .name = m.name, .legs = {{std::move(curve), std::move(speed)}}, .goes_on = true};
 }
 
 /// Offsets and amplitudes count as well.

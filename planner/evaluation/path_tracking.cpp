@@ -16,12 +16,11 @@ class Tracker {
       : path_(path),
         follower_(make_follower(choice, world, path)),
         drive_(world, start_of(path, world.problem().vehicle),
-               tracking_step_s(path.speed.speed_max_mps()), deviation_max_m, stop) {}
+               tracking_step_s(path.speed_max_mps()), deviation_max_m, stop) {}
 
   TrackingRun drive() {
     const double step_s = drive_.step_s();
-    const double patience_s =
-        2 * path_.speed.duration_s(path_.curve.length_m()) + 20 + 200 * step_s;
+    const double patience_s = 2 * path_.duration_s() + 20 + 200 * step_s;
     if (const auto end = drive_.begin()) return drive_.finish(*end);
     while (!follower_->arrived(step_s)) {
       if (drive_.now().time_s > patience_s) return drive_.finish(TrackingEnd::kStalled);

@@ -13,6 +13,9 @@
 namespace regoplan {
 namespace {
 
+/// Slower, as a share of the path's top speed, a vehicle has no course.
+constexpr double kStands = 0.01;
+
 double angle_between(double to_rad, double from_rad) {
   return std::remainder(to_rad - from_rad, 2 * std::numbers::pi);
 }
@@ -22,10 +25,10 @@ class PursuitFollower : public Follower {
   using Follower::Follower;
 
  protected:
-  FeedForward ahead(double s_m) const override {
-    return {.curvature_1pm = path().curvature_1pm(s_m)};
+  FeedForward ahead(std::size_t leg, double s_m) const override {
+    return {.curvature_1pm = path().legs[leg].curvature_1pm(s_m)};
   }
-  ForeseenSlip foreseen_at(double) const override { return {}; }
+  ForeseenSlip foreseen_at(std::size_t, double) const override { return {}; }
 };
 
 /// Steering angles and rim speeds that the trims need are fed forward, as in G. Ishigami,
@@ -35,15 +38,19 @@ class PursuitFollower : public Follower {
 class CompensatedFollower : public Follower {
  public:
   CompensatedFollower(const World& planned, const ReferencePath& path, const SteeringLaw& law)
-      : Follower(planned.problem().vehicle, path, law), schedule_(planned, path) {}
+      : Follower(planned.problem().vehicle, path, law) {
+    for (const PathLeg& leg : path.legs) schedules_.emplace_back(planned, leg);
+  }
 
  protected:
-  FeedForward ahead(double s_m) const override { return schedule_.at(s_m); }
-  ForeseenSlip foreseen_at(double s_m) const override { return schedule_.slip_at(s_m); }
+  FeedForward ahead(std::size_t leg, double s_m) const override { return schedules_[leg].at(s_m); }
+  ForeseenSlip foreseen_at(std::size_t leg, double s_m) const override {
+    return schedules_[leg].slip_at(s_m);
+  }
   double slip_memory_m() const override { return 3 * wheelbase_m(vehicle()); }
 
  private:
-  TrimSchedule schedule_;
+  std::vector<TrimSchedule> schedules_;  // one a leg
 };
 
 }  // namespace
@@ -71,8 +78,7 @@ Follower::Follower(const Vehicle& vehicle, const ReferencePath& path, const Stee
     : vehicle_(vehicle),
       path_(path),
       law_(law),
-      speed_top_mps_(path.speed.speed_max_mps()),
-      direction_(path.reverse ? -1 : 1),
+      speed_top_mps_(path.speed_max_mps()),
       seen_(start_of(path, vehicle)) {}
 
 double Follower::speed() const {
@@ -86,19 +92,28 @@ double Follower::foreseen_slip_angle_rad() const {
 
 void Follower::observe(const VehicleState& seen, double step_s) {
   seen_ = seen;
-  s_m_ = nearest_m(path_.curve, seen.x_m, seen.y_m, s_m_);
-  offset_m_ = regoplan::offset_m(path_.curve.at(s_m_), seen.x_m, seen.y_m);
+  if (!changes_direction_ && leg_ + 1 < path_.legs.size() && at_end_of_leg(step_s)) {
+    changes_direction_ = true;
+  }
+  if (changes_direction_ && ready_for_next_leg()) {
+    changes_direction_ = false;
+    ++leg_;
+    s_m_ = 0;
+  }
+  s_m_ = nearest_m(now().curve, seen.x_m, seen.y_m, s_m_);
+  offset_m_ = regoplan::offset_m(now().curve.at(s_m_), seen.x_m, seen.y_m);
   const BodyMotion& motion = seen.motion;
+  const double direction = now().direction();
   // At rest there is no course; the heading tells where it will go.
-  if (speed() > 0.01 * speed_top_mps_) {
+  if (speed() > kStands * speed_top_mps_) {
     const double way_m = speed() * step_s;
-    const double angle = std::atan2(direction_ * motion.vy_mps, direction_ * motion.vx_mps);
+    const double angle = std::atan2(direction * motion.vy_mps, direction * motion.vx_mps);
     unforeseen_rad_ +=
         way_m / (way_m + slip_memory_m()) * (angle - foreseen_slip_angle_rad() - unforeseen_rad_);
   } else {
     unforeseen_rad_ = 0;
   }
-  const double expected = direction_ * seen.rim_speed_mps / ahead(s_m_).rim_per_speed;
+  const double expected = direction * seen.rim_speed_mps / ahead(leg_, s_m_).rim_per_speed;
   if (std::abs(expected) > 0.05 * speed_top_mps_) {
     const double share = step_s / (step_s + law_.slip_memory_s);
     const double ratio = std::clamp(speed() / expected, 0.5, 1.5);
@@ -106,29 +121,57 @@ void Follower::observe(const VehicleState& seen, double step_s) {
   }
 }
 
-bool Follower::arrived(double step_s) const {
+bool Follower::at_end_of_leg(double step_s) const {
   const double near_m = std::max(0.02, 2 * speed() * step_s);
-  return s_m_ >= path_.curve.length_m() - near_m;
+  return s_m_ >= now().length_m() - near_m;
+}
+
+FeedForward Follower::next_steering() const {
+  FeedForward next = ahead(leg_ + 1, 0);
+  next.curvature_1pm =
+      std::clamp(next.curvature_1pm, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm);
+  return next;
+}
+
+bool Follower::ready_for_next_leg() const {
+  constexpr double kShareOfRange = 1e-3;
+  constexpr double kCrab_rad = 1e-3;
+  const FeedForward next = next_steering();
+  return seen_.rim_speed_mps == 0 && speed() < kStands * speed_top_mps_ &&
+         std::abs(next.curvature_1pm - seen_.curvature_1pm) <=
+             kShareOfRange * vehicle_.curvature_max_1pm &&
+         std::abs(next.crab_rad - seen_.crab_rad) <= kCrab_rad;
+}
+
+bool Follower::arrived(double step_s) const {
+  return leg_ + 1 == path_.legs.size() && at_end_of_leg(step_s);
 }
 
 VehicleControl Follower::control(double step_s) const {
+  if (changes_direction_) {
+    const bool rolls = seen_.rim_speed_mps != 0;
+    const FeedForward next = next_steering();
+    return {.speed_target_mps = 0,
+            .curvature_target_1pm = rolls ? seen_.curvature_1pm : next.curvature_1pm,
+            .crab_target_rad = rolls ? seen_.crab_rad : next.crab_rad};
+  }
   const double v = speed();
-  const CurvePlace place = path_.curve.at(s_m_);
-  const FeedForward forward = ahead(s_m_ + v * law_.reaction_s);
+  const double direction = now().direction();
+  const CurvePlace place = now().curve.at(s_m_);
+  const FeedForward forward = ahead(leg_, s_m_ + v * law_.reaction_s);
   const double length =
       std::max(law_.lookahead_wheelbases * wheelbase_m(vehicle_), law_.lookahead_s * v);
   const double slip_angle = foreseen_slip_angle_rad() + unforeseen_rad_;
-  const double heading = seen_.yaw_rad + (path_.reverse ? std::numbers::pi : 0);
+  const double heading = seen_.yaw_rad + (now().reverse ? std::numbers::pi : 0);
   const double course = angle_between(heading + slip_angle, place.heading_rad);
-  const double curvature =
-      forward.curvature_1pm -
-      direction_ * (offset_m_ / (length * length) + 2 * law_.damping * course / length);
+  const double curvature = forward.curvature_1pm - direction * (offset_m_ / (length * length) +
+                                                                2 * law_.damping * course / length);
   // From rest, the speed a little farther on: at rest itself the path says to stay.
   const double a = vehicle_.acceleration_max_mps2;
   const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * step_s);
   const double target =
-      std::max(creep_mps, path_.speed.at(s_m_ + v * step_s + a * step_s * step_s / 2).speed_mps);
-  return {.speed_target_mps = direction_ * target * ahead(s_m_).rim_per_speed / slip_factor_,
+      std::max(creep_mps, now().speed.at(s_m_ + v * step_s + a * step_s * step_s / 2).speed_mps);
+  return {.speed_target_mps = direction * target * ahead(leg_, s_m_).rim_per_speed / slip_factor_,
           .curvature_target_1pm =
               std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm),
           .crab_target_rad = forward.crab_rad};

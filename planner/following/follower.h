@@ -82,36 +82,46 @@ class Follower {
   VehicleControl control(double step_s) const;
 
   /// At the place of the path where the vehicle is.
-  ForeseenSlip foreseen() const { return foreseen_at(s_m_); }
+  ForeseenSlip foreseen() const { return foreseen_at(leg_, s_m_); }
 
-  double s_m() const { return s_m_; }
+  /// From the start of the path.
+  double s_m() const { return path_.leg_start_m(leg_) + s_m_; }
+  /// Of the path's legs, the one that is being followed.
+  std::size_t leg() const { return leg_; }
   /// To the left of the path.
   double offset_m() const { return offset_m_; }
   /// Whether the end of the path is as near as the vehicle can tell.
   bool arrived(double step_s) const;
 
  protected:
-  virtual FeedForward ahead(double s_m) const = 0;
-  virtual ForeseenSlip foreseen_at(double s_m) const = 0;
+  /// \param s_m along the leg
+  virtual FeedForward ahead(std::size_t leg, double s_m) const = 0;
+  virtual ForeseenSlip foreseen_at(std::size_t leg, double s_m) const = 0;
   /// Way over which the slip angle that was not foreseen is averaged. A vehicle takes up its slip
   /// angle late: feedback of each moment's course would swing on soft ground.
   virtual double slip_memory_m() const { return 0; }
 
   const Vehicle& vehicle() const { return vehicle_; }
   const ReferencePath& path() const { return path_; }
-  double direction() const { return direction_; }
 
  private:
+  const PathLeg& now() const { return path_.legs[leg_]; }
   double speed() const;
   double foreseen_slip_angle_rad() const;
+  bool at_end_of_leg(double step_s) const;
+  /// Steering of the next leg's start, for which the vehicle waits at rest.
+  FeedForward next_steering() const;
+  bool ready_for_next_leg() const;
 
   const Vehicle& vehicle_;
   const ReferencePath& path_;
   SteeringLaw law_;
   double speed_top_mps_;
-  double direction_;  ///< 1 ahead, -1 in reverse
+  std::size_t leg_ = 0;
+  bool changes_direction_ = false;  ///< brakes to rest at the end of a leg that another follows
   VehicleState seen_;
-  double s_m_ = 0, offset_m_ = 0;
+  double s_m_ = 0;  ///< along the leg
+  double offset_m_ = 0;
   double unforeseen_rad_ = 0;  ///< slip angle of the body beyond that foreseen
   double slip_factor_ = 1;     ///< speed over the one that the rims should have given
 };

@@ -6,12 +6,12 @@
 
 namespace regoplan {
 
-double ReferencePath::curvature_1pm(double s_m) const {
+double PathLeg::curvature_1pm(double s_m) const {
   if (!recorded.empty()) return recorded_at(s_m).curvature_1pm;
-  return (reverse ? -1 : 1) * curve.at(s_m).curvature_1pm;
+  return direction() * curve.at(s_m).curvature_1pm;
 }
 
-VehicleState ReferencePath::recorded_at(double s_m) const {
+VehicleState PathLeg::recorded_at(double s_m) const {
   const auto above =
       std::upper_bound(recorded.begin(), recorded.end(), s_m,
                        [](double s, const RecordedMoment& moment) { return s < moment.s_m; });
@@ -31,13 +31,13 @@ VehicleState ReferencePath::recorded_at(double s_m) const {
   return state;
 }
 
-VehicleState ReferencePath::state_at(const Vehicle& vehicle, double s_m) const {
+VehicleState PathLeg::state_at(const Vehicle& vehicle, double s_m) const {
   const CurvePlace place = curve.at(s_m);
   const double curvature = curvature_1pm(s_m);
   const double slip_free = kinematic_body_slip_angle_rad(
       vehicle, std::clamp(curvature, -vehicle.curvature_max_1pm, vehicle.curvature_max_1pm));
   const SpeedProfile::Value value = speed.at(s_m);
-  const double direction = reverse ? -1 : 1, v = direction * value.speed_mps;
+  const double v = direction() * value.speed_mps;
   const double behind = reverse ? std::numbers::pi : 0;
   return {.x_m = place.x_m,
           .y_m = place.y_m,
@@ -47,11 +47,41 @@ VehicleState ReferencePath::state_at(const Vehicle& vehicle, double s_m) const {
                      .yaw_rate_rad_s = v * curvature},
           .curvature_1pm = curvature,
           .rim_speed_mps = v,
-          .rim_acceleration_mps2 = direction * value.acceleration_mps2};
+          .rim_acceleration_mps2 = direction() * value.acceleration_mps2};
+}
+
+double ReferencePath::duration_s() const {
+  double time_s = 0;
+  for (const PathLeg& leg : legs) time_s += leg.duration_s();
+  return time_s;
+}
+
+double ReferencePath::speed_max_mps() const {
+  double largest_mps = 0;
+  for (const PathLeg& leg : legs) largest_mps = std::max(largest_mps, leg.speed.speed_max_mps());
+  return largest_mps;
+}
+
+double ReferencePath::leg_start_m(std::size_t leg) const {
+  double way_m = 0;
+  for (std::size_t i = 0; i < leg; ++i) way_m += legs[i].length_m();
+  return way_m;
+}
+
+ReferencePath::Place ReferencePath::place(double s_m) const {
+  double way_m = 0, time_s = 0;
+  std::size_t leg = 0;
+  while (leg + 1 < legs.size() && s_m >= way_m + legs[leg].length_m()) {
+    way_m += legs[leg].length_m();
+    time_s += legs[leg].duration_s();
+    ++leg;
+  }
+  return {.leg = legs[leg], .leg_start_m = way_m, .leg_start_s = time_s, .s_m = s_m - way_m};
 }
 
 VehicleState start_of(const ReferencePath& path, const Vehicle& vehicle) {
-  return path.recorded.empty() ? path.state_at(vehicle, 0) : path.recorded.front().state;
+  const PathLeg& first = path.legs.front();
+  return first.recorded.empty() ? first.state_at(vehicle, 0) : first.recorded.front().state;
 }
 
 double wheelbase_m(const Vehicle& vehicle) {

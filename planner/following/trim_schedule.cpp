@@ -20,14 +20,14 @@ struct Trimmed {
 /// Solves one station after the other, each from the trim of the one before.
 class StationSolver {
  public:
-  StationSolver(const World& planned, const ReferencePath& path)
-      : world_(planned), vehicle_(planned.problem().vehicle), path_(path) {}
+  StationSolver(const World& planned, const PathLeg& leg)
+      : world_(planned), vehicle_(planned.problem().vehicle), leg_(leg) {}
 
   std::optional<Trimmed> solve(double s_m) {
     const VehicleDynamics& dynamics = world_.dynamics();
-    VehicleState state = path_.state_at(vehicle_, s_m);
-    const double sign = path_.reverse ? -1 : 1;
-    state.curvature_1pm = std::clamp(sign * path_.curve.at(s_m).curvature_1pm,
+    VehicleState state = leg_.state_at(vehicle_, s_m);
+    const double sign = leg_.direction();
+    state.curvature_1pm = std::clamp(sign * leg_.curve.at(s_m).curvature_1pm,
                                      -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm);
     const GroundPatch patch = dynamics.ground(state.x_m, state.y_m, state.yaw_rad);
     if (!patch.known) return std::nullopt;
@@ -74,30 +74,28 @@ class StationSolver {
   double turning_nm(double s_m) const {
     const double reach_m = wheelbase_m(vehicle_) / 4;
     const double from = std::max(s_m - reach_m, 0.0);
-    const double to = std::min(s_m + reach_m, path_.curve.length_m());
+    const double to = std::min(s_m + reach_m, leg_.curve.length_m());
     const double per_m =
-        (path_.curve.at(to).curvature_1pm - path_.curve.at(from).curvature_1pm) / (to - from);
-    const SpeedProfile::Value speed = path_.speed.at(s_m);
-    return vehicle_.yaw_inertia_kgm2 *
-           (speed.speed_mps * speed.speed_mps * per_m +
-            speed.acceleration_mps2 * path_.curve.at(s_m).curvature_1pm);
+        (leg_.curve.at(to).curvature_1pm - leg_.curve.at(from).curvature_1pm) / (to - from);
+    const SpeedProfile::Value speed = leg_.speed.at(s_m);
+    return vehicle_.yaw_inertia_kgm2 * (speed.speed_mps * speed.speed_mps * per_m +
+                                        speed.acceleration_mps2 * leg_.curve.at(s_m).curvature_1pm);
   }
 
   const World& world_;
   const Vehicle& vehicle_;
-  const ReferencePath& path_;
+  const PathLeg& leg_;
   std::optional<SteadyManoeuvre::Point> last_;
   double crab_rad_ = 0;
 };
 
 /// What a record tells of the slip that it was driven with; near rest it tells nothing.
-void add_recorded(const Vehicle& vehicle, const ReferencePath& path, double s_m,
-                  ForeseenSlip& slip) {
-  const VehicleState recorded = path.recorded_at(s_m);
+void add_recorded(const Vehicle& vehicle, const PathLeg& leg, double s_m, ForeseenSlip& slip) {
+  const VehicleState recorded = leg.recorded_at(s_m);
   const double speed_mps = recorded.motion.vx_mps;
-  if (std::abs(speed_mps) < 0.1 * path.speed.speed_max_mps()) return;
+  if (std::abs(speed_mps) < 0.1 * leg.speed.speed_max_mps()) return;
   const double k = recorded.curvature_1pm;
-  const double course_rad = path.curve.at(s_m).heading_rad + (speed_mps < 0 ? pi : 0);
+  const double course_rad = leg.curve.at(s_m).heading_rad + (speed_mps < 0 ? pi : 0);
   slip.slip_angle_rad = std::remainder(
       course_rad - recorded.yaw_rad - kinematic_body_slip_angle_rad(vehicle, k), 2 * pi);
   slip.curvature_1pm = recorded.motion.yaw_rate_rad_s / speed_mps - k;
@@ -105,22 +103,19 @@ void add_recorded(const Vehicle& vehicle, const ReferencePath& path, double s_m,
 
 }  // namespace
 
-TrimSchedule::TrimSchedule(const World& planned, const ReferencePath& path) {
+TrimSchedule::TrimSchedule(const World& planned, const PathLeg& leg) {
   const Vehicle& vehicle = planned.problem().vehicle;
-  const double length_m = path.curve.length_m();
+  const double length_m = leg.curve.length_m();
   constexpr double kMost = 40000;  // stations: of longer paths they lie farther apart
   const double apart_m = std::max(wheelbase_m(vehicle) / 8, length_m / kMost);
   const auto pieces = std::max(2, static_cast<int>(std::ceil(length_m / apart_m)));
   apart_m_ = length_m / pieces;
 
-  StationSolver solver(planned, path);
+  StationSolver solver(planned, leg);
   std::vector<std::optional<Trimmed>> trims;
   for (int i = 0; i <= pieces; ++i) trims.push_back(solver.solve(i * apart_m_));
-  const auto trimmed =
-      std::ranges::count_if(trims, [](const auto& trim) { return trim.has_value(); });
-  share_trimmed_ = static_cast<double>(trimmed) / static_cast<double>(trims.size());
 
-  const double direction = path.reverse ? -1 : 1;
+  const double direction = leg.direction();
   const auto slip_angle_per_m = [&](std::size_t i) {
     constexpr std::size_t kReach = 2;
     const std::size_t from = i < kReach ? 0 : i - kReach;
@@ -131,22 +126,22 @@ TrimSchedule::TrimSchedule(const World& planned, const ReferencePath& path) {
   };
   for (std::size_t i = 0; i < trims.size(); ++i) {
     const double s_m = static_cast<double>(i) * apart_m_;
-    Station station{.forward = {.curvature_1pm = path.curvature_1pm(s_m)}, .slip = {}};
+    Station station{.forward = {.curvature_1pm = leg.curvature_1pm(s_m)}, .slip = {}};
     if (const auto& trim = trims[i]) {
-      if (path.recorded.empty()) {
+      if (leg.recorded.empty()) {
         station.forward.curvature_1pm = trim->steer_curvature_1pm - direction * slip_angle_per_m(i);
       }
       station.forward.rim_per_speed = trim->drive_factor;
       station.forward.crab_rad = trim->crab_rad;
       const double slip_free_rad =
           kinematic_body_slip_angle_rad(vehicle, trim->steer_curvature_1pm) + trim->crab_rad;
-      station.slip = {.from_trims = true,
-                      .speed_ratio = 1 / trim->drive_factor,
-                      .slip_angle_rad = trim->body_slip_angle_rad - slip_free_rad,
-                      .curvature_1pm =
-                          direction * path.curve.at(s_m).curvature_1pm - trim->steer_curvature_1pm};
+      station.slip = {
+          .from_trims = true,
+          .speed_ratio = 1 / trim->drive_factor,
+          .slip_angle_rad = trim->body_slip_angle_rad - slip_free_rad,
+          .curvature_1pm = direction * leg.curve.at(s_m).curvature_1pm - trim->steer_curvature_1pm};
     }
-    if (!path.recorded.empty()) add_recorded(vehicle, path, s_m, station.slip);
+    if (!leg.recorded.empty()) add_recorded(vehicle, leg, s_m, station.slip);
     stations_.push_back(station);
   }
 }

@@ -24,7 +24,7 @@ class DriveReport : public testing::Test {
     const Goal& goal = problem_.goal;
     PathCurve curve({{start.x_m, start.y_m}, {goal.x_m, goal.y_m}});
     SpeedProfile speed({{.s_m = 0, .speed_mps = 1}, {.s_m = curve.length_m(), .speed_mps = 1}});
-    return {.name = "path", .curve = std::move(curve), .speed = std::move(speed)};
+    return {.name = "path", .legs = {{std::move(curve), std::move(speed)}}};
   }
 
   std::string page(const DriveRecord& record) const {

@@ -25,7 +25,7 @@ const EvaluationSettings kSettings{.soil_draws = 30, .seed = 3};
 ReferencePath reference(const std::vector<PathPoint>& points, double speed_mps) {
   PathCurve curve(points);
   SpeedProfile speed({{0, speed_mps}, {curve.length_m(), speed_mps}});
-  return {.name = "path", .curve = std::move(curve), .speed = std::move(speed)};
+  return {.name = "path", .legs = {{std::move(curve), std::move(speed)}}};
 }
 
 PathEvaluation evaluated(const PlanningProblem& problem, const ReferencePath& path,
@@ -262,7 +262,7 @@ TEST(Evaluation, APathIsReversedAsItIsDriven) {
     bend.push_back({15 + 20 * std::sin(s), 45 - 20 * std::cos(s)});
   ReferencePath ahead = reference(bend, 2);
   const PathEvaluation forwards = evaluated(flat_problem(), ahead);
-  ahead.reverse = true;
+  ahead.legs.front().reverse = true;
   const PathEvaluation back = evaluated(flat_problem(), ahead);
   EXPECT_TRUE(back.feasible) << sentence(*back.refusal);
   EXPECT_NEAR(back.margin_min, forwards.margin_min, 1e-6);
@@ -276,7 +276,7 @@ TEST(Evaluation, VehiclesThatAreNotTheirOwnMirrorImageReverseTheirPathsToo) {
   problem.limits = default_limits(problem.vehicle);
   problem.speed_max_mps = problem.vehicle.speed_max_mps * kSpeedTolerance;
   ReferencePath path = reference({{20, 20}, {22, 20.1}, {24, 20.8}, {25.5, 22}}, 0.04);
-  path.reverse = true;
+  path.legs.front().reverse = true;
   const PathEvaluation e = evaluated(problem, path);
   EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
   EXPECT_LT(e.tracking.deviation_max_m, 0.05);
@@ -318,9 +318,9 @@ TEST(Evaluation, ACandidateIsConfirmed) {
     }
   }
   const PathEvaluation e = evaluated(problem, {.name = "candidate",
-                                               .curve = std::move(curve),
-                                               .speed = SpeedProfile(std::move(nodes)),
-                                               .recorded = std::move(recorded)});
+                                               .legs = {{.curve = std::move(curve),
+                                                         .speed = SpeedProfile(std::move(nodes)),
+                                                         .recorded = std::move(recorded)}}});
   EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
   EXPECT_NEAR(e.margin_min, candidate.margin_min, 0.02);
 }

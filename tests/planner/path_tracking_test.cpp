@@ -15,7 +15,7 @@ class PathTracking : public testing::Test {
   static ReferencePath path(const std::vector<PathPoint>& points, double speed_mps) {
     PathCurve curve(points);
     SpeedProfile speed({{0, speed_mps}, {curve.length_m(), speed_mps}});
-    return {.name = "path", .curve = std::move(curve), .speed = std::move(speed)};
+    return {.name = "path", .legs = {{std::move(curve), std::move(speed)}}};
   }
 
   /// A quarter of a circle to the left.
@@ -58,10 +58,45 @@ TEST_F(PathTracking, IsTheSameToBothSides) {
   EXPECT_NEAR(to_left.energy_j, to_right.energy_j, 1e-6 * to_left.energy_j);
 }
 
+TEST_F(PathTracking, StandsAndGoesBackWhereThePathChangesDirection) {
+  ReferencePath ahead = path({{10, 25}, {30, 25}}, 2);
+  ReferencePath back = path({{30, 25}, {20, 25.2}, {12, 26}}, 1);
+  back.legs.front().reverse = true;
+  ahead.legs.push_back(back.legs.front());
+  const TrackingRun run = track(world_, ahead, follower_, 1);
+  ASSERT_EQ(run.end, TrackingEnd::kArrived);
+  EXPECT_NEAR(run.last.state.x_m, 12, 0.1);
+  EXPECT_NEAR(run.last.state.y_m, 26, 0.1);
+  EXPECT_LT(std::abs(run.last.state.yaw_rad), 0.3);  // it still faces ahead
+  EXPECT_LT(run.deviation_max_m, 0.2);
+  EXPECT_NEAR(run.last.s_m, ahead.length_m(), 0.1);
+  EXPECT_GT(run.duration_s, ahead.duration_s());
+}
+
+TEST_F(PathTracking, WaitsAtRestUntilTheWheelsAreSteeredForTheNextLeg) {
+  std::vector<PathPoint> aside;  // a sixth of a circle of 4 m, backwards and to the left
+  for (int i = 0; i <= 12; ++i) {
+    const double angle = i * 5 * kTestDegree;
+    aside.push_back({20 - 4 * std::sin(angle), 24 - 4 * std::cos(angle)});
+  }
+  PathCurve ahead({{10, 20}, {20, 20}}), back(aside);
+  const double back_m = back.length_m();
+  ReferencePath shunt{.name = "shunt", .legs = {}};
+  shunt.legs.push_back(
+      {.curve = std::move(ahead), .speed = SpeedProfile({{0, 1}, {8, 1}, {10, 0}})});
+  shunt.legs.push_back(
+      {.curve = std::move(back),
+       .speed = SpeedProfile({{0, 0}, {1.5, 0.9}, {back_m - 1.5, 0.9}, {back_m, 0}}),
+       .reverse = true});
+  const TrackingRun run = track(world_, shunt, {.kind = FollowerKind::kCompensated}, 1);
+  ASSERT_EQ(run.end, TrackingEnd::kArrived);
+  EXPECT_LT(run.deviation_max_m, 0.05);
+}
+
 TEST_F(PathTracking, EndsWhereItStraysFartherThanAllowed) {
   const TrackingRun run = track(world_, path(bend(20), 2.5), follower_, 0.005);
   EXPECT_EQ(run.end, TrackingEnd::kStrayed);
-  EXPECT_LT(run.last.s_m, path(bend(20), 2.5).curve.length_m() - 1);
+  EXPECT_LT(run.last.s_m, path(bend(20), 2.5).length_m() - 1);
 }
 
 TEST_F(PathTracking, EndsAtALimitOfTheStateAndNamesIt) {

@@ -1,0 +1,49 @@
+// Paths as files give them.
+#include "app/evaluate/path_files.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/app/plan_report_fixture.h"
+#include "tests/app/scratch_folder.h"
+
+namespace regoplan {
+namespace {
+
+/// Rows of a candidate that goes 8 m ahead, stands, and goes 6 m back, on a line along x.
+std::string there_and_back() {
+  std::string text = "time_s,x_m,y_m,yaw_deg,speed_mps,steer_deg,demand_n,margin,curvature_1pm\n";
+  const auto row = [&](double time_s, double x_m, double speed_mps) {
+    text += fmt::format("{},{},5100,0,{},0,0,0.5,0\n", time_s, x_m, speed_mps);
+  };
+  for (int i = 0; i <= 16; ++i) {
+    row(i, 1050 + 8 * (1 - std::cos(i * M_PI / 16)) / 2, 0.78 * std::sin(i * M_PI / 16));
+  }
+  for (int i = 1; i <= 16; ++i) {
+    row(16 + i, 1058 - 6 * (1 - std::cos(i * M_PI / 16)) / 2, -0.58 * std::sin(i * M_PI / 16));
+  }
+  return text;
+}
+
+TEST(PathFiles, ACandidateThatChangesItsDirectionHasLegs) {
+  const ScratchFolder folder;
+  folder.write("candidate-1.csv", there_and_back());
+  const PlanningProblem problem = report_test_problem(report_test_map(40));
+  const ReferencePath path = read_path(folder.path("candidate-1.csv"), problem, 3).path;
+  ASSERT_EQ(path.legs.size(), 2u);
+  EXPECT_FALSE(path.legs[0].reverse);
+  EXPECT_TRUE(path.legs[1].reverse);
+  EXPECT_NEAR(path.length_m(), 14, 0.05);
+  EXPECT_NEAR(path.leg_start_m(1), 8, 0.05);
+  EXPECT_NEAR(std::abs(path.place(10).on_curve().heading_rad), M_PI, 1e-6);
+  EXPECT_EQ(path.legs[0].recorded.size() + path.legs[1].recorded.size(), 33u);
+  EXPECT_NEAR(path.legs[1].recorded.back().s_m, path.legs[1].length_m(), 1e-9);
+  // It stands where its direction changes.
+  EXPECT_LT(path.legs[0].speed.at(path.legs[0].length_m()).speed_mps, 1e-6);
+  EXPECT_LT(path.legs[1].speed.at(0).speed_mps, 1e-6);
+}
+
+}  // namespace
+}  // namespace regoplan
