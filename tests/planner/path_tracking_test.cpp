@@ -74,20 +74,22 @@ TEST_F(PathTracking, StandsAndGoesBackWhereThePathChangesDirection) {
 }
 
 TEST_F(PathTracking, WaitsAtRestUntilTheWheelsAreSteeredForTheNextLeg) {
-  std::vector<PathPoint> aside;  // a sixth of a circle of 4 m, backwards and to the left
+  // Sixths of circles of 4 m: ahead on left lock to (20, 20), backwards from there on right lock.
+  std::vector<PathPoint> to, from;
   for (int i = 0; i <= 12; ++i) {
-    const double angle = i * 5 * kTestDegree;
-    aside.push_back({20 - 4 * std::sin(angle), 24 - 4 * std::cos(angle)});
+    const double a = (60 - 5 * i) * kTestDegree, b = 5 * i * kTestDegree;
+    to.push_back({20 - 4 * std::sin(a), 24 - 4 * std::cos(a)});
+    from.push_back({20 - 4 * std::sin(b), 16 + 4 * std::cos(b)});
   }
-  PathCurve ahead({{10, 20}, {20, 20}}), back(aside);
-  const double back_m = back.length_m();
   ReferencePath shunt{.name = "shunt", .legs = {}};
-  shunt.legs.push_back(
-      {.curve = std::move(ahead), .speed = SpeedProfile({{0, 1}, {8, 1}, {10, 0}})});
-  shunt.legs.push_back(
-      {.curve = std::move(back),
-       .speed = SpeedProfile({{0, 0}, {1.5, 0.9}, {back_m - 1.5, 0.9}, {back_m, 0}}),
-       .reverse = true});
+  for (const auto& points : {to, from}) {
+    PathCurve curve(points);
+    const double length_m = curve.length_m();
+    shunt.legs.push_back(
+        {.curve = std::move(curve),
+         .speed = SpeedProfile({{0, 0}, {1.5, 0.9}, {length_m - 1.5, 0.9}, {length_m, 0}}),
+         .reverse = !shunt.legs.empty()});
+  }
   const TrackingRun run = track(world_, shunt, {.kind = FollowerKind::kCompensated}, 1);
   ASSERT_EQ(run.end, TrackingEnd::kArrived);
   EXPECT_LT(run.deviation_max_m, 0.05);
