@@ -154,8 +154,8 @@ Command add_drive_command(CLI::App& program) {
       ->required();
   parser
       ->add_option("--follower", options->follower,
-                   "pursuit (default): nothing is known of the ground; compensated: what the "
-                   "trims of the planned soils need is commanded")
+                   "compensated (default): what the trims of the planned soils need is commanded; "
+                   "pursuit: nothing is known of the ground")
       ->check(one_of({"pursuit", "compensated"}));
   parser
       ->add_option("--truth", options->truth_file,

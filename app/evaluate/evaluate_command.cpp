@@ -163,7 +163,7 @@ Command add_evaluate_command(CLI::App& program) {
       ->check(in_range(kAbove0));
   parser
       ->add_option("--follower", request.follower,
-                   "what drives the path: pursuit (default), or compensated, which knows the soil")
+                   "what drives the path: compensated (default), which knows the soil, or pursuit")
       ->check(one_of({"pursuit", "compensated"}));
   parser->add_option("--draws", request.soil_draws, "of the soils")
       ->type_name("N")

@@ -4,7 +4,7 @@
     benchmarks/drives/candidates.py PROGRAM [--time S] [--draws N] [--seed N]
 
 With the planned soils every candidate should reach the goal with no limit broken that its verdict
-called held. With soils drawn from their spread, the share of drives within all
+called held, and `evaluate` should call it feasible. With soils drawn from their spread, the share of drives within all
 limits is held against the plan's `probability_feasible`.
 """
 import argparse
@@ -71,6 +71,9 @@ def driven_candidate(options, scenario, entry, folder, numbers, chance):
         driven = drive(options.program, scenario, path, folder, follower)
         why = driven["status"] if driven["status"] == "reached" else driven["reason"]
         told.append(f"{why} {driven['cross_track_max_m']:.3f} m")
+    judged = run(options.program, "evaluate", scenario, path, "--out", folder / "evaluated",
+                 "--draws", 10)
+    told.append(judged["status"])
     likely = "not drawn"
     if entry["probability_feasible"] is not None:
         low, high = entry["probability_feasible_ci95"]
@@ -81,7 +84,7 @@ def driven_candidate(options, scenario, entry, folder, numbers, chance):
                             drawn_truth(numbers, chance, folder / "truth.yaml"))["status"] == "reached"
                       for _ in range(options.draws))
         held = f"{reached} of {options.draws}"
-    return f"{likely:>24} {told[0]:>26} {told[1]:>26} {held:>18}"
+    return f"{likely:>24} {told[0]:>26} {told[1]:>26} {told[2]:>10} {held:>18}"
 
 
 def main():
@@ -94,7 +97,7 @@ def main():
     options = parser.parse_args()
     chance = random.Random(options.seed)
     print(f"{'scenario':>16} {'rank':>4} {'probability, 95 %':>24} "
-          f"{'pursuit':>26} {'compensated':>26} {'held, drawn soils':>18}")
+          f"{'pursuit':>26} {'compensated':>26} {'evaluate':>10} {'held, drawn soils':>18}")
     for scenario in sorted(SCENARIOS.glob("*.yaml")):
         if scenario.name.startswith("infeasible") or scenario.stem not in (options.only or [scenario.stem]):
             continue

@@ -64,7 +64,7 @@ std::vector<std::string_view> follower_names() {
 }
 
 FollowerKind follower_named(const std::optional<std::string>& name) {
-  if (!name) return FollowerKind::kPursuit;
+  if (!name) return FollowerChoice{}.kind;
   const std::vector<std::string_view> names = follower_names();
   const auto found = std::ranges::find(names, *name);
   if (found == names.end()) {

@@ -35,12 +35,12 @@ enum class FollowerKind {
 /// As it stands in files and on the command line: `pursuit`, `compensated`.
 std::string_view name(FollowerKind kind);
 std::vector<std::string_view> follower_names();
-/// \returns `pursuit` where no name is given \throws InputError for a name that is none of them
+/// \returns `compensated` where no name is given \throws InputError for a name that is none of them
 FollowerKind follower_named(const std::optional<std::string>& name);
 
 /// A follower and its gains.
 struct FollowerChoice {
-  FollowerKind kind = FollowerKind::kPursuit;
+  FollowerKind kind = FollowerKind::kCompensated;
   SteeringLaw law;
 };
 

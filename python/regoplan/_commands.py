@@ -101,7 +101,7 @@ def drive(scenario, path, *, follower=None, truth=None, sensors=None, model=None
         As of ``plan``: the world as it is planned in.
     path : DataFrame, dict of columns, Candidate or file name
         As one of ``evaluate``.
-    follower : ``pursuit`` or ``compensated``, optional
+    follower : ``compensated`` (default) or ``pursuit``, optional
     truth : dict or file name, optional
         How the world driven in differs (docs/drive.md); the files that it names are absolute.
     sensors : ``A``, ``B``, dict or file name, optional

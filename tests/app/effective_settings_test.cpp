@@ -192,5 +192,20 @@ TEST_F(EffectiveSettings, AreWhatTheHelpGivesAsDefaults) {
   EXPECT_EQ(otherwise("--improve"), planner.at("improve").get<bool>() ? "yes" : "no");
 }
 
+TEST_F(EffectiveSettings, APathIsFollowedAsTheHelpSaysUnlessAskedForOtherwise) {
+  folder_.write("path.csv", "x_m,y_m\n8,20\n20,20.5\n");
+  for (const std::string command : {"evaluate", "drive"}) {
+    const ProgramRun run = run_program(
+        folder_, fmt::format("{} '{}' '{}' --out '{}'", command, folder_.path("scenario.yaml"),
+                             folder_.path("path.csv"), folder_.path(command)));
+    ASSERT_EQ(run.status, 0) << run.errors;
+    const std::string file = command + (command == "drive" ? "/drive.json" : "/evaluation.json");
+    const std::string follower = Json::parse(folder_.read(file)).at("follower");
+    EXPECT_EQ(follower, "compensated");
+    const std::string help = run_program(folder_, command + " --help").output;
+    EXPECT_NE(help.find(follower + " (default)"), std::string::npos) << help;
+  }
+}
+
 }  // namespace
 }  // namespace regoplan
