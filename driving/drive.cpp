@@ -80,10 +80,11 @@ class Drive {
   DriveResult run(const std::function<void(double)>& progress) {
     const double length_m = path_.length_m();
     const double patience_s = 2 * path_.duration_s() + 20 + 200 * step_s_;
-    bool goes_on = judge_place() && note();
+    bool goes_on = judge_place();
+    if (goes_on) note();
     while (goes_on && !follower_->arrived(step_s_)) {
       if (result_.duration_s > patience_s) {
-        end("stalled");
+        end(Rejection::kStalled);
         goes_on = false;
         break;
       }
@@ -113,7 +114,7 @@ class Drive {
     result_.duration_s += step_s_;
     ++steps_;
     if (!step.converged) {
-      end(step.on_known_ground ? "dynamics" : "unknown_terrain");
+      end(step.on_known_ground ? Rejection::kDynamics : Rejection::kUnknownTerrain);
       return false;
     }
     const double way_m = std::hypot(step.state.x_m - state_.x_m, step.state.y_m - state_.y_m);
@@ -127,7 +128,10 @@ class Drive {
     perceive();
     follower_->observe(seen_, step_s_);
     if (settings_.judge_margins && steps_ % steps_per_margin_ == 0) judge_margins();
-    return judge_place() && judge_strain() && (steps_ % steps_per_row_ != 0 || note());
+    if (!judge_place()) return false;
+    judge_strain();
+    if (steps_ % steps_per_row_ == 0) note();
+    return true;
   }
 
   /// The ground moves the vehicle as no model of it does.
@@ -210,7 +214,7 @@ class Drive {
   }
 
   /// A row of the recording, with the truth of the same moment.
-  bool note() {
+  void note() {
     if (steps_ == 0) sense();
     result_.rows.push_back(row_);
     const double course = std::atan2(state_.motion.vy_mps, state_.motion.vx_mps) + state_.yaw_rad;
@@ -226,29 +230,27 @@ class Drive {
          .seen = seen_,
          .asked = asked_,
          .wheels = wheels_});
-    return true;
   }
 
-  void break_limit(std::string_view limit, double value, double allowed) {
+  void break_limit(Rejection limit, const Exceeded& exceeded) {
     const auto known = std::ranges::find(result_.broken, limit, &LimitBroken::limit);
     if (known == result_.broken.end()) {
-      result_.broken.push_back({.limit = std::string(limit),
+      result_.broken.push_back({.limit = limit,
                                 .x_m = state_.x_m,
                                 .y_m = state_.y_m,
                                 .s_m = s_m_,
                                 .time_s = result_.duration_s,
-                                .value = value,
-                                .allowed = allowed,
-                                .worst = value});
+                                .first = exceeded,
+                                .worst = exceeded.found});
       return;
     }
-    // Margins are broken downwards, all else upwards.
-    const bool further =
-        allowed > value ? value < known->worst : std::abs(value) > std::abs(known->worst);
-    if (further) known->worst = value;
+    const bool further = is_margin(limit) ? exceeded.found < known->worst
+                                          : std::abs(exceeded.found) > std::abs(known->worst);
+    if (further) known->worst = exceeded.found;
   }
 
   /// What lies on the map at the place: off it, on unknown ground or against a rock the drive ends.
+  /// \returns whether it goes on
   bool judge_place() {
     VehicleState on_map = state_;
     const PathPoint place = truth_.on_the_map(state_.x_m, state_.y_m);
@@ -256,31 +258,27 @@ class Drive {
     on_map.y_m = place.y_m;
     const auto rejected = planned_.rejected(on_map, {}, std::nullopt);
     if (std::abs(offset_) > settings_.deviation_max_m) {
-      end("deviation", std::abs(offset_), settings_.deviation_max_m);
+      end(Rejection::kDeviation,
+          Exceeded{.found = std::abs(offset_), .limit = settings_.deviation_max_m});
       return false;
     }
     if (!rejected) return true;
-    if (rejected->reason == Rejection::kSlope) {
-      break_limit("slope", rejected->exceeded->found, rejected->exceeded->limit);
+    if (rejected->reason == Rejection::kSlope || rejected->reason == Rejection::kSpeed) {
+      break_limit(rejected->reason, *rejected->exceeded);
       return true;
     }
-    if (rejected->reason == Rejection::kSpeed) {
-      break_limit("speed", rejected->exceeded->found, rejected->exceeded->limit);
-      return true;
-    }
-    end(std::string(name(rejected->reason)));
+    end(rejected->reason);
     return false;
   }
 
-  bool judge_strain() {
+  void judge_strain() {
     const Limits& limits = planned_.problem().limits;
-    const auto hold = [&](std::string_view limit, double value, double allowed) {
-      if (std::abs(value) > allowed) break_limit(limit, value, allowed);
+    const auto hold = [&](Rejection limit, double value, double allowed) {
+      if (std::abs(value) > allowed) break_limit(limit, {.found = value, .limit = allowed});
     };
-    hold("sinkage", strain_.sinkage_m, limits.sinkage_max_m);
-    hold("slip", strain_.slip, limits.slip_max);
-    hold("slip_angle", strain_.slip_angle_rad, limits.slip_angle_max_rad);
-    return true;
+    hold(Rejection::kSinkage, strain_.sinkage_m, limits.sinkage_max_m);
+    hold(Rejection::kSlip, strain_.slip, limits.slip_max);
+    hold(Rejection::kSlipAngle, strain_.slip_angle_rad, limits.slip_angle_max_rad);
   }
 
   /// Of the manoeuvre that the path asks for here, at the speed that there is, on the true soils.
@@ -309,9 +307,12 @@ class Drive {
       result_.smallest_margin = moment;
     }
     const double least = planned_.problem().limits.margin_min;
-    if (moment.traction < least) break_limit("traction", moment.traction, least);
-    if (moment.tip_over < least) break_limit("tip_over", moment.tip_over, least);
-    if (moment.cornering < least) break_limit("cornering", moment.cornering, least);
+    const auto hold = [&](Rejection limit, double margin) {
+      if (margin < least) break_limit(limit, {.found = margin, .limit = least});
+    };
+    hold(Rejection::kTraction, moment.traction);
+    hold(Rejection::kTipOver, moment.tip_over);
+    hold(Rejection::kCornering, moment.cornering);
   }
 
   bool in_goal() const { return ends_in_goal_ && planned_.at_goal(state_); }
@@ -324,7 +325,8 @@ class Drive {
     bool goes_on = true;
     while (goes_on && !in_goal() && !truth_.at_rest(state_)) {
       if (result_.duration_s > until_s) {
-        end("does_not_stop", speed_of(state_), VehicleDynamics::kStandstillSpeed_mps);
+        end(Rejection::kDoesNotStop,
+            Exceeded{.found = speed_of(state_), .limit = VehicleDynamics::kStandstillSpeed_mps});
         return;
       }
       goes_on = step({.speed_target_mps = 0,
@@ -337,18 +339,18 @@ class Drive {
       return;
     }
     const Goal& goal = planned_.problem().goal;
-    end("goal_missed", std::hypot(state_.x_m - goal.x_m, state_.y_m - goal.y_m), goal.radius_m);
+    end(Rejection::kGoalMissed,
+        Exceeded{.found = std::hypot(state_.x_m - goal.x_m, state_.y_m - goal.y_m),
+                 .limit = goal.radius_m});
   }
 
-  void end(std::string reason, double value = DriveResult::kNone,
-           double allowed = DriveResult::kNone) {
-    result_.reason = std::move(reason);
+  void end(std::optional<Rejection> reason, std::optional<Exceeded> exceeded = {}) {
+    result_.reason = reason;
+    result_.exceeded = exceeded;
     result_.x_m = state_.x_m;
     result_.y_m = state_.y_m;
     result_.s_m = s_m_;
     result_.time_s = result_.duration_s;
-    result_.value = value;
-    result_.allowed = allowed;
   }
 
   void finish() {
@@ -359,9 +361,9 @@ class Drive {
     if (result_.length_m > 0) {
       result_.cross_track_rms_m = std::sqrt(squares_m3_ / result_.length_m);
     }
-    if (!result_.reason.empty()) return;
+    if (result_.reason) return;
     if (result_.broken.empty() || result_.interrupted) {
-      end("");
+      end({});
       return;
     }
     const LimitBroken& first = result_.broken.front();
@@ -370,8 +372,7 @@ class Drive {
     result_.y_m = first.y_m;
     result_.s_m = first.s_m;
     result_.time_s = first.time_s;
-    result_.value = first.value;
-    result_.allowed = first.allowed;
+    result_.exceeded = first.first;
   }
 
   const World& planned_;

@@ -4,13 +4,13 @@
 #include <functional>
 #include <optional>
 #include <stop_token>
-#include <string>
 #include <vector>
 
 #include "driving/drive_truth.h"
 #include "driving/driven_world.h"
 #include "driving/sensors.h"
 #include "planner/following/follower.h"
+#include "planner/problem/rejection.h"
 
 namespace regoplan {
 
@@ -28,10 +28,10 @@ struct DriveSettings {
 
 /// A limit that was broken: where first, and how far at worst.
 struct LimitBroken {
-  std::string limit;  ///< a `Rejection`'s name
+  Rejection limit = Rejection::kSlope;
   double x_m = 0, y_m = 0, s_m = 0, time_s = 0;
-  double value = 0, allowed = 0;  ///< at first; SI
-  double worst = 0;
+  Exceeded first;    ///< there
+  double worst = 0;  ///< SI
 };
 
 /// The truth at a row of the recording, and what was asked for.
@@ -58,9 +58,10 @@ struct MarginMoment {
 struct DriveResult {
   bool reached = false;  ///< the goal, or the end of a path that does not lead there
   bool interrupted = false;
-  std::string reason;  ///< why it was not reached, or which limit was broken first; else empty
+  /// Why it was not reached, or which limit was broken first; nothing where neither was.
+  std::optional<Rejection> reason;
+  std::optional<Exceeded> exceeded;              ///< of a reason that has a number
   double x_m = 0, y_m = 0, s_m = 0, time_s = 0;  ///< of what the reason names, else of the end
-  double value = kNone, allowed = kNone;         ///< of what the reason names
 
   SteeringLaw law;  ///< as it was in effect
   std::vector<LimitBroken> broken;

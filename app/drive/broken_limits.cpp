@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "terramech/basics/angles.h"
@@ -17,10 +16,8 @@ constexpr int kMarksOfLimitMax = 80;
 
 /// A limit that rows are held against.
 struct HeldLimit {
-  std::string name;
-  double allowed = 0;  ///< SI
-  double unit = 1;     ///< SI value of what is shown
-  bool at_least = false;
+  Rejection limit;
+  double allowed = 0;                                                    ///< SI
   std::function<double(const DriveMoment&, const MarginMoment*)> value;  ///< NaN: not known
 };
 
@@ -35,21 +32,17 @@ std::vector<HeldLimit> held_limits(const Limits& limits) {
       return margins == nullptr ? DriveResult::kNone : margins->*number;
     };
   };
-  return {
-      {"sinkage", limits.sinkage_max_m, 1, false, strain(&WheelNow::sinkage_m)},
-      {"slip", limits.slip_max, 1, false, strain(&WheelNow::slip)},
-      {"slip_angle", limits.slip_angle_max_rad, kDegree, false, strain(&WheelNow::slip_angle_rad)},
-      {"traction", limits.margin_min, 1, true, margin(&MarginMoment::traction)},
-      {"tip_over", limits.margin_min, 1, true, margin(&MarginMoment::tip_over)},
-      {"cornering", limits.margin_min, 1, true, margin(&MarginMoment::cornering)}};
+  return {{Rejection::kSinkage, limits.sinkage_max_m, strain(&WheelNow::sinkage_m)},
+          {Rejection::kSlip, limits.slip_max, strain(&WheelNow::slip)},
+          {Rejection::kSlipAngle, limits.slip_angle_max_rad, strain(&WheelNow::slip_angle_rad)},
+          {Rejection::kTraction, limits.margin_min, margin(&MarginMoment::traction)},
+          {Rejection::kTipOver, limits.margin_min, margin(&MarginMoment::tip_over)},
+          {Rejection::kCornering, limits.margin_min, margin(&MarginMoment::cornering)}};
 }
 
-json mark(const std::string& reason, const DriveMoment& at, std::optional<double> value,
-          std::optional<double> allowed) {
-  const auto shown = [](std::optional<double> number) {
-    return number && std::isfinite(*number) ? json(*number) : json();
-  };
-  return {{"reason", reason},
+json mark(Rejection reason, const DriveMoment& at, const std::optional<Exceeded>& exceeded) {
+  const double si = quantity(reason).si_per_shown;
+  return {{"reason", name(reason)},
           {"x_m", at.state.x_m},
           {"y_m", at.state.y_m},
           {"yaw_deg", degrees(at.state.yaw_rad)},
@@ -57,8 +50,8 @@ json mark(const std::string& reason, const DriveMoment& at, std::optional<double
           {"curvature_1pm", at.state.curvature_1pm},
           {"time_s", at.time_s},
           {"s_m", at.s_m},
-          {"value", shown(value)},
-          {"limit", shown(allowed)}};
+          {"value", exceeded ? json(exceeded->found / si) : json()},
+          {"limit", exceeded ? json(exceeded->limit / si) : json()}};
 }
 
 /// The worst row of each stretch in which a limit is broken; of more the first ones.
@@ -71,20 +64,21 @@ void add_stretches(const HeldLimit& held, const DriveResult& result, json& marks
   int count = 0;
   const auto end_stretch = [&] {
     if (worst && count++ < kMarksOfLimitMax) {
-      marks.push_back(mark(held.name, *worst, worst_value / held.unit, held.allowed / held.unit));
+      marks.push_back(
+          mark(held.limit, *worst, Exceeded{.found = worst_value, .limit = held.allowed}));
     }
     worst = nullptr;
   };
   for (const DriveMoment& moment : result.moments) {
     while (margins != result.margins.end() && margins->time_s <= moment.time_s) now = &*margins++;
     const double value = held.value(moment, now);
-    const bool broken = held.at_least ? value < held.allowed : std::abs(value) > held.allowed;
+    const bool at_least = is_margin(held.limit);
+    const bool broken = at_least ? value < held.allowed : std::abs(value) > held.allowed;
     if (!broken) {
       end_stretch();
       continue;
     }
-    const bool further =
-        held.at_least ? value < worst_value : std::abs(value) > std::abs(worst_value);
+    const bool further = at_least ? value < worst_value : std::abs(value) > std::abs(worst_value);
     if (!worst || further) {
       worst = &moment;
       worst_value = value;
@@ -113,20 +107,19 @@ json broken_limits_json(const Limits& limits, const DriveResult& result) {
   json marks = json::array();
   if (result.moments.empty()) return marks;
   for (const HeldLimit& held : held_limits(limits)) add_stretches(held, result, marks);
-  const auto marked = [&](const std::string& limit) {
-    return std::ranges::any_of(marks, [&](const json& one) { return one.at("reason") == limit; });
+  const auto marked = [&](Rejection limit) {
+    return std::ranges::any_of(marks,
+                               [&](const json& one) { return one.at("reason") == name(limit); });
   };
   // What is broken between two rows only, and what no column of a wheel tells.
   for (const LimitBroken& one : result.broken) {
     if (marked(one.limit)) continue;
-    const double unit = one.limit == "slope" || one.limit == "slip_angle" ? kDegree : 1;
-    marks.push_back(
-        mark(one.limit, row_at(result, one.time_s), one.value / unit, one.allowed / unit));
+    marks.push_back(mark(one.limit, row_at(result, one.time_s), one.first));
     marks.back()["x_m"] = one.x_m;
     marks.back()["y_m"] = one.y_m;
   }
-  if (!result.reached && !result.reason.empty()) {
-    marks.push_back(mark(result.reason, result.moments.back(), result.value, result.allowed));
+  if (!result.reached && result.reason) {
+    marks.push_back(mark(*result.reason, result.moments.back(), result.exceeded));
   }
   return marks;
 }

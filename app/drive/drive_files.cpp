@@ -6,15 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "app/io/csv_cells.h"
+#include "planner/problem/rejection_text.h"
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kInDegrees = 180 / std::numbers::pi;
 
 std::string stem(const std::string& file) {
   return std::filesystem::path(file).stem().string();
@@ -29,43 +29,17 @@ Json place(double x_m, double y_m, double s_m, double time_s) {
   return {{"x_m", x_m}, {"y_m", y_m}, {"s_m", s_m}, {"time_s", time_s}};
 }
 
-/// How the number that a reason names is shown.
-struct Shown {
-  double si = 1;  ///< of the unit
-  std::string_view unit;
-};
-
-Shown shown(const std::string& reason) {
-  if (reason == "slope" || reason == "slip_angle") return {1 / kInDegrees, " deg"};
-  if (reason == "speed" || reason == "does_not_stop") return {1, " m/s"};
-  const bool length = reason == "sinkage" || reason == "deviation" || reason == "goal_missed";
-  return {1, length ? " m" : ""};
-}
-
-std::string words(std::string reason) {
-  std::ranges::replace(reason, '_', ' ');
-  return reason;
-}
-
 Json limits_json(const DriveResult& result) {
   Json broken = Json::array();
   for (const LimitBroken& one : result.broken) {
-    const double si = shown(one.limit).si;
-    broken.push_back({{"limit", one.limit},
+    const double si = quantity(one.limit).si_per_shown;
+    broken.push_back({{"limit", name(one.limit)},
                       {"first", place(one.x_m, one.y_m, one.s_m, one.time_s)},
-                      {"value", one.value / si},
+                      {"value", one.first.found / si},
                       {"worst", one.worst / si},
-                      {"allowed", one.allowed / si}});
+                      {"allowed", one.first.limit / si}});
   }
   return broken;
-}
-
-/// Why, with the numbers that there are.
-std::string reason_text(const DriveResult& result) {
-  const auto [si, unit] = shown(result.reason);
-  if (!std::isfinite(result.value)) return words(result.reason);
-  return fmt::format("{} {:.3g}{} (allowed: {:.3g})", words(result.reason), result.value / si, unit,
-                     result.allowed / si);
 }
 
 template <class Value>
@@ -109,7 +83,7 @@ std::string drive_csv(const DriveRecord& record, const Vehicle& vehicle) {
     text += id + "," + number_cell(row.time_s) + "," + number_cell(row.x_m) + "," +
             number_cell(row.y_m);
     for (const double angle : {row.yaw_rad, row.roll_rad, row.pitch_rad}) {
-      text += "," + number_cell(angle * kInDegrees);
+      text += "," + number_cell(degrees(angle));
     }
     const auto cells = [&](bool wanted, const std::vector<double>& values, double unit) {
       for (std::size_t i = 0; wanted && i < vehicle.wheels.size(); ++i) {
@@ -118,7 +92,7 @@ std::string drive_csv(const DriveRecord& record, const Vehicle& vehicle) {
       }
     };
     cells(turning, row.wheel_speed_rad_s, 1);
-    cells(true, row.steer_rad, kInDegrees);
+    cells(true, row.steer_rad, degrees(1));
     cells(torques, row.torque_nm, 1);
     cells(depths, row.sinkage_m, 1);
     text += "\n";
@@ -129,7 +103,8 @@ std::string drive_csv(const DriveRecord& record, const Vehicle& vehicle) {
 std::string drive_json(const DriveRecord& record, const PlanningProblem& problem) {
   const DriveResult& result = record.result;
   const SteeringLaw& law = result.law;
-  const double si = shown(result.reason).si;
+  const double si = result.reason ? quantity(*result.reason).si_per_shown : 1;
+  const auto& exceeded = result.exceeded;
   Json margins{
       {"cornering", Json()}, {"tip_over", Json()}, {"traction", Json()}, {"smallest", Json()}};
   if (const auto& smallest = result.smallest_margin) {
@@ -144,10 +119,10 @@ std::string drive_json(const DriveRecord& record, const PlanningProblem& problem
   Json json{{"status", whole            ? "reached"
                        : result.reached ? "limits_broken"
                                         : "not_reached"},
-            {"reason", result.reason},
+            {"reason", result.reason ? name(*result.reason) : ""},
             {"place", place(result.x_m, result.y_m, result.s_m, result.time_s)},
-            {"value", number(result.value / si)},
-            {"allowed", number(result.allowed / si)},
+            {"value", exceeded ? Json(exceeded->found / si) : Json()},
+            {"allowed", exceeded ? Json(exceeded->limit / si) : Json()},
             {"goal", record.ends_in_goal ? "goal of the scenario" : "end of the path"},
             {"cross_track_rms_m", result.cross_track_rms_m},
             {"cross_track_max_m", result.cross_track_max_m},
@@ -183,7 +158,7 @@ std::string truth_json(const DriveRecord& record, const TrueWorld& world) {
     const auto values = [&](const auto& value) { return by_wheel(moments, i, value); };
     wheels[mounts[i].name] = {
         {"slip", values([](const WheelNow& w) { return w.slip; })},
-        {"slip_angle_deg", values([](const WheelNow& w) { return w.slip_angle_rad * kInDegrees; })},
+        {"slip_angle_deg", values([](const WheelNow& w) { return degrees(w.slip_angle_rad); })},
         {"load_n", values([](const WheelNow& w) { return w.load_n; })},
         {"torque_nm", values([](const WheelNow& w) { return w.torque_nm; })},
         {"sinkage_m", values([](const WheelNow& w) { return w.sinkage_m; })}};
@@ -200,7 +175,7 @@ std::string truth_json(const DriveRecord& record, const TrueWorld& world) {
       {"time_s", values([](const DriveMoment& m) { return m.time_s; })},
       {"x_m", values([](const DriveMoment& m) { return m.state.x_m; })},
       {"y_m", values([](const DriveMoment& m) { return m.state.y_m; })},
-      {"yaw_deg", values([](const DriveMoment& m) { return m.state.yaw_rad * kInDegrees; })},
+      {"yaw_deg", values([](const DriveMoment& m) { return degrees(m.state.yaw_rad); })},
       {"speed_mps", values([](const DriveMoment& m) {
          return std::hypot(m.state.motion.vx_mps, m.state.motion.vy_mps);
        })},
@@ -212,11 +187,10 @@ std::string truth_json(const DriveRecord& record, const TrueWorld& world) {
 }
 
 std::string broken_text(const LimitBroken& broken) {
-  const auto [si, unit] = shown(broken.limit);
   return fmt::format(
-      "Limit broken: {} {:.3g}{} at worst (allowed: {:.3g}), first at ({:.2f}, {:.2f}), {:.1f} s.",
-      words(broken.limit), broken.worst / si, unit, broken.allowed / si, broken.x_m, broken.y_m,
-      broken.time_s);
+      "Limit broken: {} at worst, first at ({:.2f}, {:.2f}), {:.1f} s.",
+      rejection_text(broken.limit, Exceeded{.found = broken.worst, .limit = broken.first.limit}),
+      broken.x_m, broken.y_m, broken.time_s);
 }
 
 std::string drive_headline(const DriveRecord& record) {
@@ -231,7 +205,7 @@ std::string drive_headline(const DriveRecord& record) {
   }
   return fmt::format("{} the {}: {} at ({:.2f}, {:.2f}), {:.1f} m along, {:.1f} s; {}.",
                      r.reached ? "Broke a limit on the way to" : "Did not reach", goal,
-                     reason_text(r), r.x_m, r.y_m, r.s_m, r.time_s, kept);
+                     rejection_text(*r.reason, r.exceeded), r.x_m, r.y_m, r.s_m, r.time_s, kept);
 }
 
 }  // namespace regoplan

@@ -249,7 +249,7 @@ void add_ends(json& data, const ReferencePath& path, const DriveRecord& record,
   data["problem"]["start"] = {{"x_m", start.x_m},
                               {"y_m", start.y_m},
                               {"heading_deg", degrees(start.yaw_rad)},
-                              {"speed_mps", 0}};
+                              {"speed_mps", start.motion.vx_mps}};
   if (record.ends_in_goal) return;
   const CurvePlace end = path.end();
   data["problem"]["goal"] = {{"x_m", end.x_m}, {"y_m", end.y_m}, {"radius_m", 0}, {"label", "End"}};

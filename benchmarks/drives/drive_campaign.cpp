@@ -153,7 +153,8 @@ double rms_m(const Course& course, const UncertainSoil& soil, FollowerChoice fol
                                     .seed = draw,
                                     .judge_margins = false});
   if (!result.reached) {
-    fmt::print(stderr, "draw {}: {} at {:.1f} m\n", draw, result.reason, result.s_m);
+    fmt::print(stderr, "draw {}: {} at {:.1f} m\n", draw, result.reason ? name(*result.reason) : "",
+               result.s_m);
     return 5;
   }
   return result.cross_track_rms_m;

@@ -32,6 +32,8 @@ constexpr auto kReasons = std::to_array<Reason>({
     {Rejection::kDeviation, "deviation", {.words = "deviation", .unit = "m"}},
     {Rejection::kStalled, "stalled"},
     {Rejection::kDynamics, "dynamics"},
+    {Rejection::kDoesNotStop, "does_not_stop", {.words = "speed at the end", .unit = "m/s"}},
+    {Rejection::kGoalMissed, "goal_missed", {.words = "distance from the goal", .unit = "m"}},
 });
 
 constexpr bool in_order() {

@@ -23,7 +23,9 @@ enum class Rejection {
   kSteering,   ///< a curvature beyond the vehicle's steering
   kDeviation,  ///< the vehicle strayed from the path
   kStalled,
-  kDynamics,  ///< no motion balances the forces
+  kDynamics,     ///< no motion balances the forces
+  kDoesNotStop,  ///< at the end of the path
+  kGoalMissed,   ///< the vehicle stands too far from it
 };
 /// Those of states come first.
 inline constexpr int kRejectionCount = 11;

@@ -72,18 +72,17 @@ DriveRecord made_up_drive(const PlanningProblem& problem, int rows) {
     }
   }
   const DriveMoment& last = result.moments.back();
-  result.broken = {{.limit = "slip",
-                    .x_m = last.state.x_m,
-                    .y_m = last.state.y_m,
-                    .s_m = last.s_m,
-                    .time_s = last.time_s,
-                    .value = 0.61,
-                    .allowed = 0.6,
-                    .worst = 0.7},
-                   {.limit = "slope", .value = 0.5, .allowed = 0.4, .worst = 0.6}};
-  result.reason = "deviation";
-  result.value = 0.5;
-  result.allowed = 0.4;
+  result.broken = {
+      {.limit = Rejection::kSlip,
+       .x_m = last.state.x_m,
+       .y_m = last.state.y_m,
+       .s_m = last.s_m,
+       .time_s = last.time_s,
+       .first = {.found = 0.61, .limit = 0.6},
+       .worst = 0.7},
+      {.limit = Rejection::kSlope, .first = {.found = 0.5, .limit = 0.4}, .worst = 0.6}};
+  result.reason = Rejection::kDeviation;
+  result.exceeded = Exceeded{.found = 0.5, .limit = 0.4};
   result.x_m = last.state.x_m;
   result.y_m = last.state.y_m;
   result.s_m = result.length_m = last.s_m;

@@ -63,8 +63,9 @@ TEST_F(DriveReport, OfALongDriveStaysSmallAndKeepsTheWorst) {
 TEST_F(DriveReport, SaysFirstWhereItEndedAndWhichLimitsWereBroken) {
   const DriveRecord drive = made_up_drive(problem_, 200);
   const std::string text = page(drive);
-  EXPECT_NE(text.find("Did not reach the goal: deviation 0.5 m (allowed: 0.4)"), std::string::npos);
-  EXPECT_NE(text.find("Limit broken: slip 0.7 at worst (allowed: 0.6)"), std::string::npos);
+  EXPECT_NE(text.find("Did not reach the goal: deviation 0.5 m (allowed: at most 0.4 m)"),
+            std::string::npos);
+  EXPECT_NE(text.find("Limit broken: slip 0.7 (allowed: at most 0.6) at worst"), std::string::npos);
 }
 
 TEST_F(DriveReport, MarksTheWorstRowOfEachStretch) {
