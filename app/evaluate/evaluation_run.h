@@ -16,7 +16,7 @@ struct EvaluationRequest {
   std::optional<std::string> manoeuvre_file;
   std::optional<double> speed_mps;  ///< in place of the scenario's largest
   std::optional<double> deviation_max_m;
-  std::optional<std::string> follower;  ///< one of `follower_names()`; else `pursuit`
+  std::optional<std::string> follower;  ///< one of `follower_names()`; else `compensated`
   int soil_draws = 1000;
   ResultFolder folder;
   bool json = false;   ///< evaluation.json to standard output as well
