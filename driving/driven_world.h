@@ -12,11 +12,11 @@ namespace regoplan {
 /// One wheel at a moment.
 struct WheelNow {
   double load_n = 0;
-  double steer_rad = 0;      ///< as commanded
-  double rim_speed_mps = 0;  ///< turning rate times the known radius
-  double slip = 0;
-  double slip_angle_rad = 0;
-  double torque_nm = 0;  ///< true, drag included
+  double steer_rad = 0;       ///< as commanded
+  double rim_speed_mps = 0;   ///< turning rate times the known radius
+  double slip = 0;            ///< 0 near rest, where a wheel creeps
+  double slip_angle_rad = 0;  ///< likewise
+  double torque_nm = 0;       ///< true, drag included
   double sinkage_m = 0;
 };
 

@@ -286,9 +286,10 @@ std::vector<WheelNow> TrueWorld::wheels(const VehicleState& state) const {
       const WheelForces forces = faded(laws_[law], now.load_n, at);
       now.torque_nm = forces.torque_nm;
       now.sinkage_m = forces.sinkage_m;
-      const WheelMotion motion = wheels_[law].true_motion(at);
-      now.slip = slip_ratio(motion);
-      now.slip_angle_rad = slip_angle_rad(motion);
+      LargestSlips slips;  // of this wheel: none near rest, as where limits are judged
+      slips.add(wheels_[law].true_motion(at));
+      now.slip = slips.slip();
+      now.slip_angle_rad = slips.slip_angle_rad();
     }
     wheels.push_back(now);
   }

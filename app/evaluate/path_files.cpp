@@ -9,7 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <ranges>
+#include <span>
 
 #include "app/io/csv_cells.h"
 #include "app/io/number_text.h"
@@ -209,18 +209,19 @@ constexpr double kCreep_mps = VehicleDynamics::kStandstillSpeed_mps;
 
 /// The slowest moment about a change of direction ends one range and begins the next.
 std::vector<RowRange> ranges_of(const std::vector<RecordedMoment>& moments) {
-  const auto speed = [&](std::size_t i) { return moments[i].state.motion.vx_mps; };
-  const auto slower = [&](std::size_t a, std::size_t b) {
-    return std::abs(speed(a)) < std::abs(speed(b));
+  const auto speed_mps = [](const RecordedMoment& at) { return at.state.motion.vx_mps; };
+  const auto slower = [&](const RecordedMoment& a, const RecordedMoment& b) {
+    return std::abs(speed_mps(a)) < std::abs(speed_mps(b));
   };
   std::vector<RowRange> ranges{{.first = 0, .last = moments.size() - 1}};
   std::optional<std::size_t> moved;  // the last moment that moves
   for (std::size_t i = 0; i < moments.size(); ++i) {
-    if (std::abs(speed(i)) <= kCreep_mps) continue;
-    const bool reverse = speed(i) < 0;
+    if (std::abs(speed_mps(moments[i])) <= kCreep_mps) continue;
+    const bool reverse = speed_mps(moments[i]) < 0;
     if (moved && reverse != ranges.back().reverse) {
-      const auto between = std::views::iota(*moved, i + 1);
-      ranges.back().last = *std::ranges::min_element(between, slower);
+      const std::span between(&moments[*moved], i + 1 - *moved);
+      const auto slowest = std::min_element(between.begin(), between.end(), slower);
+      ranges.back().last = *moved + static_cast<std::size_t>(slowest - between.begin());
       ranges.push_back({.first = ranges.back().last,
                         .last = moments.size() - 1,
                         .stands_s = moments[i].time_s - moments[*moved].time_s});

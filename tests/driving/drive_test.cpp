@@ -225,6 +225,21 @@ TEST(Drive, WheelsInTheRutsOfOthersSinkLess) {
   EXPECT_LT(moment.wheels[2].sinkage_m, 0.9 * moment.wheels[0].sinkage_m);
 }
 
+TEST(Drive, WheelsThatCreepAtRestHaveNoSlip) {
+  const Traverse traverse(15);
+  const TrueWorld world(traverse.prepared.problem, {});
+  VehicleState state = start_of(traverse.path, world.known_vehicle());
+  state.rim_speed_mps = 0;
+  state.motion = {.vx_mps = 1e-5, .vy_mps = -4e-4};
+  for (const WheelNow& wheel : world.wheels(state)) {
+    EXPECT_GT(wheel.load_n, 0);
+    EXPECT_EQ(wheel.slip, 0);
+    EXPECT_EQ(wheel.slip_angle_rad, 0);
+  }
+  state.motion.vy_mps = -4e-3;  // it slides
+  for (const WheelNow& wheel : world.wheels(state)) EXPECT_LT(wheel.slip_angle_rad, -1);
+}
+
 TEST(Drive, WhoStraysFartherThanAllowedIsStopped) {
   const Traverse traverse(15);
   const DriveResult run = traverse.driven({}, {.deviation_max_m = 0.001});
