@@ -53,7 +53,7 @@ room(app/command terramech maps planner driving diagnosis benchmarking app/io ap
 room(app/page terramech maps planner driving diagnosis benchmarking app/io app/settings)
 room(app/diagnose_drive terramech maps planner drive_diagnosis app/io app/settings app/command
      app/page)
-foreach(command plan evaluate benchmark diagnose wheel map starter_files export)
+foreach(command plan evaluate benchmark compare diagnose wheel map starter_files export)
   room(app/${command} terramech maps planner driving diagnosis benchmarking app/io app/settings app/command
        app/page)
 endforeach()

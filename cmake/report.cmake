@@ -39,5 +39,7 @@ regoplan_embed(
   kDiagnosisScript ${diagnosis_scripts}
   kDrivesHtml app/report/drives/drives.html
   kDrivesScript app/report/drives/main.js
+  kCompareHtml app/report/compare/compare.html
+  kCompareScript app/report/compare/main.js
   kBenchmarkHtml app/report/benchmark/benchmark.html
   kBenchmarkScript app/report/map/terrain.js ${benchmark_scripts})

@@ -39,6 +39,7 @@ Command add_soil_command(CLI::App& program);
 Command add_scenario_command(CLI::App& program);
 Command add_completion_command(CLI::App& program);
 Command add_export_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
 
 /// An option takes finite numbers in this range only.
 CLI::Validator in_range(const ValueRange& allowed);

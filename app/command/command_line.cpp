@@ -21,6 +21,7 @@ std::vector<Command> add_commands(CLI::App& program) {
   commands.push_back(add_map_import_command(*map));
   commands.push_back(add_map_info_command(*map));
   commands.push_back(add_export_command(program));
+  commands.push_back(add_compare_command(program));
   commands.push_back(add_completion_command(program));
   add_help_examples(program, commands);
   program.footer("`./regoplan test` builds and runs the tests.\n" + program.get_footer());

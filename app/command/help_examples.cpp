@@ -39,6 +39,7 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
        "regoplan map import --elevation points.csv --soils soils.yaml --gravity-mps2 9.81 --out "
        "my-map"}},
      {"map info", {"regoplan map info my-map/scenario.yaml", "regoplan map info dem.tif --json"}},
+     {"compare", {"regoplan compare before after", "regoplan compare before after --out compared"}},
      {"export",
       {"regoplan export result --nav2 nav2", "regoplan export result --nav2 nav2 --qgis qgis"}},
      {"vehicle", {"regoplan vehicle lrv > vehicle.yaml", "regoplan vehicle curiosity"}},

@@ -16,6 +16,8 @@ extern const std::string_view kEvaluationHtml;    ///< sections of the evaluatio
 extern const std::string_view kEvaluationScript;  ///< draws them
 extern const std::string_view kBenchmarkHtml;     ///< sections of the benchmark's report
 extern const std::string_view kBenchmarkScript;   ///< draws them
+extern const std::string_view kCompareHtml;       ///< sections of two results side by side
+extern const std::string_view kCompareScript;     ///< draws them
 extern const std::string_view kDiagnosisHtml;     ///< sections of the diagnosis
 extern const std::string_view kDiagnosisScript;   ///< draws them
 extern const std::string_view kDriveHtml;         ///< sections of a drive

@@ -14,6 +14,7 @@ from ._wheel import STATUS, Wheel, WheelForces, cornering_and_drag, mechanisms
 # What needs the program's commands is loaded with their first use.
 _LATER = {"plan": "_commands", "evaluate": "_commands", "drive": "_commands",
           "diagnose": "_commands", "diagnose_drives": "_commands", "benchmark": "_commands",
+          "compare": "_commands", "Comparison": "_results",
           "TerrainMap": "_maps", "Plan": "_results", "Candidate": "_results",
           "Evaluation": "_results", "Drive": "_results", "Diagnosis": "_results",
           "DriveDiagnosis": "_results", "Benchmark": "_results", "ProgramError": "_program"}

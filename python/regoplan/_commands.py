@@ -1,11 +1,12 @@
-"""plan, evaluate, drive, diagnose and benchmark: the program's commands over dicts, tables and files."""
+"""plan, evaluate, drive, diagnose, benchmark and compare: the program's commands over dicts, tables and files."""
 
 import os
 
 from . import _arguments, _physics, _program, _tables
 from ._errors import InputError
 from ._maps import TerrainMap, absolute
-from ._results import Benchmark, Candidate, Diagnosis, Drive, DriveDiagnosis, Evaluation, Plan
+from ._results import (Benchmark, Candidate, Comparison, Diagnosis, Drive, DriveDiagnosis,
+                       Evaluation, Plan, Result)
 
 _MAP_FILES = ("elevation", "soil_class", "soils", "rocks")
 _FILE_NAME_BYTES_MAX = 100
@@ -213,6 +214,24 @@ def benchmark(suite, *, shard=None, processes=None, out=None, force=False, progr
     return call.run(arguments + call.options(shard=shard, processes=processes), Benchmark)
 
 
+def compare(a, b, *, out=None, force=False):
+    """What differs between two results of one command: ``regoplan compare``.
+
+    Parameters
+    ----------
+    a, b : Plan, Evaluation, Benchmark, or folder name
+        What the command gave, or wrote.
+    out, force : optional
+        As of ``plan``.
+
+    Returns
+    -------
+    Comparison
+    """
+    call = _Call(out, force, None)
+    return call.run(["compare", call.result("a", a), call.result("b", b)], Comparison)
+
+
 def _is_one(value):
     """A path or recording, and not several."""
     return isinstance(value, (str, bytes, os.PathLike, Candidate)) or _tables.is_table(value)
@@ -322,6 +341,10 @@ class _Call:
         if _tables.is_table(value):
             return self._file(name, ".csv", _tables.csv_text(name, value))
         return absolute(value, name)
+
+    def result(self, name, value):
+        """The folder of a result."""
+        return str(value.folder) if isinstance(value, Result) else absolute(value, name)
 
     def run(self, arguments, result):
         folder = _program.ResultFolder(self._out)

@@ -185,6 +185,20 @@ class Benchmark(Result):
         return f"Benchmark({len(self.json['experiments'])} experiments)"
 
 
+class Comparison(Result):
+    """What differs between two results; keys of ``comparison.json`` (docs/compare.md)."""
+
+    _FILE = "comparison.json"
+
+    def to_dataframe(self):
+        """A pandas DataFrame, one row an entry: ``a.margin_min``, ``b.margin_min``,
+        ``change.margin_min``, ..."""
+        return dataframe(_rows(self.json["entries"]))
+
+    def __repr__(self):
+        return f"Comparison({self.headline})"
+
+
 def _rows(entries):
     """Entries with their one-level mappings spread: ``limiting.x_m``."""
     spread = []

@@ -92,6 +92,18 @@ def test_an_evaluation_is_the_programs(program, scenario, planned, tmp_path):
     assert judged.paths[0]["recorded"]["difference"] < 0.02
 
 
+def test_two_results_are_compared_as_the_program_does(program, planned, tmp_path):
+    same = regoplan.compare(planned, planned)
+    assert same.kind == "plan" and same.inputs == []
+    assert all(entry["change"]["margin_min"] == 0 for entry in same.entries)
+    ran = program("compare", planned.folder, planned.folder, "--out", tmp_path / "out")
+    assert ran.returncode == 0
+    theirs = json.loads((tmp_path / "out" / "comparison.json").read_text())
+    assert {**theirs, "a": None, "b": None} == {**same.json, "a": None, "b": None}
+    with pytest.raises(regoplan.InputError, match="no result"):
+        regoplan.compare(planned, tmp_path)
+
+
 def test_a_drive_is_the_programs(program, scenario, planned, tmp_path):
     truth = {"vehicle": {"wheels": {"front_left": {"drag_nm": 2}}}}
     driven = regoplan.drive(scenario, planned.candidates[0], follower="compensated", sensors="A",

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "app/benchmark/benchmark_files.h"
+#include "app/compare/comparison.h"
 #include "app/diagnose/diagnosis_files.h"
 #include "app/evaluate/evaluation_files.h"
 #include "app/map/map_summary.h"
@@ -118,6 +119,19 @@ TEST(DocsOfResults, HoldEveryKeyOfBenchmarkJson) {
   const std::string text = benchmark_json({.journal = journal});
   ASSERT_FALSE(Json::parse(text).at("comparisons").empty());
   EXPECT_EQ(undocumented(keys_of(text), {"benchmark.md"}), Keys{});
+}
+
+TEST(DocsOfResults, HoldEveryKeyOfComparisonJson) {
+  for (const ResultKind kind : {ResultKind::kPlan, ResultKind::kBenchmark}) {
+    ComparedResult a{.kind = kind, .asked = {{"limits", 1}}, .inputs = nlohmann::ordered_json()};
+    a.entries = {{.name = "one", .values = {metrics_of(kind).size(), 0.5}}};
+    ComparedResult b = a;
+    b.asked["limits"] = 2;
+    const Comparison comparison = compared(a, b);
+    ASSERT_FALSE(comparison.settings.empty());
+    EXPECT_EQ(undocumented(keys_of(comparison_json(a, b, comparison).dump()), {"compare.md"}),
+              Keys{});
+  }
 }
 
 TEST(DocsOfResults, HoldEveryKeyOfAMapsSummary) {

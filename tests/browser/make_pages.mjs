@@ -1,4 +1,4 @@
-// Makes the five reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
+// Makes the six reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
@@ -58,3 +58,7 @@ iterations: 400
 soil_draws: 2
 `);
 regoplan('benchmark', join(folder, 'suite.yaml'), '--out', join(folder, 'benchmark'));
+regoplan(
+    'demo', '--planner', 'Lattice', '--iterations', '500', '--candidates', '2', '--seed', '4', '--out',
+    join(folder, 'other-plan'));
+regoplan('compare', join(folder, 'plan'), join(folder, 'other-plan'), '--out', join(folder, 'comparison'));

@@ -1,0 +1,196 @@
+#include "app/compare/compared_result.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "app/io/csv_table.h"
+#include "terramech/basics/input_error.h"
+
+namespace regoplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Better = ComparedMetric::Better;
+
+struct KindFile {
+  ResultKind kind;
+  std::string_view name;
+  const char* file;
+};
+constexpr auto kKinds = std::to_array<KindFile>({
+    {ResultKind::kPlan, "plan", "plan.json"},
+    {ResultKind::kEvaluation, "evaluation", "evaluation.json"},
+    {ResultKind::kBenchmark, "benchmark", "benchmark.json"},
+});
+
+std::optional<double> number_at(const Json& entry, std::string_view key) {
+  const auto found = entry.find(std::string(key));
+  if (found == entry.end() || !found->is_number()) return std::nullopt;
+  return found->get<double>();
+}
+
+std::vector<std::optional<double>> values_of(const Json& entry, ResultKind kind) {
+  std::vector<std::optional<double>> values;
+  for (const ComparedMetric& metric : metrics_of(kind)) {
+    values.push_back(number_at(entry, metric.key));
+  }
+  return values;
+}
+
+ComparedPath path_of(CsvTable& table, std::size_t x, std::size_t y) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const auto margin = table.find_column("margin");
+  ComparedPath path;
+  while (const auto cells = table.next()) {
+    path.x_m.push_back(table.number(*cells, x, kAnyNumber));
+    path.y_m.push_back(table.number(*cells, y, kAnyNumber));
+    if (!margin) continue;
+    path.margin.push_back(cells->at(*margin).empty() ? kNone
+                                                     : table.number(*cells, *margin, kAnyNumber));
+  }
+  return path;
+}
+
+/// A path file that has gone or changed its columns takes nothing from the numbers: then no path.
+std::optional<ComparedPath> read_compared_path(const std::filesystem::path& file) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none)) return std::nullopt;
+  std::ifstream stream(file, std::ios::binary);
+  try {
+    CsvTable table(stream, file.string());
+    const auto x = table.find_column("x_m"), y = table.find_column("y_m");
+    if (!x || !y) return std::nullopt;
+    ComparedPath path = path_of(table, *x, *y);
+    if (path.x_m.size() >= 2) return path;
+  } catch (const InputError&) {
+  }
+  return std::nullopt;
+}
+
+/// Of everything at the top of a result, what was asked and not what came of it.
+Json asked_of(const Json& result, std::initializer_list<const char*> keys) {
+  Json asked = Json::object();
+  for (const char* key : keys) {
+    if (result.contains(key)) asked[key] = result.at(key);
+  }
+  return asked;
+}
+
+void read_plan(const Json& json, ComparedResult& result) {
+  result.asked = json.at("settings");
+  result.asked["model"] = json.at("model");
+  for (const Json& input : json.at("inputs")) {
+    result.inputs[input.at("key").get<std::string>()] = input.at("digest");
+  }
+  for (const Json& candidate : json.at("candidates")) {
+    result.entries.push_back({.name = fmt::format("candidate {}", candidate.at("rank").get<int>()),
+                              .verdict = "feasible",
+                              .feasible = true,
+                              .values = values_of(candidate, ResultKind::kPlan),
+                              .path = read_compared_path(result.file.parent_path() /
+                                                         candidate.at("file").get<std::string>())});
+  }
+}
+
+void read_evaluation(const Json& json, ComparedResult& result) {
+  result.asked = asked_of(
+      json, {"vehicle", "model", "gravity_mps2", "limits", "follower", "steering_law", "seed"});
+  for (const Json& path : json.at("paths")) {
+    const bool feasible = path.at("feasible").get<bool>();
+    const bool of_file = path.contains("file");
+    const auto shown = path.at(of_file ? "file" : "manoeuvre").get<std::string>();
+    ComparedEntry entry{.name = of_file ? std::filesystem::path(shown).filename().string() : shown,
+                        .verdict = feasible ? "feasible" : path.at("reason").get<std::string>(),
+                        .feasible = feasible,
+                        .values = values_of(path, ResultKind::kEvaluation)};
+    if (of_file) entry.path = read_compared_path(shown);
+    result.entries.push_back(std::move(entry));
+  }
+}
+
+void read_benchmark(const Json& json, ComparedResult& result) {
+  result.asked = asked_of(json, {"suite", "runs"});
+  for (const Json& experiment : json.at("experiments")) {
+    for (const Json& planner : experiment.at("planners")) {
+      const int runs = planner.at("runs").get<int>(), verified = planner.at("verified").get<int>();
+      result.entries.push_back(
+          {.name = fmt::format("{}, {}", experiment.at("name").get<std::string>(),
+                               planner.at("planner").get<std::string>()),
+           .verdict = fmt::format("{} of {} verified", verified, runs),
+           .feasible = verified > 0,
+           .values = values_of(planner, ResultKind::kBenchmark)});
+    }
+  }
+}
+
+void read_entries(const Json& json, ComparedResult& result) {
+  switch (result.kind) {
+    case ResultKind::kPlan:
+      return read_plan(json, result);
+    case ResultKind::kEvaluation:
+      return read_evaluation(json, result);
+    case ResultKind::kBenchmark:
+      return read_benchmark(json, result);
+  }
+}
+
+/// The file of a result, and what it is of by its name.
+std::pair<std::filesystem::path, ResultKind> file_of(const std::filesystem::path& result) {
+  std::error_code none;
+  for (const KindFile& kind : kKinds) {
+    if (result.filename() == kind.file) return {result, kind.kind};
+    if (std::filesystem::is_regular_file(result / kind.file, none)) {
+      return {result / kind.file, kind.kind};
+    }
+  }
+  throw InputError(fmt::format(
+      "{}: no result (allowed: a folder with plan.json, evaluation.json or benchmark.json)",
+      result.string()));
+}
+
+}  // namespace
+
+std::string_view name(ResultKind kind) {
+  return kKinds.at(static_cast<std::size_t>(kind)).name;
+}
+
+const std::vector<ComparedMetric>& metrics_of(ResultKind kind) {
+  static const std::vector<ComparedMetric> kPaths{
+      {"margin_p05", "margin, 5 % of soils", "", Better::kMore},
+      {"probability_feasible", "probability", "", Better::kMore},
+      {"margin_min", "margin, mean soils", "", Better::kMore},
+      {"duration_s", "time", "s", Better::kLess},
+      {"length_m", "length", "m", Better::kLess},
+      {"energy_j", "energy", "J", Better::kLess}};
+  static const std::vector<ComparedMetric> kPlanners{
+      {"verified", "verified runs", "", Better::kMore},
+      {"overturned", "overturned runs", "", Better::kLess},
+      {"time_median_s", "search time, median", "s", Better::kLess},
+      {"duration_median_s", "duration, median", "s", Better::kLess},
+      {"length_median_m", "length, median", "m", Better::kLess},
+      {"energy_median_j", "energy, median", "J", Better::kLess},
+      {"margin_median", "margin, median", "", Better::kMore}};
+  return kind == ResultKind::kBenchmark ? kPlanners : kPaths;
+}
+
+ComparedResult read_compared_result(const std::filesystem::path& folder) {
+  const auto [file, kind] = file_of(folder);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string() + ": cannot be read");
+  ComparedResult result{.kind = kind, .file = file, .inputs = Json::object()};
+  try {
+    const Json json = Json::parse(stream);
+    result.version = json.at("version").get<std::string>();
+    result.status = json.value("status", "");
+    read_entries(json, result);
+  } catch (const Json::exception&) {
+    throw InputError(fmt::format("{}: is not as {} writes it", file.string(), name(kind)));
+  }
+  return result;
+}
+
+}  // namespace regoplan

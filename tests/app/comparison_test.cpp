@@ -1,0 +1,156 @@
+// Two results side by side.
+#include "app/compare/comparison.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "app/compare/comparison_report.h"
+#include "tests/app/error_text.h"
+#include "tests/app/flat_map.h"
+#include "tests/app/json_schema.h"
+#include "tests/app/program_run.h"
+
+namespace regoplan {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+ComparedEntry entry(const std::string& name, double margin_p05, double duration_s) {
+  ComparedEntry entry{.name = name, .verdict = "feasible", .feasible = true};
+  for (const ComparedMetric& metric : metrics_of(ResultKind::kPlan)) {
+    entry.values.push_back(metric.key == "margin_p05"   ? std::optional(margin_p05)
+                           : metric.key == "duration_s" ? std::optional(duration_s)
+                                                        : std::nullopt);
+  }
+  return entry;
+}
+
+ComparedResult plan(std::vector<ComparedEntry> entries) {
+  return {.kind = ResultKind::kPlan,
+          .file = "plan.json",
+          .status = "feasible",
+          .version = "1",
+          .asked = {{"limits", {{"margin_min", 0.05}, {"slip_max", 0.6}}}},
+          .inputs = {{"scenario", "11"}, {"map.soils", "22"}},
+          .entries = std::move(entries)};
+}
+
+double changed(const Comparison& comparison, const std::string& name, const std::string& metric) {
+  const auto pair = std::ranges::find(comparison.pairs, name, &ComparedPair::name);
+  const std::vector<ComparedMetric>& metrics = metrics_of(ResultKind::kPlan);
+  const auto found = std::ranges::find(metrics, metric, &ComparedMetric::key);
+  return pair->change.at(static_cast<std::size_t>(found - metrics.begin())).value();
+}
+
+TEST(Comparison, OfAResultWithItselfSaysThatNothingDiffers) {
+  const ComparedResult a = plan({entry("candidate 1", 0.2, 60)});
+  const Comparison same = compared(a, a);
+  EXPECT_TRUE(same.settings.empty());
+  EXPECT_TRUE(same.inputs.empty());
+  EXPECT_EQ(changed(same, "candidate 1", "margin_p05"), 0);
+  EXPECT_EQ(comparison_headline(a, a, same),
+            "Of 1 in both, B is better for 0, worse for 0, the same for 1 (margin, 5 % of soils). "
+            "The same was asked of both.");
+}
+
+TEST(Comparison, HoldsEntriesOfOneNameAgainstEachOther) {
+  const ComparedResult a = plan({entry("candidate 1", 0.2, 60), entry("candidate 2", 0.1, 50)});
+  const ComparedResult b = plan({entry("candidate 3", 0.3, 40), entry("candidate 1", 0.15, 48)});
+  const Comparison comparison = compared(a, b);
+  ASSERT_EQ(comparison.pairs.size(), 3u);
+  EXPECT_NEAR(changed(comparison, "candidate 1", "margin_p05"), -0.05, 1e-12);
+  EXPECT_NEAR(changed(comparison, "candidate 1", "duration_s"), -12, 1e-12);
+  EXPECT_EQ(comparison.pairs[1].name, "candidate 2");
+  EXPECT_EQ(comparison.pairs[1].b, nullptr);
+  EXPECT_EQ(comparison.pairs[2].name, "candidate 3");
+  EXPECT_EQ(comparison.pairs[2].a, nullptr);
+  EXPECT_NE(comparison_headline(a, b, comparison)
+                .find("Of 1 in both, B is better for 0, worse "
+                      "for 1"),
+            std::string::npos);
+}
+
+TEST(Comparison, ToldIsEveryNumberThatWasSetOtherwise) {
+  const ComparedResult a = plan({});
+  ComparedResult b = plan({});
+  b.asked["limits"]["margin_min"] = 0.1;
+  b.asked["limits"].erase("slip_max");
+  b.asked["gravity_mps2"] = 3.71;
+  b.inputs["map.soils"] = "33";
+  b.version = "2";
+  const Comparison comparison = compared(a, b);
+  ASSERT_EQ(comparison.settings.size(), 4u);
+  EXPECT_EQ(comparison.settings[0].key, "limits.margin_min");
+  EXPECT_EQ(comparison.settings[0].b, 0.1);
+  EXPECT_EQ(comparison.settings[1].key, "limits.slip_max");
+  EXPECT_TRUE(comparison.settings[1].b.is_null());
+  EXPECT_EQ(comparison.settings[2].key, "gravity_mps2");
+  EXPECT_TRUE(comparison.settings[2].a.is_null());
+  EXPECT_EQ(comparison.settings[3].key, "version");
+  EXPECT_EQ(comparison.inputs, std::vector<std::string>{"map.soils"});
+}
+
+TEST(Comparison, AFileWithoutADigestCountsAsAnother) {
+  ComparedResult a = plan({});
+  a.inputs["map.elevation"] = nullptr;
+  EXPECT_EQ(compared(a, a).inputs, std::vector<std::string>{"map.elevation"});
+}
+
+/// `compare` as a person meets it: the same scenario planned twice, from two starts.
+class CompareProgram : public testing::Test {
+ protected:
+  CompareProgram() {
+    write_flat_scenario(folder_);
+    for (const char* name : {"before", "after"}) {
+      const std::string scenario = folder_.path(std::string(name) + ".yaml");
+      folder_.write(std::string(name) + ".yaml",
+                    replaced(folder_.read("scenario.yaml"), "planner: {",
+                             name == std::string("after") ? "planner: {seed: 7, " : "planner: {"));
+      run_program(folder_, fmt::format("plan '{}' --candidates 1 --quiet --out '{}'", scenario,
+                                       folder_.path(name)));
+    }
+  }
+
+  ProgramRun compare(const std::string& a, const std::string& b,
+                     const std::string& options = "") const {
+    return run_program(
+        folder_, fmt::format("compare '{}' '{}' {}", folder_.path(a), folder_.path(b), options));
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(CompareProgram, TellsWhatWasAskedOtherwiseAndWhatCameOut) {
+  const ProgramRun run = compare("before", "after");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.output.find("asked: planner.seed 1 -> 7"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("input: scenario"), std::string::npos) << run.output;
+}
+
+TEST_F(CompareProgram, WritesAPageAndWhatItsSchemaSays) {
+  const ProgramRun run =
+      compare("before/plan.json", "after", "--out '" + folder_.path("both") + "'");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const nlohmann::json json = nlohmann::json::parse(folder_.read("both/comparison.json"));
+  EXPECT_EQ(schema("comparison").errors(json), std::vector<std::string>());
+  EXPECT_EQ(json.at("kind"), "plan");
+  EXPECT_EQ(json.at("entries").at(0).at("name"), "candidate 1");
+  EXPECT_NE(folder_.read("both/report.html").find("Paths over each other"), std::string::npos);
+}
+
+TEST_F(CompareProgram, RefusesWhatIsNoResultAndResultsOfTwoKinds) {
+  expect_refusal(compare("before", "nowhere"), {"nowhere", "plan.json, evaluation.json"});
+  folder_.write("plan.json", "{\"version\": \"1\"}");
+  expect_refusal(compare("before", "plan.json"), {"plan.json", "is not as plan writes it"});
+  folder_.write("path.csv", "x_m,y_m\n8,20\n20,20.5\n");
+  ASSERT_EQ(run_program(folder_, fmt::format("evaluate '{}' '{}' --draws 10 --quiet --out '{}'",
+                                             folder_.path("before.yaml"), folder_.path("path.csv"),
+                                             folder_.path("judged")))
+                .status,
+            0);
+  expect_refusal(compare("before", "judged"), {"is of plan", "of evaluation"});
+  EXPECT_EQ(compare("judged", "judged").status, 0);
+}
+
+}  // namespace
+}  // namespace regoplan
