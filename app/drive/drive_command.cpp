@@ -9,6 +9,7 @@
 #include "app/command/plan_options.h"
 #include "app/command/progress_line.h"
 #include "app/drive/drive_report.h"
+#include "app/drive/follower_pipe.h"
 #include "app/evaluate/path_files.h"
 #include "app/io/interrupt.h"
 #include "app/settings/sensor_settings.h"
@@ -24,7 +25,7 @@ struct Options {
   std::string scenario, path;
   ScenarioOverrides overrides;
   ResultFolder folder;
-  std::optional<std::string> follower, truth_file, sensors;
+  std::optional<std::string> follower, follower_fds, truth_file, sensors;
   std::optional<double> deviation_max_m;
   bool json = false, quiet = false;
 };
@@ -49,6 +50,11 @@ DriveSettings settings_of(const Options& options, const PlanningProblem& problem
       .deviation_max_m = options.deviation_max_m.value_or(default_deviation_max_m(problem.vehicle)),
       .seed = problem.search.seed,
       .stop = stop_on_interrupt()};
+  if (options.follower_fds) {
+    const auto pipe = std::make_shared<FollowerPipe>(*options.follower_fds, settings.stop);
+    settings.follower.kind = FollowerKind::kOwn;
+    settings.follower.own = [pipe](const FollowerView& view) { return (*pipe)(view); };
+  }
   if (options.sensors) settings.sensors = sensors_named(*options.sensors);
   return settings;
 }
@@ -157,6 +163,12 @@ Command add_drive_command(CLI::App& program) {
                    "compensated (default): what the trims of the planned soils need is commanded; "
                    "pursuit: nothing is known of the ground")
       ->check(one_of({"pursuit", "compensated"}));
+  parser
+      ->add_option("--follower-fds", options->follower_fds,
+                   "a follower of your own in another process, over two open file descriptors: "
+                   "lines of JSON, docs/drive.md")
+      ->type_name("OUT,IN")
+      ->excludes("--follower");
   parser
       ->add_option("--truth", options->truth_file,
                    "how the world driven in differs from the one planned for")

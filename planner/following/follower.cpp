@@ -53,9 +53,40 @@ class CompensatedFollower : public Follower {
   std::vector<TrimSchedule> schedules_;  // one a leg
 };
 
+/// The caller's own, held to the vehicle's range.
+class OwnFollowerCaller : public Follower {
+ public:
+  OwnFollowerCaller(const Vehicle& vehicle, const ReferencePath& path, const FollowerChoice& choice)
+      : Follower(vehicle, path, choice.law), own_(choice.own) {}
+
+ protected:
+  FeedForward ahead(std::size_t leg, double s_m) const override {
+    return {.curvature_1pm = path().legs[leg].curvature_1pm(s_m)};
+  }
+  ForeseenSlip foreseen_at(std::size_t, double) const override { return {}; }
+
+  VehicleControl follow(double step_s) const override {
+    const VehicleControl control = own_(view(step_s));
+    const auto hold = [](const char* what, double value, double most) {
+      if (std::abs(value) <= most) return;
+      throw InputError(fmt::format("follower: {}: {} is not valid (allowed: {} to {})", what, value,
+                                   -most, most));
+    };
+    hold("speed_mps", control.speed_target_mps, vehicle().speed_max_mps);
+    hold("curvature_1pm", control.curvature_target_1pm, vehicle().curvature_max_1pm);
+    const bool crabs = vehicle().steering == Steering::kCrab;
+    hold("crab_rad", control.crab_target_rad, crabs ? std::numbers::pi / 2 : 0);
+    return control;
+  }
+
+ private:
+  OwnFollower own_;
+};
+
 }  // namespace
 
 std::string_view name(FollowerKind kind) {
+  if (kind == FollowerKind::kOwn) return "own";
   return follower_names().at(static_cast<std::size_t>(kind));
 }
 
@@ -92,6 +123,7 @@ double Follower::foreseen_slip_angle_rad() const {
 
 void Follower::observe(const VehicleState& seen, double step_s) {
   seen_ = seen;
+  time_s_ += step_s;
   if (!changes_direction_ && leg_ + 1 < path_.legs.size() && at_end_of_leg(step_s)) {
     changes_direction_ = true;
   }
@@ -155,6 +187,29 @@ VehicleControl Follower::control(double step_s) const {
             .curvature_target_1pm = rolls ? seen_.curvature_1pm : next.curvature_1pm,
             .crab_target_rad = rolls ? seen_.crab_rad : next.crab_rad};
   }
+  return follow(step_s);
+}
+
+double Follower::path_speed_mps(double step_s) const {
+  const double v = speed(), a = vehicle_.acceleration_max_mps2;
+  const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * step_s);
+  const double ahead_mps = now().speed.at(s_m_ + v * step_s + a * step_s * step_s / 2).speed_mps;
+  return now().direction() * std::max(creep_mps, ahead_mps);
+}
+
+FollowerView Follower::view(double step_s) const {
+  const VehicleState on_path = now().state_at(vehicle_, s_m_);
+  return {.time_s = time_s_,
+          .seen = seen_,
+          .s_m = s_m(),
+          .length_m = path_.length_m(),
+          .offset_m = offset_m_,
+          .heading_error_rad = angle_between(seen_.yaw_rad, on_path.yaw_rad),
+          .path_speed_mps = path_speed_mps(step_s),
+          .path_curvature_1pm = on_path.curvature_1pm};
+}
+
+VehicleControl Follower::follow(double step_s) const {
   const double v = speed();
   const double direction = now().direction();
   const CurvePlace place = now().curve.at(s_m_);
@@ -166,21 +221,20 @@ VehicleControl Follower::control(double step_s) const {
   const double course = angle_between(heading + slip_angle, place.heading_rad);
   const double curvature = forward.curvature_1pm - direction * (offset_m_ / (length * length) +
                                                                 2 * law_.damping * course / length);
-  // From rest, the speed a little farther on: at rest itself the path says to stay.
-  const double a = vehicle_.acceleration_max_mps2;
-  const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * step_s);
-  const double target =
-      std::max(creep_mps, now().speed.at(s_m_ + v * step_s + a * step_s * step_s / 2).speed_mps);
-  return {.speed_target_mps = direction * target * ahead(leg_, s_m_).rim_per_speed / slip_factor_,
-          .curvature_target_1pm =
-              std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm),
-          .crab_target_rad = forward.crab_rad};
+  return {
+      .speed_target_mps = path_speed_mps(step_s) * ahead(leg_, s_m_).rim_per_speed / slip_factor_,
+      .curvature_target_1pm =
+          std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm),
+      .crab_target_rad = forward.crab_rad};
 }
 
 std::unique_ptr<Follower> make_follower(const FollowerChoice& choice, const World& planned,
                                         const ReferencePath& path) {
   if (choice.kind == FollowerKind::kPursuit) {
     return std::make_unique<PursuitFollower>(planned.problem().vehicle, path, choice.law);
+  }
+  if (choice.kind == FollowerKind::kOwn) {
+    return std::make_unique<OwnFollowerCaller>(planned.problem().vehicle, path, choice);
   }
   return std::make_unique<CompensatedFollower>(planned, path, choice.law);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,18 +31,37 @@ struct SteeringLaw {
 enum class FollowerKind {
   kPursuit,      ///< nothing is known of the ground: the curvature that is commanded is the path's
   kCompensated,  ///< what the trims of the planner's model need there is commanded
+  kOwn,          ///< what a function of the caller commands
 };
 
-/// As it stands in files and on the command line: `pursuit`, `compensated`.
+/// As it stands in files: `pursuit`, `compensated`, `own`.
 std::string_view name(FollowerKind kind);
+/// Those that can be asked for by their name: all but `own`.
 std::vector<std::string_view> follower_names();
 /// \returns `compensated` where no name is given \throws InputError for a name that is none of them
 FollowerKind follower_named(const std::optional<std::string>& name);
+
+/// What a follower of the caller's own is told before each step.
+struct FollowerView {
+  double time_s = 0;
+  VehicleState seen;              ///< where the vehicle seems to be, its motion, what it was told
+  double s_m = 0;                 ///< nearest place of the path, from its start
+  double length_m = 0;            ///< of the path
+  double offset_m = 0;            ///< of the vehicle, to the left of the path
+  double heading_error_rad = 0;   ///< of the vehicle, off that of slip-free driving there
+  double path_speed_mps = 0;      ///< a step farther on; negative in reverse
+  double path_curvature_1pm = 0;  ///< there, as the vehicle counts it
+};
+
+/// Commands speed of the rims, curvature and crab angle; between two legs of a path it is not
+/// asked.
+using OwnFollower = std::function<VehicleControl(const FollowerView&)>;
 
 /// A follower and its gains.
 struct FollowerChoice {
   FollowerKind kind = FollowerKind::kCompensated;
   SteeringLaw law;
+  OwnFollower own = {};  ///< of `kOwn`, which has no use for the gains
 };
 
 /// What slip-free driving or a model of the ground has commanded at a place of a path.
@@ -79,6 +99,7 @@ class Follower {
   void observe(const VehicleState& seen, double step_s);
 
   /// What to command in the next step.
+  /// \throws InputError for what an own follower commands beyond the vehicle's range
   VehicleControl control(double step_s) const;
 
   /// At the place of the path where the vehicle is.
@@ -100,6 +121,9 @@ class Follower {
   /// Way over which the slip angle that was not foreseen is averaged. A vehicle takes up its slip
   /// angle late: feedback of each moment's course would swing on soft ground.
   virtual double slip_memory_m() const { return 0; }
+  /// What to command while a leg is driven: the law above.
+  virtual VehicleControl follow(double step_s) const;
+  FollowerView view(double step_s) const;
 
   const Vehicle& vehicle() const { return vehicle_; }
   const ReferencePath& path() const { return path_; }
@@ -107,6 +131,8 @@ class Follower {
  private:
   const PathLeg& now() const { return path_.legs[leg_]; }
   double speed() const;
+  /// From rest, the speed a little farther on: at rest itself the path says to stay.
+  double path_speed_mps(double step_s) const;
   double foreseen_slip_angle_rad() const;
   bool at_end_of_leg(double step_s) const;
   /// Steering of the next leg's start, for which the vehicle waits at rest.
@@ -120,6 +146,7 @@ class Follower {
   std::size_t leg_ = 0;
   bool changes_direction_ = false;  ///< brakes to rest at the end of a leg that another follows
   VehicleState seen_;
+  double time_s_ = 0;
   double s_m_ = 0;  ///< along the leg
   double offset_m_ = 0;
   double unforeseen_rad_ = 0;  ///< slip angle of the body beyond that foreseen

@@ -1,6 +1,7 @@
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, Literal
 
 import numpy as np
@@ -218,7 +219,7 @@ def diagnose(recording: _Table | _File, setup: _Settings | _File, *,
              threads: int | None = ..., out: _File | None = ..., force: bool = ...,
              progress: _Progress | None = ...) -> Diagnosis: ...
 def drive(scenario: _Settings | _File, path: _Table | Candidate | _File, *,
-          follower: str | None = ..., truth: _Settings | _File | None = ...,
+          follower: str | Callable[[SimpleNamespace], Sequence[float]] | None = ..., truth: _Settings | _File | None = ...,
           sensors: str | _Settings | _File | None = ...,
           model: _Settings | _File | Wheel | None = ..., deviation_max_m: float | None = ...,
           seed: int | None = ..., out: _File | None = ..., force: bool = ...,

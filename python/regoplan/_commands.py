@@ -5,6 +5,7 @@ import os
 from . import _arguments, _physics, _program, _tables
 from ._errors import InputError
 from ._maps import TerrainMap, absolute
+from ._own_follower import OwnFollower
 from ._results import (Benchmark, Candidate, Comparison, Diagnosis, Drive, DriveDiagnosis,
                        Evaluation, Plan, Result)
 
@@ -102,7 +103,11 @@ def drive(scenario, path, *, follower=None, truth=None, sensors=None, model=None
         As of ``plan``: the world as it is planned in.
     path : DataFrame, dict of columns, Candidate or file name
         As one of ``evaluate``.
-    follower : ``compensated`` (default) or ``pursuit``, optional
+    follower : ``compensated`` (default), ``pursuit`` or callable, optional
+        A function of your own is asked before every step: ``follower(view)`` gives
+        ``(speed_mps, curvature_1pm)``, with ``crab_rad`` behind them where the vehicle crabs.
+        ``view`` has ``time_s, x_m, y_m, yaw_rad, forward_mps, offset_m, path_speed_mps, ...``
+        (docs/drive.md). What it raises ends the drive.
     truth : dict or file name, optional
         How the world driven in differs (docs/drive.md); the files that it names are absolute.
     sensors : ``A``, ``B``, dict or file name, optional
@@ -124,8 +129,17 @@ def drive(scenario, path, *, follower=None, truth=None, sensors=None, model=None
         graded = isinstance(sensors, str) and sensors in _SENSOR_GRADES
         arguments += ["--sensors", sensors if graded else call.settings("sensors", sensors)]
     arguments += call.model(model)
-    arguments += call.options(follower=follower, deviation_max_m=deviation_max_m, seed=seed)
-    return call.run(arguments, Drive)
+    arguments += call.options(deviation_max_m=deviation_max_m, seed=seed)
+    if not callable(follower):
+        return call.run(arguments + call.options(follower=follower), Drive)
+    with OwnFollower(follower) as own:
+        descriptors = ",".join(map(str, own.descriptors))
+        try:
+            return call.run([*arguments, f"--follower-fds={descriptors}"], Drive, own.descriptors)
+        except InputError:
+            if own.error is not None:
+                raise own.error from None
+            raise
 
 
 def diagnose(recording, setup, *, reference=(), seed=None, threads=None, out=None, force=False,
@@ -346,9 +360,9 @@ class _Call:
         """The folder of a result."""
         return str(value.folder) if isinstance(value, Result) else absolute(value, name)
 
-    def run(self, arguments, result):
+    def run(self, arguments, result, pass_fds=()):
         folder = _program.ResultFolder(self._out)
         shown = [*self._shown, (self._inputs.path, "given")]
         arguments = [*arguments, "--out", str(folder.path)] + (["--force"] if self._force else [])
-        _, notices = _program.run(arguments, self._progress, shown, self._inputs.path)
+        _, notices = _program.run(arguments, self._progress, shown, self._inputs.path, pass_fds)
         return result(folder, notices)

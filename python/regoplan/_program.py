@@ -39,7 +39,7 @@ def program_file():
     raise InputError("the program regoplan is not found (set REGOPLAN_PROGRAM to it)")
 
 
-def run(arguments, progress=None, shown=(), folder=None):
+def run(arguments, progress=None, shown=(), folder=None, pass_fds=()):
     """Runs the program to its end.
 
     Parameters
@@ -51,6 +51,8 @@ def run(arguments, progress=None, shown=(), folder=None):
         File names that stand in messages, and what to call them.
     folder : folder name, optional
         What relative file names are relative to.
+    pass_fds : file descriptors
+        That stay open in the program.
 
     Returns
     -------
@@ -68,7 +70,7 @@ def run(arguments, progress=None, shown=(), folder=None):
     try:
         child = subprocess.Popen([program_file(), *arguments], stdin=subprocess.DEVNULL,
                                  stdout=subprocess.DEVNULL, stderr=terminal,
-                                 start_new_session=True, cwd=folder)
+                                 start_new_session=True, cwd=folder, pass_fds=pass_fds)
     except BaseException:
         os.close(master)
         raise

@@ -92,6 +92,28 @@ def test_an_evaluation_is_the_programs(program, scenario, planned, tmp_path):
     assert judged.paths[0]["recorded"]["difference"] < 0.02
 
 
+def test_a_drive_asks_a_follower_of_ones_own(scenario, planned):
+    asked = []
+
+    def own(view):
+        asked.append(view.time_s)
+        # Back to the path within about 4 m.
+        turn = view.path_curvature_1pm - view.offset_m / 16 - view.heading_error_rad / 2
+        return view.path_speed_mps, max(-0.3, min(0.3, turn))
+
+    driven = regoplan.drive(scenario, planned.candidates[0], follower=own)
+    assert driven.follower == "own"
+    assert driven.cross_track_max_m < 1
+    assert asked[0] == 0 and asked == sorted(asked) and len(asked) > 50
+
+    with pytest.raises(ZeroDivisionError):
+        regoplan.drive(scenario, planned.candidates[0], follower=lambda view: (1 / 0, 0))
+    with pytest.raises(regoplan.InputError, match="its answer is not valid"):
+        regoplan.drive(scenario, planned.candidates[0], follower=lambda view: None)
+    with pytest.raises(regoplan.InputError, match="curvature_1pm: 99"):
+        regoplan.drive(scenario, planned.candidates[0], follower=lambda view: (0.1, 99))
+
+
 def test_two_results_are_compared_as_the_program_does(program, planned, tmp_path):
     same = regoplan.compare(planned, planned)
     assert same.kind == "plan" and same.inputs == []
