@@ -74,7 +74,7 @@ std::vector<ComparedPair> pairs_of(const ComparedResult& a, const ComparedResult
   return pairs;
 }
 
-std::string asked_text(const Comparison& comparison) {
+std::string differences_text(const Comparison& comparison) {
   const std::size_t settings = comparison.settings.size(), inputs = comparison.inputs.size();
   if (settings + inputs == 0) return "The same was asked of both.";
   const auto counted = [](std::size_t count, std::string_view what) {
@@ -86,25 +86,23 @@ std::string asked_text(const Comparison& comparison) {
                      counted(inputs, "input file"));
 }
 
-/// By the first metric that both have: of plans and evaluations the margin that soils leave.
+/// By the first of the metrics: of plans and evaluations the margin that soils leave.
 std::string outcome_text(const ComparedResult& a, const Comparison& comparison) {
-  const std::vector<ComparedMetric>& metrics = metrics_of(a.kind);
-  int both = 0, better = 0, worse = 0;
+  const ComparedMetric& metric = metrics_of(a.kind).front();
+  int both = 0, better = 0, worse = 0, same = 0;
   for (const ComparedPair& pair : comparison.pairs) {
     if (!pair.a || !pair.b) continue;
     ++both;
-    for (std::size_t i = 0; i < metrics.size(); ++i) {
-      if (!pair.change[i]) continue;
-      const double gain =
-          metrics[i].better == ComparedMetric::Better::kMore ? *pair.change[i] : -*pair.change[i];
-      better += gain > 0;
-      worse += gain < 0;
-      break;
-    }
+    if (!pair.change.front()) continue;
+    const double change = *pair.change.front();
+    const double gain = metric.better == ComparedMetric::Better::kMore ? change : -change;
+    ++(gain > 0 ? better : gain < 0 ? worse : same);
   }
   if (both == 0) return "They have nothing of one name.";
-  return fmt::format("Of {} in both, B is better for {}, worse for {}, the same for {} ({}).", both,
-                     better, worse, both - better - worse, metrics.front().words);
+  const int untold = both - better - worse - same;
+  return fmt::format("Of {} in both, B is better for {}, worse for {}, the same for {}{} ({}).",
+                     both, better, worse, same,
+                     untold > 0 ? fmt::format(", not known for {}", untold) : "", metric.words);
 }
 
 Json entry_json(const ComparedEntry* entry, const std::vector<ComparedMetric>& metrics) {
@@ -139,7 +137,7 @@ std::string comparison_headline(const ComparedResult& a, const ComparedResult& b
                                 const Comparison& comparison) {
   const std::string status =
       a.status == b.status ? "" : fmt::format("A is {}, B is {}. ", a.status, b.status);
-  return status + outcome_text(a, comparison) + " " + asked_text(comparison);
+  return status + outcome_text(a, comparison) + " " + differences_text(comparison);
 }
 
 Json comparison_json(const ComparedResult& a, const ComparedResult& b,

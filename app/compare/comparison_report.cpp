@@ -10,7 +10,7 @@
 namespace regoplan {
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 /// Every so manieth point, so that a page of many paths stays small.
 Json path_json(const std::optional<ComparedPath>& path) {
@@ -51,13 +51,13 @@ std::string comparison_report(const ComparedResult& a, const ComparedResult& b,
     data["entries"][i]["paths"] = {{"a", pair.a ? path_json(pair.a->path) : Json()},
                                    {"b", pair.b ? path_json(pair.b->path) : Json()}};
   }
-  return render({.title = fmt::format("Two results of {}", name(a.kind)),
+  return render({.title = fmt::format("Two results: {}", name(a.kind)),
                  .headline = comparison_headline(a, b, comparison),
                  .lead = {fmt::format("A: {}", a.file.generic_string()),
                           fmt::format("B: {}", b.file.generic_string())},
                  .body_html = report_assets::kCompareHtml,
                  .script = report_assets::kCompareScript,
-                 .data_json = json_for_html(data)});
+                 .data_json = json_for_html(nlohmann::json(data))});
 }
 
 }  // namespace regoplan

@@ -39,7 +39,7 @@ Descriptors descriptors_of(const std::string& text) {
 
 std::string line_of(const FollowerView& view) {
   const VehicleState& seen = view.seen;
-  const Json json{{"time_s", view.time_s},
+  const Json told{{"time_s", view.time_s},
                   {"x_m", seen.x_m},
                   {"y_m", seen.y_m},
                   {"yaw_rad", seen.yaw_rad},
@@ -55,14 +55,14 @@ std::string line_of(const FollowerView& view) {
                   {"heading_error_rad", view.heading_error_rad},
                   {"path_speed_mps", view.path_speed_mps},
                   {"path_curvature_1pm", view.path_curvature_1pm}};
-  return json.dump() + "\n";
+  return told.dump() + "\n";
 }
 
 /// \returns whether all of it was taken
 bool write_all(int file, const std::string& text) {
   std::size_t done = 0;
   while (done < text.size()) {
-    const ssize_t count = write(file, text.data() + done, text.size() - done);
+    const ssize_t count = ::write(file, text.data() + done, text.size() - done);
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return false;
     done += static_cast<std::size_t>(count);
@@ -72,11 +72,12 @@ bool write_all(int file, const std::string& text) {
 
 VehicleControl control_of(const std::string& line) {
   try {
-    const Json json = Json::parse(line);
-    VehicleControl control{.speed_target_mps = json.at("speed_mps").get<double>(),
-                           .curvature_target_1pm = json.at("curvature_1pm").get<double>()};
-    if (json.contains("crab_rad")) control.crab_target_rad = json.at("crab_rad").get<double>();
-    for (const auto& [key, value] : json.items()) {
+    const Json command = Json::parse(line);
+    VehicleControl control{.speed_target_mps = command.at("speed_mps").get<double>(),
+                           .curvature_target_1pm = command.at("curvature_1pm").get<double>()};
+    if (command.contains("crab_rad"))
+      control.crab_target_rad = command.at("crab_rad").get<double>();
+    for (const auto& [key, value] : command.items()) {
       if (key == "speed_mps" || key == "curvature_1pm" || key == "crab_rad") continue;
       throw InputError(
           fmt::format("follower: {}: unknown key (known: speed_mps, curvature_1pm, "

@@ -13,8 +13,6 @@
 namespace regoplan {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 ComparedEntry entry(const std::string& name, double margin_p05, double duration_s) {
   ComparedEntry entry{.name = name, .verdict = "feasible", .feasible = true};
   for (const ComparedMetric& metric : metrics_of(ResultKind::kPlan)) {

@@ -45,6 +45,36 @@ TEST_F(DriveProgram, ReachesTheEndAndRecords) {
   EXPECT_EQ(truth["time_s"].size(), truth["wheels"]["front_left"]["slip"].size());
 }
 
+TEST_F(DriveProgram, AFollowerInAnotherProcessIsAskedOverTwoPipes) {
+  const std::string script = folder_.write(
+      "follow.py",
+      "import json, sys\n"
+      "for line in sys.stdin:\n"
+      "    seen = json.loads(line)\n"
+      "    turn = seen['path_curvature_1pm'] - seen['offset_m'] / 9 - seen['heading_error_rad']\n"
+      "    told = {'speed_mps': seen['path_speed_mps'], 'curvature_1pm': turn}\n"
+      "    print(json.dumps(told), flush=True)\n");
+  const std::string shell = fmt::format(
+      "cd '{}' && mkfifo seen told && (python3 '{}' <seen >told &) && timeout 60 '{}' drive "
+      "scenario.yaml path.csv --quiet --out out --follower-fds 3,4 3>seen 4<told",
+      folder_.path(""), script, REGOPLAN_PROGRAM);
+  EXPECT_EQ(std::system(("bash -c \"" + shell + "\"").c_str()), 0);
+  EXPECT_EQ(result()["status"], "reached");
+  EXPECT_EQ(result()["follower"], "own");
+}
+
+TEST_F(DriveProgram, WhatIsNoFollowerIsAMistake) {
+  expect_refusal(drive("--follower-fds 3"), {"--follower-fds: 3", "OUT,IN"});
+  expect_refusal(drive("--follower-fds 98,99"), {"98,99", "open"});
+  expect_refusal(drive("--follower pursuit --follower-fds 0,1"), {"--follower"});
+  expect_refusal(drive("--quiet --follower-fds 5,6 5>/dev/null 6</dev/null"),
+                 {"follower: it has ended without a command"});
+  folder_.write("mud.txt", "mud\n");
+  expect_refusal(
+      drive("--quiet --follower-fds 5,6 5>/dev/null 6<'" + folder_.path("mud.txt") + "'"),
+      {"follower: mud is no command"});
+}
+
 TEST_F(DriveProgram, TheSameSeedWritesTheSameBytes) {
   ASSERT_EQ(drive("--sensors B --seed 3", "one").status,
             drive("--sensors B --seed 3", "two").status);

@@ -7,6 +7,7 @@
 #include "driving/true_world.h"
 #include "planner/evaluation/manoeuvres.h"
 #include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {
@@ -88,6 +89,29 @@ PreparedManoeuvre fast_slalom() {
                   .wavelength_m = 30,
                   .waves = 6},
                  slope.problem.limits, slope.problem);
+}
+
+TEST(Drive, AFollowerOfOnesOwnIsAskedBeforeEachStepAndHeldToTheVehiclesRange) {
+  const Traverse traverse(5);
+  std::vector<double> asked_s;
+  const auto own = [&](const FollowerView& view) {
+    asked_s.push_back(view.time_s);
+    return VehicleControl{.speed_target_mps = view.path_speed_mps,
+                          .curvature_target_1pm = view.path_curvature_1pm - view.offset_m / 9 -
+                                                  view.heading_error_rad / 1.5};
+  };
+  const DriveResult run =
+      traverse.driven({}, {.follower = {.kind = FollowerKind::kOwn, .own = own}});
+  ASSERT_TRUE(run.reached);
+  EXPECT_LT(run.cross_track_max_m, 0.3);
+  EXPECT_EQ(asked_s.front(), 0);
+  EXPECT_TRUE(std::ranges::is_sorted(asked_s, std::ranges::less_equal()));
+
+  const auto beyond = [](const FollowerView&) {
+    return VehicleControl{.speed_target_mps = 1, .curvature_target_1pm = 9};
+  };
+  EXPECT_THROW(traverse.driven({}, {.follower = {.kind = FollowerKind::kOwn, .own = beyond}}),
+               InputError);
 }
 
 TEST(Drive, FeedbackDoesNotSwingOnSoftSoil) {

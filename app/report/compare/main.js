@@ -65,6 +65,7 @@ function drawMap(svg, width) {
   const height = Math.min(560, Math.max(180, (width - 70) * tall_m / span_m + 54));
   const box = chartBox(svg, width, height, {left: 60, right: 14, top: 20, bottom: 34});
   const per_m = Math.min((box.right - box.left) / span_m, (box.bottom - box.top) / tall_m);
+  box.right = Math.min(box.right, box.left + Math.max(span_m * per_m, 160));
   const x = d3.scaleLinear([west, west + (box.right - box.left) / per_m], [box.left, box.right]);
   const y = d3.scaleLinear([south, south + (box.bottom - box.top) / per_m], [box.bottom, box.top]);
   drawAxes(svg, box, {scale: x, title: 'x, m'}, {scale: y, title: 'y, m'});
