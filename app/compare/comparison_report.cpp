@@ -29,6 +29,12 @@ Json path_json(const std::optional<ComparedPath>& path) {
   return points;
 }
 
+/// A page goes to others: it names a result, not where it lies.
+std::string short_name(const ComparedResult& result) {
+  const std::filesystem::path folder = absolute(result.file).parent_path().filename();
+  return (folder / result.file.filename()).generic_string();
+}
+
 Json metrics_json(ResultKind kind) {
   Json metrics = Json::array();
   for (const ComparedMetric& metric : metrics_of(kind)) {
@@ -45,6 +51,10 @@ Json metrics_json(ResultKind kind) {
 std::string comparison_report(const ComparedResult& a, const ComparedResult& b,
                               const Comparison& comparison) {
   Json data = comparison_json(a, b, comparison);
+  data["kind"] = "comparison";
+  data["of"] = name(a.kind);
+  data["a"]["file"] = short_name(a);
+  data["b"]["file"] = short_name(b);
   data["metrics"] = metrics_json(a.kind);
   for (std::size_t i = 0; i < comparison.pairs.size(); ++i) {
     const ComparedPair& pair = comparison.pairs[i];
@@ -53,8 +63,7 @@ std::string comparison_report(const ComparedResult& a, const ComparedResult& b,
   }
   return render({.title = fmt::format("Two results: {}", name(a.kind)),
                  .headline = comparison_headline(a, b, comparison),
-                 .lead = {fmt::format("A: {}", a.file.generic_string()),
-                          fmt::format("B: {}", b.file.generic_string())},
+                 .lead = {"A: " + short_name(a), "B: " + short_name(b)},
                  .body_html = report_assets::kCompareHtml,
                  .script = report_assets::kCompareScript,
                  .data_json = json_for_html(nlohmann::json(data))});

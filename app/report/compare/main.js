@@ -118,6 +118,6 @@ byId('asked').append(
 byId('inputs').append(element(
     'p', {},
     REPORT.inputs.length ? `Files that are not the same: ${REPORT.inputs.join(', ')}.` :
-                           REPORT.kind === 'plan' ? 'Every file that was read is the same.' :
+                           REPORT.of === 'plan' ? 'Every file that was read is the same.' :
                                                     'Results of this kind do not name their files.'));
 document.documentElement.dataset.drawn = 'yes';
