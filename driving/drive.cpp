@@ -79,7 +79,7 @@ class Drive {
 
   DriveResult run(const std::function<void(double)>& progress) {
     const double length_m = path_.length_m();
-    const double patience_s = 2 * path_.duration_s() + 20 + 200 * step_s_;
+    const double patience_s = path_.patience_s(step_s_);
     bool goes_on = judge_place();
     if (goes_on) note();
     while (goes_on && !follower_->arrived(step_s_)) {

@@ -158,11 +158,12 @@ Command add_drive_command(CLI::App& program) {
   parser->add_option("--out", options->folder.path, "folder for the results")
       ->type_name("DIR")
       ->required();
+  const std::vector<std::string_view> followers = follower_names();
   parser
       ->add_option("--follower", options->follower,
                    "compensated (default): what the trims of the planned soils need is commanded; "
                    "pursuit: nothing is known of the ground")
-      ->check(one_of({"pursuit", "compensated"}));
+      ->check(one_of({followers.begin(), followers.end()}));
   parser
       ->add_option("--follower-fds", options->follower_fds,
                    "a follower of your own in another process, over two open file descriptors: "

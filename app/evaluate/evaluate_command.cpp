@@ -9,6 +9,7 @@
 #include "app/evaluate/evaluation_run.h"
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
+#include "planner/following/follower.h"
 #include "planner/problem/gravity_range.h"
 
 namespace regoplan {
@@ -161,10 +162,11 @@ Command add_evaluate_command(CLI::App& program) {
                    "how far the vehicle may stray (default: half of its body's width)")
       ->type_name("M")
       ->check(in_range(kAbove0));
+  const std::vector<std::string_view> followers = follower_names();
   parser
       ->add_option("--follower", request.follower,
                    "what drives the path: compensated (default), which knows the soil, or pursuit")
-      ->check(one_of({"pursuit", "compensated"}));
+      ->check(one_of({followers.begin(), followers.end()}));
   parser->add_option("--draws", request.soil_draws, "of the soils")
       ->type_name("N")
       ->check(in_range({.min = 2, .max = 1e6}))

@@ -20,7 +20,7 @@ class Tracker {
 
   TrackingRun drive() {
     const double step_s = drive_.step_s();
-    const double patience_s = 2 * path_.duration_s() + 20 + 200 * step_s;
+    const double patience_s = path_.patience_s(step_s);
     if (const auto end = drive_.begin()) return drive_.finish(*end);
     while (!follower_->arrived(step_s)) {
       if (drive_.now().time_s > patience_s) return drive_.finish(TrackingEnd::kStalled);

@@ -76,7 +76,7 @@ ReferencePath::Place ReferencePath::place(double s_m) const {
     time_s += legs[leg].duration_s();
     ++leg;
   }
-  return {.leg = legs[leg], .leg_start_m = way_m, .leg_start_s = time_s, .s_m = s_m - way_m};
+  return {.leg = legs[leg], .leg_start_s = time_s, .s_m = s_m - way_m};
 }
 
 VehicleState start_of(const ReferencePath& path, const Vehicle& vehicle) {

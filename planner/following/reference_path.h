@@ -43,7 +43,6 @@ struct ReferencePath {
   /// A place of the whole, told by the way from the start of the first leg.
   struct Place {
     const PathLeg& leg;
-    double leg_start_m = 0;  ///< way to the leg's start
     double leg_start_s = 0;  ///< time to the leg's start
     double s_m = 0;          ///< along the leg
     CurvePlace on_curve() const { return leg.curve.at(s_m); }
@@ -58,6 +57,8 @@ struct ReferencePath {
   double length_m() const { return leg_start_m(legs.size()); }
   double duration_s() const;
   double speed_max_mps() const;
+  /// Whoever takes longer does not get on: twice its time, and what starts and short steps take.
+  double patience_s(double step_s) const { return 2 * duration_s() + 20 + 200 * step_s; }
   /// Way to the start of a leg; of one beyond the last, the whole.
   double leg_start_m(std::size_t leg) const;
   /// Where one leg ends and another begins, a place is of the latter.
