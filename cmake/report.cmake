@@ -16,7 +16,7 @@ endfunction()
 
 report_files(page_scripts page format.js dom.js colours.js axes.js legend.js pointing.js save.js figure.js)
 # Paths on a map: what the reports of plans, evaluations and drives share.
-report_files(map_scripts map terrain.js model.js candidate_table.js map_frame.js map_canvas.js vehicle.js map_overlay.js
+report_files(map_scripts map terrain.js model.js path_colours.js ground_layers.js candidate_table.js map_frame.js map_canvas.js vehicle.js map_overlay.js
              map_view.js charts.js layers.js readout.js playback.js rejections.js)
 report_files(benchmark_scripts benchmark planners.js tables.js profiles.js spread.js progress.js paths.js
              main.js)

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <functional>
 
+#include "app/page/report_layers.h"
 #include "app/page/report_map.h"
 #include "app/page/spread_json.h"
 #include "app/settings/effective_settings.h"
+#include "maps/ground_finder.h"
 #include "planner/driving/wheel_loads_along.h"
 #include "planner/problem/rejection_text.h"
 #include "planner/verdict/pareto.h"
@@ -63,6 +65,27 @@ void add_wheel_loads(const PlanningProblem& problem, const std::vector<Trajector
   }
 }
 
+/// Columns of how the vehicle lies on the ground: `pitch_deg` nose up, `roll_deg` left side up, and
+/// `slope_deg`, the angle between its plane and the horizontal.
+void add_attitude(const PlanningProblem& problem, const std::vector<TrajectoryPoint>& points,
+                  json& columns) {
+  const GroundFinder ground(problem.map, problem.vehicle);
+  json pitch = json::array(), roll = json::array(), slope = json::array();
+  const auto shown = [](double angle_rad, bool known) {
+    return known ? json(rounded(degrees(angle_rad), 2)) : json();
+  };
+  for (const TrajectoryPoint& point : points) {
+    const GroundPatch patch = ground.at(point.x_m, point.y_m, point.yaw_rad);
+    const double forward = patch.slope_forward;
+    pitch.push_back(shown(std::atan(forward), patch.known));
+    roll.push_back(shown(std::atan(patch.slope_left / std::hypot(1, forward)), patch.known));
+    slope.push_back(shown(patch.tilt_rad(), patch.known));
+  }
+  columns["pitch_deg"] = std::move(pitch);
+  columns["roll_deg"] = std::move(roll);
+  columns["slope_deg"] = std::move(slope);
+}
+
 json points_json(const PlanningProblem& problem, const std::vector<TrajectoryPoint>& points) {
   json columns = json::object();
   const auto column = [&](const char* name, int decimals, const auto& value) {
@@ -94,6 +117,7 @@ json points_json(const PlanningProblem& problem, const std::vector<TrajectoryPoi
   for (const TrajectoryPoint& point : points) soils.push_back(point.soil);
   columns["soil"] = std::move(soils);
   add_wheel_loads(problem, points, columns);
+  add_attitude(problem, points, columns);
   return columns;
 }
 
@@ -305,6 +329,7 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"what_ifs", json::array()},
                {"rejected", rejected_json(result)},
                {"rejected_states", rejected_states_json(result.rejected_states)}};
+  if (result.rasters) data["map"]["layers"] = report_layers(*result.rasters);
   if (result.least_duration_s) data["least_duration_s"] = *result.least_duration_s;
   if (result.certificate) data["certificate"] = *result.certificate;
   for (const WhatIf& what_if : result.what_ifs) data["what_ifs"].push_back(what_if_json(what_if));

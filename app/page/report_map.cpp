@@ -6,30 +6,22 @@
 #include <limits>
 #include <numbers>
 
+#include "app/page/base64.h"
+
 namespace regoplan {
 namespace {
 
 using nlohmann::json;
 
-std::string base64(const std::vector<std::uint16_t>& numbers) {
-  static constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+/// Little-endian.
+std::string base64_of(const std::vector<std::uint16_t>& numbers) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(2 * numbers.size());
   for (const std::uint16_t number : numbers) {
     bytes.push_back(static_cast<std::uint8_t>(number & 0xff));
     bytes.push_back(static_cast<std::uint8_t>(number >> 8));
   }
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t given = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < given ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= given ? kDigits[group >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
+  return base64(bytes);
 }
 
 /// The grid of the small rasters: blocks of `factor` by `factor` cells of the elevation.
@@ -89,7 +81,7 @@ json elevation_json(const ElevationRaster& elevation, const Blocks& blocks) {
     steps.push_back(std::isnan(height_m) ? std::uint16_t{0}
                                          : static_cast<std::uint16_t>(
                                                1 + std::lround((height_m - min_m) * steps_per_m)));
-  return {{"min_m", min_m}, {"max_m", max_m}, {"base64", base64(steps)}};
+  return {{"min_m", min_m}, {"max_m", max_m}, {"base64", base64_of(steps)}};
 }
 
 std::string soil_base64(const TerrainMap& map, const Blocks& blocks) {
@@ -106,7 +98,7 @@ std::string soil_base64(const TerrainMap& map, const Blocks& blocks) {
       soils.push_back(static_cast<std::uint16_t>(soil ? *soil + 1 : 0));
     }
   }
-  return base64(soils);
+  return base64_of(soils);
 }
 
 json soil_json(const MapSoil& soil) {

@@ -156,3 +156,41 @@ test('a mark of a rejected state says why when it is stepped to', async () => {
     assert.match(await page.locator('.mark-detail').innerText(), /Rejected for/);
   });
 });
+
+test(
+    'paths and ground take the colours that are chosen, and the pointer reads the ground',
+    async () => {
+      await withPage('plan', async page => {
+        const colours = () =>
+            page.locator('#map path.piece')
+                .evaluateAll(pieces => pieces.map(piece => piece.getAttribute('stroke')).join());
+        const picture = () => page.locator('#map canvas').evaluate(canvas => canvas.toDataURL());
+        const byMargin = await colours();
+        await page.getByLabel('Colour of the paths').selectOption({label: 'Speed, m/s'});
+        assert.notEqual(await colours(), byMargin);
+        const seen = new Set([await picture()]);
+        const grounds =
+            await page.getByLabel('Colour of the ground').locator('option').allInnerTexts();
+        for (const ground of ['Elevation', 'Slope', 'Margin of driving straight on'])
+          assert.ok(grounds.includes(ground), ground);
+        for (const label of grounds.slice(1)) {
+          await page.getByLabel('Colour of the ground').selectOption({label});
+          await page.waitForTimeout(60);
+          seen.add(await picture());
+        }
+        assert.equal(seen.size, grounds.length);
+        await page.getByLabel('Colour of the ground').selectOption({label: 'Slope'});
+        await page.locator('#map').scrollIntoViewIfNeeded();
+    const box = await page.locator('#map').boundingBox();
+        await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+        assert.match(await page.locator('#map-pointer').innerText(), /x\s=.* slope \d+\.\d/);
+      });
+    });
+
+test('charts show the other paths when asked to', async () => {
+  await withPage('plan', async page => {
+    assert.equal(await page.locator('#charts .other').count(), 0);
+    await page.getByLabel('with the other paths shown').check();
+    assert.ok(await page.locator('#charts .other').count() >= 10);
+  });
+});

@@ -11,6 +11,7 @@ const byWheel = key => VEHICLE.wheels.map(
     }));
 
 const MARGIN_CHART = CHARTS.find(chart => chart.title === 'Margins');
+const ATTITUDE_CHART = CHARTS.find(chart => chart.title === 'Slope, pitch and roll');
 const GROUND_CHART = CHARTS.find(chart => chart.title === 'Elevation and soil');
 const DRIVE_CHARTS = [
   {
@@ -106,6 +107,7 @@ const DRIVE_CHARTS = [
     zero: true,
     series: [{name: 'estimated from true position', key: 'seen_off_m', colour: '--series-1'}]
   },
+  ATTITUDE_CHART,
   GROUND_CHART,
 ].filter(chart => DRIVE.sensors !== 'exact' || chart.series[0].key !== 'seen_off_m');
 CHARTS.splice(0, CHARTS.length, ...DRIVE_CHARTS);

@@ -71,6 +71,18 @@ const CHARTS = [
                                }))
   },
   {
+    title: 'Slope, pitch and roll',
+    unit: '\u00b0',
+    decimals: 1,
+    zero: true,
+    limits: [LIMITS.slope_max_deg],
+    series: [
+      {name: 'slope', key: 'slope_deg', colour: '--series-4'},
+      {name: 'pitch, nose up', key: 'pitch_deg', colour: '--series-1', dash: '7 3'},
+      {name: 'roll, left side up', key: 'roll_deg', colour: '--series-2', dash: '2 2.5'}
+    ]
+  },
+  {
     title: 'Elevation and soil',
     unit: 'm',
     decimals: 2,
@@ -108,8 +120,13 @@ function charts(host) {
       view.axis = radio.value;
       drawAll();
     });
+  byId('others').addEventListener('change', event => {
+    view.others = event.target.checked;
+    drawAll();
+  });
   caption();
   view.events.on('selected.charts', drawAll)
+      .on('visible.charts', () => view.others && drawAll())
       .on('cursor.charts', () => panels.forEach(panel => panel.point()));
 }
 
@@ -170,11 +187,13 @@ function chartPanel(chart) {
   function draw(svg, width) {
     const path = view.selected, along = path.points[view.axis];
     const columns = chart.series.map(s => column(s.key)), band = (chart.band || []).map(column);
+    const others = view.others ? otherLines(chart, scaled) : [];
     const box = chartBox(svg, width, CHART_HEIGHT, CHART_MARGIN);
-    x = d3.scaleLinear().domain([0, d3.max(along) || 1]).range([box.left, box.right]);
-    y = d3.scaleLinear().domain(chartDomain(chart, columns.concat(band))).nice(5).range([
-      box.bottom, box.top
-    ]);
+    x = d3.scaleLinear()
+            .domain([0, d3.max([...along, ...others.flatMap(o => o.along)]) || 1])
+            .range([box.left, box.right]);
+    const values = [...columns, ...band, ...others.map(other => other.values)];
+    y = d3.scaleLinear().domain(chartDomain(chart, values)).nice(5).range([box.bottom, box.top]);
     const unit = view.axis === 'time_s' ? 's' : 'm';
     drawAxes(svg, box, {scale: x, format: v => `${v} ${unit}`}, {scale: y});
     if (chart.soils) drawSoils(svg, x, box.bottom, along, path.points.soil);
@@ -182,6 +201,7 @@ function chartPanel(chart) {
                      .defined((v, i) => isKnown(v) && isKnown(along[i]))
                      .x((_, i) => x(along[i]))
                      .y(v => y(v));
+    for (const other of others) drawOther(svg, x, y, other);
     if (chart.band) drawBand(svg, band, along, x, y, line);
     chart.series.forEach(
         (series, k) => svg.append('path')
@@ -231,6 +251,32 @@ function chartPanel(chart) {
   }
 
   return {...made, point};
+}
+
+/// What a chart shows of the other paths on the map: {path, dash, along, values} for each series.
+function otherLines({series}, scaled) {
+  const shown = view.paths.filter(p => p !== view.selected && p.visible && p.length);
+  return shown.flatMap(
+      path => series.filter(({key}) => path.points[key])
+                  .map(({key, dash}) => ({
+                         path,
+                         dash,
+                         along: path.points[view.axis],
+                         values: path.points[key].map(v => (isKnown(v) ? v * scaled : null))
+                       })));
+}
+
+function drawOther(svg, x, y, {path, dash, along, values}) {
+  const line = d3.line()
+                   .defined((v, i) => isKnown(v) && isKnown(along[i]))
+                   .x((_, i) => x(along[i]))
+                   .y(v => y(v));
+  svg.append('path')
+      .attr('class', 'line other')
+      .attr('stroke-dasharray', dash || null)
+      .attr('d', line(values))
+      .append('title')
+      .text(`Path ${path.label}`);
 }
 
 /// Columns of the selected path, as they stand in candidate-K.csv.

@@ -1,23 +1,16 @@
-// Legend and layers beside the map; every layer is a checkbox.
+// Legend and layers beside the map: what paths and ground are coloured by, and what lies over them.
 function layerPanel(host, {contour_interval_m, stretch}) {
-  const toggle = (name, text, extra = null) => {
+  const toggle = (name, text) => {
     const box = element('input', {type: 'checkbox'});
     box.checked = LAYERS[name];
     box.addEventListener('change', () => {
       LAYERS[name] = box.checked;
       view.events.call('layers');
     });
-    return element('div', {}, element('label', {}, box, text), extra);
+    return element('div', {}, element('label', {}, box, text));
   };
-  const soils = element(
-      'ul', {}, ...MAP.soils.filter(soil => !soil.zone).map((soil, k) => {
-        const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
-        swatch.style.background = soilColour(k);
-        return element('li', {}, swatch, soil.name);
-      }),
-      hatchedEntry());
   host.append(
-      marginLegend(), toggle('soils', 'Soils', soils),
+      pathColours(), groundColours(),
       toggle(
           'contours',
           contour_interval_m ? `Contours every ${significant(contour_interval_m)} m` :
@@ -30,26 +23,76 @@ function layerPanel(host, {contour_interval_m, stretch}) {
                                 '.')));
 }
 
-function marginLegend() {
-  const [low, high] = marginColour.domain(),
-              bar = element('div', {class: 'legend-bar', 'aria-hidden': 'true'});
+/// A choice among `texts` with what `legend(k)` says of the one chosen.
+function legendChoice(title, texts, chosen, legend) {
+  const select = element(
+      'select', {'aria-label': title},
+      ...texts.map((text, k) => element('option', {value: k}, text)));
+  const room = element('div');
+  const show = k => room.replaceChildren(...legend(k).filter(Boolean));
+  select.value = chosen;
+  select.addEventListener('change', () => show(Number(select.value)));
+  show(chosen);
+  return element('div', {}, element('h3', {}, title), select, room);
+}
+
+function pathColours() {
+  return legendChoice('Colour of the paths', PATH_COLOURS.map(c => c.text), 0, k => {
+    view.pathColour = PATH_COLOURS[k];
+    view.events.call('coloured');
+    const {domain, decimals, ramp, key} = view.pathColour;
+    if (key !== 'margin')
+      return [...rampLegend(domain, decimals, ramp, ['', '']), beyondEntry('beyond the limit')];
+    return [
+      ...rampLegend(domain, decimals, ramp, [' limit', 'and more']),
+      PLAN.overturned.length ? beyondEntry(view.said.under) : null
+    ];
+  });
+}
+
+/// What the colour beyond a limit means.
+function beyondEntry(text) {
+  const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
+  swatch.style.background = UNDER_LIMIT;
+  return element('div', {class: 'note'}, swatch, text);
+}
+
+function groundColours() {
+  const chosen = GROUNDS.findIndex(g => g.key === LAYERS.ground);
+  return legendChoice('Colour of the ground', GROUNDS.map(g => g.text), chosen, k => {
+    LAYERS.ground = GROUNDS[k].key;
+    view.events.call('layers');
+    const layer = chosenGround();
+    if (!layer) return [groundEntries()];
+    const ends = layer.limited ? [' limit', 'and more'] : ['', layer.unit];
+    return [
+      ...rampLegend(layer.domain, layer.decimals, layer.colour, ends),
+      layer.limited ? beyondEntry('below the limit') : null, groundEntries()
+    ];
+  });
+}
+
+function groundEntries() {
+  const soils = MAP.soils.filter(soil => !soil.zone).map((soil, k) => {
+    const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
+    swatch.style.background = soilColour(k);
+    return element('li', {}, swatch, soil.name);
+  });
+  return element('ul', {}, ...(LAYERS.ground === 'soils' ? soils : []), hatchedEntry());
+}
+
+/// A bar of colours over its ends and middle.
+function rampLegend([low, high], decimals, colour, [lowest, highest]) {
+  const bar = element('div', {class: 'legend-bar', 'aria-hidden': 'true'});
   bar.style.background = `linear-gradient(to right, ${
-      d3.range(0, 1.01, 0.1).map(t => marginColour(low + t * (high - low))).join(', ')})`;
+      d3.range(0, 1.01, 0.1).map(t => colour(low + t * (high - low))).join(', ')})`;
   const ticks = element('div', {class: 'legend-ticks'}, ...[0, 0.5, 1].map(t => {
     const tick = element(
-        'span', {},
-        t ? fixed(low + t * (high - low), 2) + (t === 1 ? ' and more' : '') :
-            `${fixed(low, 2)} limit`);
+        'span', {}, fixed(low + t * (high - low), decimals) + [lowest, '', ` ${highest}`][2 * t]);
     tick.style.left = `${100 * t}%`;
     return tick;
   }));
-  const under = element('span', {class: 'swatch', 'aria-hidden': 'true'});
-  under.style.background = UNDER_LIMIT;
-  return element(
-      'div', {}, element('h3', {}, 'Stability margin along the paths'), bar, ticks,
-      PLAN.overturned.length ?
-          element('div', {class: 'note'}, under, view.said.under) :
-          null);
+  return [bar, ticks];
 }
 
 function hatchedEntry() {
@@ -91,9 +134,7 @@ function rejectedPanel() {
         element('span', {class: 'count'}, integer(counts[reason])));
   });
   const update = () => detail.replaceChildren(...(view.mark ? rejectionDetail(view.mark) : [
-    element(
-        'p', {class: 'note'},
-        reasons.length ? view.said.choose : view.said.none)
+    element('p', {class: 'note'}, reasons.length ? view.said.choose : view.said.none)
   ]));
   update();
   view.events.on('marks.detail', update);

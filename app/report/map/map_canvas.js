@@ -1,11 +1,5 @@
-// The terrain on a canvas: hillshade, soils, forbidden ground, contours, rocks, rejected states.
-const TERRAIN = readTerrain(MAP);
-const LAYERS = {
-  soils: true,
-  contours: true,
-  rocks: true
-};
-
+// The terrain on a canvas: hillshade, colours of the ground, forbidden ground, contours, rocks,
+// rejected states.
 const shownMarks = () => PLAN.rejected_states.filter(
     s => view.reasons.has(s.reason) && isKnown(s.x_m) && isKnown(s.y_m));
 
@@ -20,9 +14,7 @@ function mapCanvas(canvas, frame) {
     canvas.height = frame.height * density;
   }
 
-  function forgetTheme() {
-    pictures.shade = null;
-  }
+  function forgetTheme() { pictures.shade = null; }
 
   function draw() {
     const context = canvas.getContext('2d'), density = canvas.width / frame.width;
@@ -47,18 +39,26 @@ function mapCanvas(canvas, frame) {
     context.imageSmoothingQuality = 'high';
     context.drawImage(pictures.shade, west, north, width, height);
     drawForbidden(context, density, west, north, width, height);
-    if (LAYERS.soils) {
-      context.imageSmoothingEnabled = false;
-      context.globalAlpha = isDark() ? 0.3 : 0.36;
-      context.globalCompositeOperation = isDark() ? 'source-over' : 'multiply';
-      context.drawImage(pictures.soils, west, north, width, height);
-      context.globalAlpha = 1;
-      context.globalCompositeOperation = 'source-over';
-    }
+    drawGround(context, west, north, k);
     if (LAYERS.contours) drawContours(context, density, west, north);
     if (LAYERS.rocks) drawRocks(context);
     drawMarks(context);
     context.restore();
+  }
+
+  function drawGround(context, west, north, k) {
+    const layer =
+        LAYERS.ground === 'soils' ? {...TERRAIN, picture: pictures.soils} : chosenGround();
+    if (!layer) return;
+    const strength = LAYERS.ground === 'soils' ? 0.36 : 0.75;
+    context.imageSmoothingEnabled = false;
+    context.globalAlpha = isDark() ? 0.83 * strength : strength;
+    context.globalCompositeOperation = isDark() ? 'source-over' : 'multiply';
+    context.drawImage(
+        layer.picture, west, north, layer.columns * layer.cell_width_m * k,
+        layer.rows * layer.cell_height_m * k);
+    context.globalAlpha = 1;
+    context.globalCompositeOperation = 'source-over';
   }
 
   function hatching(context, density) {

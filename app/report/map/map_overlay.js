@@ -18,43 +18,31 @@ function mapOverlay(svg, frame) {
     drawPaths();
   }
 
-  /// A path as runs of one colour: neighbours in the same fortieth of the scale share a line.
+  /// A path as runs of one colour.
   function pieces(path) {
-    const {x_m, y_m, margin: margins} = path.points;
-    const [low, high] = marginColour.domain();
-    const step = (high - low) / 40;
-    const colourOf = bin => {
-      if (bin === null) return '#888888';
-      return bin < 0 ? UNDER_LIMIT : marginColour(low + (bin + 0.5) * step);
-    };
-    const binOf = (a, b) => {
-      if (!isKnown(a) || !isKnown(b)) return null;
-      const worse = Math.min(a, b);
-      return worse < LIMITS.margin_min ? -1 : Math.min(40, Math.floor((worse - low) / step));
-    };
+    const {x_m, y_m} = path.points, values = path.points[view.pathColour.key];
     const list = [];
     for (let i = 0; i + 1 < path.length; ++i) {
       if (![x_m[i], y_m[i], x_m[i + 1], y_m[i + 1]].every(isKnown)) continue;
-      const bin = binOf(margins[i], margins[i + 1]);
+      const colour = pieceColour(values[i], values[i + 1]);
       const end = frame.base(x_m[i + 1], y_m[i + 1]);
       const last = list[list.length - 1];
-      if (last && last.bin === bin && last.end === i) {
+      if (last && last.colour === colour && last.end === i) {
         last.points.push(end);
         last.end = i + 1;
       } else {
         const points = [frame.base(x_m[i], y_m[i]), end];
-        list.push({bin, end: i + 1, colour: colourOf(bin), points});
+        list.push({end: i + 1, colour, points});
       }
     }
     return list;
   }
 
   function drawPaths() {
-    const shown =
-        view.paths.filter(p => p.visible && p.length)
-            .sort(
-                (a, b) => Boolean(a.guide) - Boolean(b.guide) ||
-                    (a === view.selected) - (b === view.selected) || b.rank - a.rank);
+    const shown = view.paths.filter(p => p.visible && p.length)
+                      .sort(
+                          (a, b) => Boolean(a.guide) - Boolean(b.guide) ||
+                              (a === view.selected) - (b === view.selected) || b.rank - a.rank);
     const groups = pathLayer.selectAll('g.path')
                        .data(shown, p => p.label)
                        .join('g')
@@ -208,9 +196,9 @@ function mapOverlay(svg, frame) {
         `translate(${frame.left + frame.plotWidth - length - 14},${
             frame.top + frame.plotHeight - 12})`);
     scaleBar.append('rect')
-        .attr('x', -6)
+        .attr('x', -28)
         .attr('y', -22)
-        .attr('width', length + 12)
+        .attr('width', length + 34)
         .attr('height', 29)
         .attr('rx', 3)
         .attr('fill', cssVar('--panel'))
@@ -221,6 +209,8 @@ function mapOverlay(svg, frame) {
         .attr('y', -8)
         .attr('text-anchor', 'middle')
         .text(span_m >= 1 ? `${span_m} m` : `${Math.round(span_m * 100)} cm`);
+    scaleBar.append('path').attr('class', 'north').attr('d', 'M-17,-9L-12,4L-17,1L-22,4Z');
+    scaleBar.append('text').attr('x', -17).attr('y', -11).attr('text-anchor', 'middle').text('N');
   }
 
   /// The vehicle at the marker: its body and wheels to scale where that can be seen, else a dot.

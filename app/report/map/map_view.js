@@ -129,7 +129,7 @@ function mapView(host) {
     const z_m = TERRAIN.height_m[i];
     const height = Number.isNaN(z_m) ? 'elevation unknown' : `z\u00a0=\u00a0${fixed(z_m, 1, 'm')}`;
     const soil = TERRAIN.soil[i] < 0 ? 'no soil known: forbidden' : soilName(TERRAIN.soil[i]);
-    return `At the pointer: ${place(x_m, y_m)}, ${height}, ${soil}.`;
+    return `At the pointer: ${place(x_m, y_m)}, ${height}, ${soil}${groundText(x_m, y_m)}.`;
   }
 
   function pointed() {
@@ -205,6 +205,7 @@ function mapView(host) {
   });
   view.events.on('selected.map', overlay.drawPaths)
       .on('visible.map', overlay.drawPaths)
+      .on('coloured.map', overlay.drawPaths)
       .on('cursor.map',
           () => {
             if (view.playing) keepInView(view.cursor);
@@ -226,16 +227,22 @@ function chooseMark(state) {
 
 /// What the colours of a saved map mean.
 function mapKeys() {
-  const [low, high] = marginColour.domain();
-  const margins = [low, (low + high) / 2, high].map(
-      m => ({name: `margin ${fixed(m, 2)}`, colour: marginColour(m), area: true}));
-  return margins.concat(
-      MAP.soils.map((soil, k) => ({name: soil.name, colour: soilColour(k), area: true})));
+  const three =
+      (text, {domain: [low, high], decimals}, colour) => [low, (low + high) / 2, high].map(
+          size => ({name: `${text} ${fixed(size, decimals)}`, colour: colour(size), area: true}));
+  const layer = chosenGround();
+  const ground = layer ?
+      three(layer.text.toLowerCase(), layer, layer.colour) :
+      LAYERS.ground === 'soils' ?
+      MAP.soils.map((soil, k) => ({name: soil.name, colour: soilColour(k), area: true})) :
+      [];
+  return three(view.pathColour.text.toLowerCase(), view.pathColour, view.pathColour.ramp)
+      .concat(ground);
 }
 
 /// The points of the paths shown, as drawn.
 function mapData() {
-  const names = ['time_s', 'x_m', 'y_m', 'z_m', 'margin'];
+  const names = [...new Set(['time_s', 'x_m', 'y_m', 'z_m', 'margin', view.pathColour.key])];
   const shown = view.paths.filter(p => p.visible && p.length);
   return {
     columns: ['path', ...names],

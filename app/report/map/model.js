@@ -1,6 +1,6 @@
 // What the planning report shows: the paths, which of them is selected, and where the marker is.
-// Views draw on "selected", "visible", "cursor" and "marks".
-const PLAN = REPORT, MAP = REPORT.map, LIMITS = REPORT.problem.limits,
+// Views draw on "selected", "visible", "coloured", "cursor" and "marks".
+const PLAN = REPORT, MAP = REPORT.map, TERRAIN = readTerrain(MAP), LIMITS = REPORT.problem.limits,
       VEHICLE = REPORT.problem.vehicle;
 const WEIGHT_N = VEHICLE.mass_kg * PLAN.problem.gravity_mps2;
 /// Axles counted from the front.
@@ -16,6 +16,7 @@ const view = {
   selected: null,      // a path
   cursor: null,        // {path, index}
   axis: 'distance_m',  // of the charts
+  others: false,       // whether they show the other paths, too
   reasons: new Set(),  // of rejection, shown on the map
   mark: null,          // a rejected state
   playing: false,
@@ -30,7 +31,9 @@ const view = {
     under: 'below the limit (overturned paths, dashed)',
   },
   events:
-      d3.dispatch('selected', 'visible', 'cursor', 'axis', 'marks', 'layers', 'goto', 'playback'),
+      d3.dispatch(
+          'selected', 'visible', 'coloured', 'cursor', 'axis', 'marks', 'layers', 'goto',
+          'playback'),
 };
 view.selected = view.paths.find(path => path.length) || null;
 if (view.selected) view.selected.visible = true;

@@ -34,6 +34,7 @@ function readTerrain(map) {
   return terrain;
 }
 
+/// A picture with a pixel for each cell of a raster {columns, rows}.
 function rasterCanvas(terrain, paintCell) {
   const canvas = element('canvas', {width: terrain.columns, height: terrain.rows});
   const context = canvas.getContext('2d');
