@@ -18,6 +18,8 @@ report_files(page_scripts page format.js dom.js colours.js axes.js legend.js poi
 # Paths on a map: what the reports of plans, evaluations and drives share.
 report_files(map_scripts map terrain.js model.js path_colours.js ground_layers.js candidate_table.js map_frame.js map_canvas.js vehicle.js map_overlay.js
              map_view.js charts.js layers.js readout.js playback.js rejections.js)
+# With a map and without: evaluations of manoeuvres alone.
+report_files(evaluation_scripts evaluation spreads.js courses.js)
 report_files(benchmark_scripts benchmark planners.js tables.js profiles.js spread.js progress.js paths.js
              main.js)
 report_files(diagnosis_scripts diagnosis model.js residual_maps.js curves.js tables.js shares.js main.js)
@@ -32,7 +34,8 @@ regoplan_embed(
   kPlanHtml app/report/map/map.html app/report/plan/plan.html
   kPlanScript ${map_scripts} app/report/plan/facts.js app/report/plan/main.js
   kEvaluationHtml app/report/map/map.html
-  kEvaluationScript ${map_scripts} app/report/evaluation/main.js
+  kEvaluationScript ${map_scripts} ${evaluation_scripts} app/report/evaluation/main.js
+  kManoeuvresScript ${evaluation_scripts} app/report/evaluation/manoeuvres.js
   kDriveHtml app/report/map/map.html app/report/drive/drive.html
   kDriveScript ${map_scripts} app/report/drive/charts.js app/report/drive/limits.js app/report/drive/main.js
   kDiagnosisHtml app/report/diagnosis/diagnosis.html

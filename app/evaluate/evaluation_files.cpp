@@ -93,7 +93,7 @@ Json path_json(const EvaluatedPath& path) {
                           {"margin_per_std", influence.margin_per_std}});
   }
   Json json{{"rank", e.rank}};
-  json[path.on_the_map ? "file" : "manoeuvre"] = e.name;
+  json[path.plane ? "manoeuvre" : "file"] = e.name;
   json.update(Json{{"vehicle", path.vehicle},
                    {"feasible", e.feasible},
                    {"reason", e.refusal ? Json(sentence(*e.refusal)) : Json(nullptr)},

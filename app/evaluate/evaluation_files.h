@@ -9,10 +9,17 @@
 
 namespace regoplan {
 
+/// What a manoeuvre was driven on.
+struct ManoeuvrePlane {
+  double slope_rad = 0;
+  double uphill_rad = 0;     ///< its heading, from the heading at the start, left positive
+  bool on_the_spot = false;  ///< a turn there, without a way
+};
+
 /// An evaluation with where its path came from.
 struct EvaluatedPath {
   PathEvaluation evaluation;
-  bool on_the_map = true;  ///< else a manoeuvre on a plane of its own
+  std::optional<ManoeuvrePlane> plane;  ///< of a manoeuvre; else the path lies on the map
   std::string vehicle;
   double gravity_mps2 = 0;
   Limits limits;

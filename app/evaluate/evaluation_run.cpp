@@ -104,7 +104,9 @@ EvaluatedPath judged_manoeuvre(const Manoeuvre& manoeuvre, const PlanningProblem
   PathEvaluation evaluation = std::visit(
       [&](const auto& course) { return evaluate(plane, course, settings); }, prepared.course);
   EvaluatedPath path = evaluated(std::move(evaluation), prepared.problem);
-  path.on_the_map = false;
+  path.plane = {.slope_rad = manoeuvre.slope_rad,
+                .uphill_rad = manoeuvre.slope_heading_rad,
+                .on_the_spot = manoeuvre.kind == ManoeuvreKind::kPointTurn};
   return path;
 }
 

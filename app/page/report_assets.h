@@ -14,6 +14,7 @@ extern const std::string_view kPlanHtml;          ///< sections of the planning 
 extern const std::string_view kPlanScript;        ///< draws them
 extern const std::string_view kEvaluationHtml;    ///< sections of the evaluation's map
 extern const std::string_view kEvaluationScript;  ///< draws them
+extern const std::string_view kManoeuvresScript;  ///< draws an evaluation without a map
 extern const std::string_view kBenchmarkHtml;     ///< sections of the benchmark's report
 extern const std::string_view kBenchmarkScript;   ///< draws them
 extern const std::string_view kCompareHtml;       ///< sections of two results side by side

@@ -78,7 +78,7 @@ TEST(DocsOfResults, HoldEveryKeyOfEvaluationJson) {
   evaluation.spread.influences = {{.soil = "mare", .parameter = "kphi"}};
   const EvaluatedPath given{.evaluation = evaluation, .recorded_margin_min = 0.5};
   const EvaluatedPath manoeuvre{
-      .evaluation = evaluation, .on_the_map = false, .recorded_margin_min = {}};
+      .evaluation = evaluation, .plane = ManoeuvrePlane{}, .recorded_margin_min = {}};
   const std::string text = evaluation_json(problem, {.paths = {given, manoeuvre}, .settings = {}});
   EXPECT_EQ(undocumented(keys_of(text), {"evaluation-json.md"}), Keys{});
 }

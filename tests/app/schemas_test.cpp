@@ -34,7 +34,7 @@ TEST(Schemas, HoldWhatTheWritersWriteOfEverything) {
   evaluation.spread.influences = {{.soil = "mare", .parameter = "kphi"}};
   const EvaluatedPath given{.evaluation = evaluation, .recorded_margin_min = 0.5};
   const EvaluatedPath manoeuvre{
-      .evaluation = evaluation, .on_the_map = false, .recorded_margin_min = {}};
+      .evaluation = evaluation, .plane = ManoeuvrePlane{}, .recorded_margin_min = {}};
   expect_kept("evaluation",
               evaluation_json(problem, {.paths = {given, manoeuvre}, .settings = {}}));
 

@@ -1,4 +1,4 @@
-// Makes the six reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
+// Makes the seven reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
@@ -38,6 +38,13 @@ regoplan(
 regoplan(
     'evaluate', scenario('fast_corner'), cornerPath('wide.csv', 14, 1),
     cornerPath('tight.csv', 8, 2.9), '--draws', '20', '--out', join(folder, 'evaluation'));
+writeFileSync(join(folder, 'manoeuvres.yaml'), `
+- {kind: steady_turn, radius_m: 12, angle_deg: 90, speed_mps: [1, 3], soil: firm_regolith}
+- {kind: point_turn, slope_deg: 15, vehicle: curiosity, soil: firm_regolith}
+`);
+regoplan(
+    'evaluate', scenario('dune_field'), '--manoeuvres', join(folder, 'manoeuvres.yaml'), '--draws',
+    '100', '--out', join(folder, 'manoeuvres'));
 writeFileSync(join(folder, 'truth.yaml'), `zones:
   - {name: soft, like: loose_regolith, soil: {kphi: 1e5}, corners_m: [[60, 80], [120, 80], [120, 120]]}
 vehicle: {wheels: {front_left: {steer_offset_deg: 12}}}

@@ -11,6 +11,8 @@ for (const path of view.paths) {
   path.label = String(path.rank);
   path.visible = true;
 }
+spreads(byId('spreads'));
+courses(document.querySelectorAll('.course'));
 candidateTable(byId('candidates'));
 byId('candidates').querySelector('p').textContent =
     'Feasible paths first, by the margin that 95 % of the soil draws keep. The deviation is that of the driven path from the given one. \u25c6 marks what no other feasible path beats in smallest margin, duration and energy at once.';

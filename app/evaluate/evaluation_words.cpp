@@ -1,0 +1,46 @@
+#include "app/evaluate/evaluation_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace regoplan {
+
+std::string as_words(std::string_view file_name) {
+  std::string text(file_name);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string short_name(const EvaluatedPath& path) {
+  return path.plane ? path.evaluation.name
+                    : std::filesystem::path(path.evaluation.name).filename().string();
+}
+
+std::string limiting_text(const PathEvaluation& evaluation) {
+  const LimitingPlace& place = evaluation.limiting;
+  std::string text = fmt::format("{} at ({:.1f}, {:.1f}), {:.1f} s", as_words(name(place.margin)),
+                                 place.x_m, place.y_m, place.time_s);
+  if (const auto& limit = evaluation.cornering_limit) {
+    text +=
+        fmt::format("; supply ends by {}{} at {:.0f} N", name(limit->limit),
+                    limit->wheel.empty() ? "" : " of " + as_words(limit->wheel), limit->supply_n);
+  }
+  return text;
+}
+
+std::string influence_text(const SoilSpread& spread, std::size_t count_max) {
+  if (spread.draws > 0 && spread.influences.empty()) return "too few draws to tell";
+  constexpr double kShareMin = 0.01;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(count_max, spread.influences.size()); ++i) {
+    const SoilInfluence& influence = spread.influences[i];
+    if (influence.share < kShareMin) break;
+    text += fmt::format("{}{} of {} {:.0f} %", text.empty() ? "" : ", ", influence.parameter,
+                        influence.soil, 100 * influence.share);
+  }
+  return text.empty() ? "soil numbers known" : text;
+}
+
+}  // namespace regoplan
