@@ -32,7 +32,8 @@ regoplan_embed(
   kPageCss app/report/page/page.css
   kPageScript ${page_scripts}
   kPlanHtml app/report/map/map.html app/report/plan/plan.html
-  kPlanScript ${map_scripts} app/report/plan/facts.js app/report/plan/main.js
+  kPlanScript ${map_scripts} app/report/plan/facts.js app/report/plan/relaxed.js
+              app/report/plan/main.js
   kEvaluationHtml app/report/map/map.html
   kEvaluationScript ${map_scripts} ${evaluation_scripts} app/report/evaluation/main.js
   kManoeuvresScript ${evaluation_scripts} app/report/evaluation/manoeuvres.js

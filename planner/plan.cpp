@@ -382,8 +382,9 @@ class Planning {
   /// Why there is no path, and what to give up for one.
   std::string with_relaxation(const std::string& reason) {
     tell("looking for what would help", 0);
-    const auto relaxation = relaxation_that_helps(problem_, budget_, session_.stop);
-    return relaxation ? fmt::format("{}; a verified path exists {}", reason, *relaxation) : reason;
+    result_.relaxed = relaxed_answers(problem_, budget_, session_.stop);
+    if (result_.relaxed.empty() || !result_.relaxed.back().opened) return reason;
+    return fmt::format("{}; a verified path exists {}", reason, result_.relaxed.back().given_up);
   }
 
   PlanResult answered() {

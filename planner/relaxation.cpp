@@ -14,10 +14,11 @@
 namespace regoplan {
 namespace {
 
-/// Whether a brief search finds a path, and it passes its verification.
-bool opens_the_way(const PlanningProblem& problem) {
+/// What a brief search finds, where that passes its verification.
+std::optional<VerifiedPath> briefly_planned(const PlanningProblem& problem) {
   const World verdict(problem, WorldUse::kVerdict, 1);
-  if (verdict.rejected(verdict.start(), {}) || certificate_of_infeasibility(problem)) return false;
+  if (verdict.rejected(verdict.start(), {}) || certificate_of_infeasibility(problem))
+    return std::nullopt;
   const World searched(problem, WorldUse::kSearch, 1);
   constexpr std::int64_t kBriefly = 8000;
   constexpr double kReserve = 0.01;
@@ -26,9 +27,11 @@ bool opens_the_way(const PlanningProblem& problem) {
                       .time_s = {},
                       .iterations = kBriefly};
   const SearchOutcome outcome = search(searched, run);
-  if (outcome.controls.empty()) return false;
+  if (outcome.controls.empty()) return std::nullopt;
   const FoundPath found{.planner = run.planner, .controls = outcome.controls};
-  return verify(verdict, searched, found).candidate.verified.passed;
+  VerifiedPath path = verify(verdict, searched, found);
+  if (!path.candidate.verified.passed) return std::nullopt;
+  return path;
 }
 
 }  // namespace
@@ -57,32 +60,34 @@ std::vector<Relaxation> relaxations_of(const PlanningProblem& problem) {
   return relaxations;
 }
 
-std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
-                                                 const TimeBudget& budget,
-                                                 const std::stop_token& stop,
-                                                 const SingleThread& alone) {
+std::vector<RelaxedAnswer> relaxed_answers(const PlanningProblem& problem, const TimeBudget& budget,
+                                           const std::stop_token& stop, const SingleThread& alone) {
   const std::vector<Relaxation> relaxations = relaxations_of(problem);
-  std::optional<std::string> helps;
+  std::vector<RelaxedAnswer> answers;
+  const auto opened = [&answers] { return !answers.empty() && answers.back().opened; };
   std::size_t given = 0;
   run_in_children(
       problem.search.threads, AnswerOrder::kAsGiven,
       [&]() -> std::optional<ChildTask> {
-        if (helps || given == relaxations.size()) return std::nullopt;
+        if (opened() || given == relaxations.size()) return std::nullopt;
         const double left_s = budget.left_s(TimeBudget::kAnswerShare);
         if (left_s <= 0) return std::nullopt;
         const PlanningProblem& relaxed = relaxations[given++].problem;
         ChildTask task{.work = [&relaxed] {
-          return std::vector<char>(1, opens_the_way(relaxed) ? 'y' : 'n');
+          const std::optional<VerifiedPath> path = briefly_planned(relaxed);
+          return path ? bytes_of(*path) : std::vector<char>();
         }};
         if (std::isfinite(left_s)) task.time_limit_s = left_s;
         return task;
       },
       [&](const ChildAnswer& answer) {
-        if (helps || !answer.bytes || answer.bytes->front() != 'y') return;
-        helps = relaxations[answer.task].words;
+        if (opened() || !answer.bytes) return;
+        answers.push_back({.given_up = relaxations[answer.task].words, .opened = {}});
+        if (auto path = from_bytes<VerifiedPath>(*answer.bytes))
+          answers.back().opened = std::move(path->candidate);
       },
       stop, alone);
-  return helps;
+  return answers;
 }
 
 }  // namespace regoplan

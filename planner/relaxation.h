@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
+#include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
 #include "planner/runtime/single_thread.h"
 #include "planner/runtime/time_budget.h"
@@ -21,13 +21,12 @@ struct Relaxation {
 /// Each is a problem that can be asked as it stands.
 std::vector<Relaxation> relaxations_of(const PlanningProblem& problem);
 
-/// Of a problem without a path: the first of its relaxations that opens the way, in words. Each is
-/// planned for briefly and the path verified, so that what is named is known to help; nothing where
-/// none does in that time.
-/// \param budget whose share for the answer ends it; without a budget it does not hang on the clock
-std::optional<std::string> relaxation_that_helps(const PlanningProblem& problem,
-                                                 const TimeBudget& budget,
-                                                 const std::stop_token& stop,
-                                                 const SingleThread& alone = {});
+/// Of a problem without a path: its relaxations up to the first that opens the way. Each is planned
+/// for briefly and the path verified, so that what helps is known to; only the last may have
+/// helped. \param budget whose share for the answer ends it; without a budget it does not hang on
+/// the clock
+std::vector<RelaxedAnswer> relaxed_answers(const PlanningProblem& problem, const TimeBudget& budget,
+                                           const std::stop_token& stop,
+                                           const SingleThread& alone = {});
 
 }  // namespace regoplan

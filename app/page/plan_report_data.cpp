@@ -181,6 +181,17 @@ json what_if_json(const WhatIf& what_if) {
   return row;
 }
 
+/// What was given up in turn, with the path of the one that opened the way.
+json relaxed_json(const PlanningProblem& problem, const std::vector<RelaxedAnswer>& answers) {
+  json rows = json::array();
+  for (const RelaxedAnswer& answer : answers) {
+    rows.push_back({{"given_up", answer.given_up}, {"path", nullptr}});
+    if (answer.opened)
+      rows.back()["path"] = candidate_json(problem, *answer.opened, kPointsOfPathMax);
+  }
+  return rows;
+}
+
 json rejected_states_json(const std::vector<RejectedState>& states) {
   const std::size_t count = std::min(states.size(), kRejectedStatesMax);
   json rows = json::array();
@@ -327,6 +338,7 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"candidates", candidates_json(problem, result.candidates)},
                {"overturned", candidates_json(problem, result.overturned)},
                {"what_ifs", json::array()},
+               {"relaxed", relaxed_json(problem, result.relaxed)},
                {"rejected", rejected_json(result)},
                {"rejected_states", rejected_states_json(result.rejected_states)}};
   if (result.rasters) data["map"]["layers"] = report_layers(*result.rasters);

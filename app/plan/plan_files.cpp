@@ -100,6 +100,16 @@ Json list_json(const Items& items, ToJson to_json) {
   return list;
 }
 
+Json relaxed_json(const RelaxedAnswer& answer) {
+  Json json{{"given_up", answer.given_up}, {"opens", answer.opened.has_value()}};
+  if (answer.opened) {
+    json["margin_min"] = number_json(answer.opened->margin_min);
+    json["length_m"] = answer.opened->length_m;
+    json["duration_s"] = answer.opened->duration_s;
+  }
+  return json;
+}
+
 std::string soil_name(const PlanningProblem& problem, int soil) {
   return soil < 0 ? "" : problem.map.soils().at(static_cast<std::size_t>(soil)).name;
 }
@@ -168,7 +178,8 @@ std::string plan_json(const PlanningProblem& problem, const PlanResult& result,
             {"inputs", inputs_json(origin.inputs, folder)},
             {"again", again_json(origin, candidates, folder)},
             {"overturned", list_json(result.overturned, overturned_json)},
-            {"what_ifs", list_json(result.what_ifs, what_if_json)}};
+            {"what_ifs", list_json(result.what_ifs, what_if_json)},
+            {"relaxed", list_json(result.relaxed, relaxed_json)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

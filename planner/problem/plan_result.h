@@ -102,6 +102,12 @@ struct WhatIf {
   std::optional<double> end_shift_m;  ///< how far away the same controls end
 };
 
+/// What was given up of a problem without a path, and what a brief search then found.
+struct RelaxedAnswer {
+  std::string given_up;             ///< "with slope_max_deg 25", ...
+  std::optional<Candidate> opened;  ///< a path that it opens, verified; nothing: none was found
+};
+
 enum class PlanStatus { kFeasible, kInfeasible, kUndecided };
 std::string_view name(PlanStatus status);  ///< `feasible`, `infeasible`, `undecided`
 
@@ -109,9 +115,10 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kUndecided;
   std::string reason;
   std::optional<std::string> certificate;
-  std::vector<Candidate> candidates;                     ///< verified, in rank order
-  std::vector<Candidate> overturned;                     ///< found, but failed verification
-  std::vector<WhatIf> what_ifs;                          ///< of the best candidate
+  std::vector<Candidate> candidates;   ///< verified, in rank order
+  std::vector<Candidate> overturned;   ///< found, but failed verification
+  std::vector<WhatIf> what_ifs;        ///< of the best candidate
+  std::vector<RelaxedAnswer> relaxed;  ///< without a path: to the first that helps
   std::array<std::int64_t, kRejectionCount> rejected{};  ///< states, by first reason
   std::vector<RejectedState> rejected_states;            ///< an even sample of them for display
   std::optional<TerrainRasters> rasters;  ///< where a search was made, and time left for them

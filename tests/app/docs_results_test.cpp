@@ -62,6 +62,7 @@ TEST(DocsOfResults, HoldEveryKeyOfPlanJson) {
   ASSERT_FALSE(plan.at("candidates").empty());
   ASSERT_FALSE(plan.at("overturned").empty());
   ASSERT_FALSE(plan.at("what_ifs").empty());
+  ASSERT_FALSE(plan.at("relaxed").empty());
   EXPECT_EQ(undocumented(keys_of(plan.dump()), {"plan-json.md", "scenario.md"}), Keys{});
   Keys settings;
   add_keys(plan.at("settings"), settings);

@@ -100,6 +100,14 @@ TEST_F(PlanReport, KeepsWhatWasRejectedAndWhy) {
   EXPECT_EQ(data["what_ifs"][1]["end_shift_m"], 6.3);
 }
 
+TEST_F(PlanReport, KeepsThePathThatARelaxationOpens) {
+  const Json relaxed = data_of(plan_report(problem_, result_))["relaxed"];
+  ASSERT_EQ(relaxed.size(), 2u);
+  EXPECT_TRUE(relaxed[0]["path"].is_null());
+  EXPECT_EQ(relaxed[1]["given_up"], "with margin_min 0");
+  EXPECT_GT(relaxed[1]["path"]["points"]["x_m"].size(), 100u);
+}
+
 TEST_F(PlanReport, SaysAnglesOfRejectedStatesInDegrees) {
   result_.rejected_states = {
       {.reason = Rejection::kSlope,

@@ -1,6 +1,6 @@
-// Makes the seven reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
+// Makes the reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
+import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 
 const [program, source, folder] = process.argv.slice(2);
@@ -35,6 +35,15 @@ function cornerPath(name, radius_m, speed_mps) {
 regoplan(
     'demo', '--planner', 'Lattice', '--iterations', '600', '--candidates', '3', '--out',
     join(folder, 'plan'));
+// More margin than the corner leaves at speed.
+writeFileSync(
+    join(folder, 'careful.yaml'),
+    readFileSync(scenario('fast_corner'), 'utf8')
+            .replace('../../scenarios', join(source, 'scenarios')) +
+        'limits: {margin_min: 0.35}\n');
+regoplan(
+    'plan', join(folder, 'careful.yaml'), '--planner', 'Lattice', '--iterations', '600',
+    '--candidates', '1', '--out', join(folder, 'undecided'));
 regoplan(
     'evaluate', scenario('fast_corner'), cornerPath('wide.csv', 14, 1),
     cornerPath('tight.csv', 8, 2.9), '--draws', '20', '--out', join(folder, 'evaluation'));

@@ -181,7 +181,7 @@ test(
         assert.equal(seen.size, grounds.length);
         await page.getByLabel('Colour of the ground').selectOption({label: 'Slope'});
         await page.locator('#map').scrollIntoViewIfNeeded();
-    const box = await page.locator('#map').boundingBox();
+        const box = await page.locator('#map').boundingBox();
         await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
         assert.match(await page.locator('#map-pointer').innerText(), /x\s=.* slope \d+\.\d/);
       });
@@ -192,5 +192,23 @@ test('charts show the other paths when asked to', async () => {
     assert.equal(await page.locator('#charts .other').count(), 0);
     await page.getByLabel('with the other paths shown').check();
     assert.ok(await page.locator('#charts .other').count() >= 10);
+  });
+});
+
+test('without a path, the smallest change that opens the way is shown with its path', async () => {
+  await withPage('undecided', async page => {
+    assert.match(await page.locator('#what-if-title').innerText(), /smallest change/);
+    const rows = page.locator('#what-ifs tbody tr');
+    assert.match(await rows.last().innerText(), /with margin_min 0\s+opens/);
+    assert.match(await page.locator('.candidates tbody').innerText(), /with margin_min 0/);
+    const box = page.getByRole('checkbox', {name: /^Show/});
+    assert.ok(await box.isChecked());
+    assert.equal(await shownPaths(page), 1);
+    await box.uncheck();
+    assert.equal(await shownPaths(page), 0);
+    await rows.last().getByRole('button').click();
+    assert.equal(await shownPaths(page), 1);
+    assert.match(await page.locator('#along-path').innerText(), /with margin_min 0/);
+    assert.match(await readout(page), /with margin_min 0/);
   });
 });

@@ -74,7 +74,7 @@ function mapOverlay(svg, frame) {
           .attr('stroke', run => run.colour)
           .attr('vector-effect', 'non-scaling-stroke')
           .attr('stroke-width', chosen ? 5 : 3.4)
-          .attr('stroke-dasharray', path.verified_path ? null : '6 5');
+          .attr('stroke-dasharray', path.verified_path && !path.relaxed ? null : '6 5');
     });
     arrange();
   }

@@ -11,6 +11,7 @@ const MARGINS = ['cornering', 'tip_over', 'traction'];
 const view = {
   paths: [
     ...PLAN.candidates.map(c => readPath(c, true)),
+    ...PLAN.relaxed.filter(r => r.path).map(readRelaxed),
     ...PLAN.overturned.map((c, k) => readPath(c, false, k))
   ],
   selected: null,      // a path
@@ -60,6 +61,11 @@ function readPath(candidate, verified, number) {
     visible: verified,
     label: verified ? String(candidate.rank) : `overturned ${number + 1}`
   };
+}
+
+/// The path that giving something up opens, called by what was given up.
+function readRelaxed({given_up, path}) {
+  return {...readPath(path, true), label: given_up, relaxed: true};
 }
 
 const marginTop = d3.quantile(

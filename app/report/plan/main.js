@@ -1,7 +1,7 @@
 // Draws the planning report.
 document.body.classList.add(`status-${PLAN.doubtful ? 'doubtful' : PLAN.status}`);
 candidateTable(byId('candidates'));
-whatIfTable(byId('what-ifs'));
+(PLAN.candidates.length || !PLAN.relaxed.length ? whatIfTable : relaxedTable)(byId('what-ifs'));
 rejectionBars(byId('rejected'));
 facts(byId('facts'));
 readout(byId('readout'), byId('position'));
