@@ -80,6 +80,15 @@ json forms_json(const Diagnosis& diagnosis) {
   return forms;
 }
 
+/// What each mechanism is, as the formula of its first form.
+json formulas_json() {
+  json formulas = json::object();
+  for (const MechanismForm& form : mechanism_forms()) {
+    if (!formulas.contains(form.id)) formulas[std::string(form.id)] = form.formula;
+  }
+  return formulas;
+}
+
 json report_data(const DiagnosisRun& run) {
   json data = diagnosis_content(run);
   data["kind"] = "diagnosis";
@@ -87,6 +96,7 @@ json report_data(const DiagnosisRun& run) {
   data["run_columns"] = runs_json(recording);
   data["run_residuals"] = residuals_json(run.diagnosis, recording.channels);
   data["forms"] = forms_json(run.diagnosis);
+  data["formulas"] = formulas_json();
   const DiagnosisSetup& setup = run.setup.setup;
   data["base_model"] = {{"model", variant_name(setup.variant)},
                         {"radius_m", setup.wheel.radius_m},

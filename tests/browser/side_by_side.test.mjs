@@ -80,3 +80,19 @@ test('a refused path is marked where it was refused', async () => {
     assert.equal(await page.locator('article .refused').count(), refused);
   });
 });
+
+for (const kind of ['plan', 'evaluation'])
+  test(`${kind}: a name of sixty letters does not widen the page`, async () => {
+    await withPage(kind, async page => {
+      await page.evaluate(() => {
+        const letters = 'a_name_of_sixty_letters_'.repeat(3).slice(0, 60);
+        for (const node of document.querySelectorAll('h3, .key, .layers li, .candidates td, p'))
+          for (const child of node.childNodes)
+            if (child.nodeType === Node.TEXT_NODE && child.textContent.trim())
+              child.textContent = letters;
+      });
+      const sideways = await page.evaluate(
+          () => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+      assert.equal(sideways, 0);
+    }, {width: 400});
+  });

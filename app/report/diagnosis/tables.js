@@ -3,9 +3,9 @@ const scrolled = (label, node) =>
     element('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': label}, node);
 
 const probability = p => !isKnown(p) ? UNKNOWN :
-    p > 0 && p < 0.01 ? 'under 1\u00a0%' :
-    p > 0.99          ? 'over 99\u00a0%' :
-                        percent(p, 0);
+    p > 0 && p < 0.01                ? 'under 1\u00a0%' :
+    p > 0.99                         ? 'over 99\u00a0%' :
+                                       percent(p, 0);
 const pValue = p => (isKnown(p) && p < 0.001 ? '< 0.001' : fixed(p, 3));
 
 /// A number with its spread as a mark on a common axis; what it says stands in the table as text.
@@ -32,6 +32,21 @@ function intervalMark(value, low, high, from, to, limits = []) {
   if (isKnown(value))
     svg.append('circle').attr('class', 'value').attr('r', 4).attr('cx', x(value)).attr('cy', 8);
   return svg.node();
+}
+
+/// What a gain or evidence of so many nats is.
+const NATS =
+    'A nat is the natural logarithm of odds: 1 makes them 2.7 times as high, 3 are 20 to 1.';
+
+/// What the mechanisms named in candidates are, each by the formula of its first form.
+function namesExplained(ids) {
+  const names = [...new Set(ids.flatMap(id => id.split('+')))].filter(n => DIAGNOSIS.formulas[n]);
+  const entry = name => element(
+      'li', {}, `${words(name)}: `, element('span', {class: 'formula'}, DIAGNOSIS.formulas[name]));
+  return element(
+      'details', {class: 'note'},
+      element('summary', {}, 'What these names are, each in one of its forms'),
+      element('ul', {}, ...names.sort().map(entry)));
 }
 
 function whereTable(host) {
@@ -103,7 +118,7 @@ function claimList(host) {
             `Shows in ${
                 claim.channels.map(c => channelOf(c).title).join(', ') ||
                 UNKNOWN}; evidence over the best score without it: ${
-                fixed(claim.evidence_nats, 1)} nats.${
+                fixed(claim.evidence_nats, 1)} nats. ${NATS}${
                 claim.equivalent.length ? ' These data cannot tell the names above apart.' :
                                           ''}`)));
   }
@@ -143,6 +158,7 @@ function candidateTable(host) {
                           probability(d3.sum(rest, c => c.probability))} together` :
                       ''}. "none" is the model at the prior means, "parameters" the model with fitted soil numbers.`),
           head, element('tbody', {}, ...rows))));
+  host.append(namesExplained(ranking.slice(0, SHOWN).map(c => c.id)));
 }
 
 function soilTable(host) {
@@ -243,7 +259,7 @@ function nextTable(host, section) {
   host.append(scrolled(
       'Table of next experiments',
       table(
-          'What would tell the remaining candidates apart, best first',
+          `What would tell the remaining candidates apart, best first. ${NATS}`,
           [
             {text: ''}, {text: 'Experiment'}, {text: 'Separates'},
             {text: 'Expected gain', number: true}

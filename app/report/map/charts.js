@@ -2,6 +2,8 @@
 const CHARTS = [
   {
     title: 'Margins',
+    note:
+        'Shares of the weight. Cornering: how far demand is from the ends of the supply. Tip-over: how far the resultant is from the support edges. Traction: the drive force that is left.',
     decimals: 3,
     zero: true,
     limits: [LIMITS.margin_min],
@@ -17,6 +19,8 @@ const CHARTS = [
     decimals: 0,
     zero: true,
     band: ['supply_min_n', 'supply_max_n'],
+    note:
+        'Demand: the lateral force that the commanded manoeuvre takes. Supply: the interval of lateral forces that steady manoeuvres can give there.',
     series: [{name: 'demand', key: 'demand_n', colour: '--series-4'}]
   },
   {
@@ -182,6 +186,7 @@ function chartPanel(chart) {
             data: () => pointColumns(['distance_m', 'time_s', ...shown.map(s => s.key)]),
           },
           draw);
+  if (chart.note) made.node.append(element('p', {class: 'note'}, chart.note));
   let x = null, y = null, marker = null;
 
   function draw(svg, width) {
