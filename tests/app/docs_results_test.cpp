@@ -125,7 +125,8 @@ TEST(DocsOfResults, HoldEveryKeyOfBenchmarkJson) {
 TEST(DocsOfResults, HoldEveryKeyOfComparisonJson) {
   for (const ResultKind kind : {ResultKind::kPlan, ResultKind::kBenchmark}) {
     ComparedResult a{.kind = kind, .asked = {{"limits", 1}}, .inputs = nlohmann::ordered_json()};
-    a.entries = {{.name = "one", .values = {metrics_of(kind).size(), 0.5}}};
+    a.entries = {{.name = "one"}};
+    a.entries.front().values.assign(metrics_of(kind).size(), 0.5);
     ComparedResult b = a;
     b.asked["limits"] = 2;
     const Comparison comparison = compared(a, b);
