@@ -138,9 +138,62 @@ bool any_has(const std::vector<DriveRecording>& drives, std::string_view prefix)
   });
 }
 
+/// Where on the map a zone lies that a drive went through.
+DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveRecording>& drives,
+                          const VehicleFinding& finding) {
+  const SoilZoneFound& zone = *finding.zone;
+  std::array<double, 2> x_m{1e18, -1e18}, y_m{1e18, -1e18};
+  for (std::size_t i = zone.first; i <= zone.last; ++i) {
+    const DriveWindow& window = result.windows[i];
+    x_m = {std::min(x_m[0], window.x_m), std::max(x_m[1], window.x_m)};
+    y_m = {std::min(y_m[0], window.y_m), std::max(y_m[1], window.y_m)};
+  }
+  return {
+      .channel = "soil",
+      .where = fmt::format("drive {}, {:.1f} s ({:.1f} to {:.1f}) to {:.1f} s ({:.1f} to {:.1f})",
+                           drives[zone.drive].drive_id, zone.starts_s, zone.start_s[0],
+                           zone.start_s[1], zone.ends_s, zone.end_s[0], zone.end_s[1]),
+      .region = {{"x_m", x_m},
+                 {"y_m", y_m},
+                 {"time_s", {zone.starts_s, zone.ends_s}},
+                 {"start_s", zone.start_s},
+                 {"end_s", zone.end_s}},
+      .effect = finding.size,
+      .ci95 = {finding.size - 1.96 * finding.std, finding.size + 1.96 * finding.std},
+      .p_value = 1e-3};
+}
+
+void claim_effects(const std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
+  const VehicleEffects& effects = *result.effects;
+  for (const VehicleFinding& finding : effects.found) {
+    DriveClaim claim{.id = finding.id,
+                     .parameters = {{finding.parameter, {finding.size, finding.std}}},
+                     .equivalent = finding.equivalent,
+                     .channels = effects.channels,
+                     .sigmas = finding.sigmas};
+    claim.text = fmt::format("{} = {:.3g} +- {:.2g}, {:.1f} standard deviations from nothing",
+                             finding.parameter, finding.size, finding.std, finding.sigmas);
+    if (finding.zone) {
+      if (finding.zone->at_border &&
+          std::ranges::find(claim.equivalent, "zone_border") == claim.equivalent.end()) {
+        claim.equivalent.emplace_back("zone_border");
+      }
+      DriveMismatch where = mismatch_of(result, drives, finding);
+      claim.text = fmt::format("soil {} by {:.2g} of its standard deviations in {}",
+                               finding.size > 0 ? "weaker" : "stronger", std::abs(finding.size),
+                               where.where);
+      result.where.push_back(std::move(where));
+    }
+    result.claims.push_back(std::move(claim));
+  }
+}
+
+/// How far the smoothing of poses reaches beyond a window, where a vehicle's model is compared.
+constexpr double kBeyond = 0.3;
+
 /// Brings yaw to the map's sense and the vehicle's nose, where the drives show how.
-void mend_yaw(const SensorChecks& checks, double window_s, std::vector<DriveRecording>& drives,
-              std::vector<DriveWindow>& windows) {
+void mend_yaw(const SensorChecks& checks, const DriveSetup& setup,
+              std::vector<DriveRecording>& drives, std::vector<DriveWindow>& windows) {
   if (checks.yaw_sign == 1 && checks.yaw_offset_rad == 0) return;
   windows.clear();
   for (std::size_t i = 0; i < drives.size(); ++i) {
@@ -150,8 +203,14 @@ void mend_yaw(const SensorChecks& checks, double window_s, std::vector<DriveReco
                                    checks.yaw_offset_rad);
       }
     }
-    std::ranges::move(drive_windows(drives[i], i, window_s), std::back_inserter(windows));
+    std::ranges::move(drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0),
+                      std::back_inserter(windows));
   }
+}
+
+bool is_found(const DriveDiagnosis& result, std::string_view id) {
+  return std::ranges::any_of(result.findings,
+                             [id](const DriveFinding& finding) { return finding.id == id; });
 }
 
 /// What nobody should expect these drives to show.
@@ -164,12 +223,12 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
          "the scenario has no vehicle, so nothing predicts speeds and torques",
          "the same drives with a vehicle file: mass, wheels, centre of gravity"});
   }
-  if (setup.vehicle) {
+  if (setup.vehicle && !result.effects) {
     result.silent.push_back(
         {{"soil_zone", "zone_border", "map_offset", "wheel_radius", "steering_offset", "payload",
           "tow_drag"},
-         "speeds and torques of the wheels are not compared with the vehicle's model yet",
-         "none for now"});
+         "fewer than 12 windows have rim speeds, steering, heading and known ground",
+         "a minute on the map with rim speed and steering of every wheel and the pose at 1 Hz"});
   }
   if (!any_has(drives, "torque_")) {
     result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},
@@ -194,7 +253,8 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     }
     throw_if_stopped(options.stop);
     mend_positions(drives[i], speed_max_mps);
-    std::vector<DriveWindow> windows = drive_windows(drives[i], i, setup.window_s);
+    std::vector<DriveWindow> windows =
+        drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0);
     if (windows.empty()) {
       drives[i].findings.push_back(
           {.id = "no_window",
@@ -224,7 +284,7 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
 void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
              const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
   SensorChecks checks = check_sensors(drives, result.windows, sides_of(setup.vehicle));
-  mend_yaw(checks, setup.window_s, drives, result.windows);
+  mend_yaw(checks, setup, drives, result.windows);
   for (DriveWindow& window : result.windows) window.sensed_speed_mps /= checks.sensed_speed_per_mps;
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
   throw_if_stopped(options.stop);
@@ -235,6 +295,11 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   result.currents = diagnose_currents(drives, result.windows, result.mountings,
                                       checks.current_sides_swapped, options.seed, options.stop);
   if (result.currents) claim_side_drag(result);
+  if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
+    result.effects = find_vehicle_effects(drives, result.windows, setup.map, *setup.vehicle,
+                                          setup.gravity_mps2, options.seed, options.stop);
+  }
+  if (result.effects) claim_effects(drives, result);
   say_what_is_silent(setup, drives, result);
   const bool a_class = std::ranges::any_of(
       result.claims, [](const DriveClaim& claim) { return claim.equivalent.size() > 1; });

@@ -14,6 +14,7 @@
 #include "drive_diagnosis/drive_recording.h"
 #include "drive_diagnosis/mounting.h"
 #include "drive_diagnosis/sensor_checks.h"
+#include "drive_diagnosis/vehicle_effects.h"
 #include "maps/terrain_map.h"
 #include "terramech/parameters/vehicle.h"
 
@@ -70,6 +71,7 @@ struct DriveDiagnosis {
   std::vector<DriveFinding> findings;
   std::vector<Mounting> mountings;
   std::optional<CurrentDiagnosis> currents;
+  std::optional<VehicleEffects> effects;
   std::vector<SilentEffect> silent;
   std::vector<DriveWindow> windows;
   double share_on_map = 0;  ///< of the windows with a position

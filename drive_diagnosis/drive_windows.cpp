@@ -154,12 +154,14 @@ double wheel_acceleration(const DriveRecording& drive, const Rows& rows, double 
   return count > 0 ? sum / count : kNotSampled;
 }
 
-DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows& rows) {
+/// \param wide rows that position and heading are smoothed over
+DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows& rows,
+                      const Rows& wide) {
   DriveWindow window{
       .drive = index, .start_s = drive.time_s[rows.from], .end_s = drive.time_s[rows.to - 1]};
   const double middle_s = (window.start_s + window.end_s) / 2;
-  smooth_yaw(drive, rows, middle_s, window);
-  smooth_track(drive, rows, middle_s, window);
+  smooth_yaw(drive, wide, middle_s, window);
+  smooth_track(drive, wide, middle_s, window);
   window.wheel_acceleration_rad_s2 = wheel_acceleration(drive, rows, middle_s);
   window.pitch_rad = window.roll_rad = window.sensed_speed_mps = kNotSampled;
   window.steady = true;
@@ -178,7 +180,7 @@ DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows
 }  // namespace
 
 std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t index,
-                                       double window_s) {
+                                       double window_s, double beyond) {
   std::vector<DriveWindow> windows;
   const double gap_s = gap_max_s(drive);
   const std::size_t n = drive.size();
@@ -192,7 +194,17 @@ std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t 
     constexpr std::size_t kLeastRows = 5;
     if (to - from >= kLeastRows &&
         drive.time_s[to - 1] - drive.time_s[from] >= kLeastShare * window_s) {
-      windows.push_back(window_of(drive, index, {from, to}));
+      Rows wide{from, to};
+      const double reach_s = beyond * window_s;
+      while (wide.from > 0 && drive.time_s[from] - drive.time_s[wide.from - 1] <= reach_s &&
+             drive.time_s[wide.from] - drive.time_s[wide.from - 1] <= gap_s) {
+        --wide.from;
+      }
+      while (wide.to < n && drive.time_s[wide.to] - drive.time_s[to - 1] <= reach_s &&
+             drive.time_s[wide.to] - drive.time_s[wide.to - 1] <= gap_s) {
+        ++wide.to;
+      }
+      windows.push_back(window_of(drive, index, {from, to}, wide));
     }
     from = to;
   }

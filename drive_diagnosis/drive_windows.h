@@ -37,9 +37,10 @@ struct DriveWindow {
 
 /// The windows of a drive, one behind the other; none spans a gap of the recording. Positions and
 /// yaw are smoothed by a parabola over the window; what has fewer than three fixes has no speed
-/// from positions.
+/// from positions. \param beyond share of a window by which the smoothing reaches beyond it on
+/// either side, where the recording goes on
 std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t index,
-                                       double window_s);
+                                       double window_s, double beyond = 0);
 
 /// The mean of a channel in a window; NaN where the drive has none.
 double channel_mean(const DriveRecording& drive, const DriveWindow& window,

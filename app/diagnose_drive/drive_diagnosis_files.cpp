@@ -92,6 +92,15 @@ Json fit_json(const DriveDiagnosis& diagnosis) {
           {"held_out", held_out.held_out}};
     }
   }
+  if (diagnosis.effects) {
+    const VehicleEffects& effects = *diagnosis.effects;
+    for (std::size_t k = 0; k < effects.channels.size(); ++k) {
+      fit[effects.channels[k]] = {{"noise_floor", effects.noise[k]},
+                                  {"baseline_rmse", effects.rms[k]},
+                                  {"corrected_rmse", effects.rms_after[k]},
+                                  {"held_out", nullptr}};
+    }
+  }
   return fit;
 }
 

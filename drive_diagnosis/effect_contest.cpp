@@ -1,0 +1,311 @@
+#include "drive_diagnosis/effect_contest.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "drive_diagnosis/robust_statistics.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kFault = 8;     ///< a fault's deviation, in those of a sound vehicle
+constexpr double kZone = 3;      ///< another soil's numbers, in standard deviations of this one's
+constexpr double kAlike = 10;    ///< twice 5 nats
+constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
+constexpr double kToSpare = 12;  ///< twice nats beyond chance, for what residuals have of tails
+constexpr std::size_t kShortest = 2;
+
+/// All that varies without a name, as columns of deviation 1.
+Eigen::MatrixXd free_columns(const EffectContest& contest) {
+  const auto q = static_cast<Eigen::Index>(contest.soil_numbers);
+  const auto zones = static_cast<Eigen::Index>(contest.zones_known.size());
+  const Eigen::Index parameters = contest.parameters.cols();
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(contest.data.size(), parameters + zones * q);
+  columns.leftCols(parameters) = contest.parameters;
+  for (const std::size_t fault : contest.faults_known) {
+    columns.col(static_cast<Eigen::Index>(fault)) *= kFault;
+  }
+  for (Eigen::Index z = 0; z < zones; ++z) {
+    const Eigen::VectorXd& share = contest.zones_known[static_cast<std::size_t>(z)];
+    for (Eigen::Index w = 0; w < share.size(); ++w) {
+      if (share[w] == 0) continue;
+      columns.middleCols(parameters + z * q, q) +=
+          kZone * share[w] * contest.soil.middleCols(w * q, q);
+    }
+  }
+  return columns;
+}
+
+/// Inner products in the metric of noise and all that varies without a name (Woodbury's identity).
+class Metric {
+ public:
+  explicit Metric(const Eigen::MatrixXd& columns) {
+    const Eigen::Index p = columns.cols();
+    const Eigen::LLT<Eigen::MatrixXd> factor(columns.transpose() * columns +
+                                             Eigen::MatrixXd::Identity(p, p));
+    shadow_ = factor.matrixL().solve(columns.transpose());
+  }
+  Eigen::MatrixXd products(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) const {
+    return a.transpose() * b - (shadow_ * a).transpose() * (shadow_ * b);
+  }
+
+ private:
+  Eigen::MatrixXd shadow_;
+};
+
+double fault_gain(double length, double product) {
+  constexpr double kVariance = kFault * kFault;
+  return product * product / (1 / kVariance + length) - std::log(1 + kVariance * length);
+}
+
+/// Gains of zones from the products of their windows' columns.
+class ZoneGains {
+ public:
+  ZoneGains(Eigen::MatrixXd lengths, std::size_t numbers)
+      : lengths_(std::move(lengths)), q_(static_cast<Eigen::Index>(numbers)) {}
+
+  struct Factor {
+    Eigen::LLT<Eigen::MatrixXd> factor;
+    double log_det = 0;
+  };
+  Factor factor_of(const Eigen::MatrixXd& length) const {
+    Factor result;
+    result.factor.compute(kZone * kZone * length + Eigen::MatrixXd::Identity(q_, q_));
+    for (Eigen::Index k = 0; k < q_; ++k) {
+      result.log_det += 2 * std::log(result.factor.matrixLLT()(k, k));
+    }
+    return result;
+  }
+  static double gain(const Factor& factor, const Eigen::VectorXd& product) {
+    return (kZone * factor.factor.matrixL().solve(product)).squaredNorm() - factor.log_det;
+  }
+  Eigen::MatrixXd block(Eigen::Index i, Eigen::Index j) const {
+    return lengths_.block(i * q_, j * q_, q_, q_);
+  }
+  Eigen::MatrixXd length_of(const Eigen::VectorXd& share) const {
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(q_, q_);
+    for (Eigen::Index i = 0; i < share.size(); ++i) {
+      if (share[i] == 0) continue;
+      for (Eigen::Index j = 0; j < share.size(); ++j) {
+        if (share[j] != 0) sum += share[i] * share[j] * block(i, j);
+      }
+    }
+    return sum;
+  }
+  Eigen::VectorXd product_of(const Eigen::VectorXd& share, const Eigen::VectorXd& products) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(q_);
+    for (Eigen::Index i = 0; i < share.size(); ++i) sum += share[i] * products.segment(i * q_, q_);
+    return sum;
+  }
+  /// Calls visit(first, last, factor) for every stretch of windows without a gap.
+  template <class Visit>
+  void each_stretch(const std::vector<bool>& follows, const Visit& visit) const {
+    const auto n = static_cast<Eigen::Index>(follows.size());
+    const Eigen::Index longest =
+        std::max<Eigen::Index>(kShortest, std::min<Eigen::Index>(n / 2, 24));
+    for (Eigen::Index first = 0; first < n; ++first) {
+      Eigen::MatrixXd length = block(first, first);
+      for (Eigen::Index last = first + 1; last < std::min(n, first + longest); ++last) {
+        if (!follows[static_cast<std::size_t>(last)]) break;
+        for (Eigen::Index i = first; i < last; ++i) length += block(i, last) + block(last, i);
+        length += block(last, last);
+        visit(first, last, factor_of(length));
+      }
+    }
+  }
+
+ private:
+  Eigen::MatrixXd lengths_;
+  Eigen::Index q_;
+};
+
+/// One contest: products of the data and of null draws with all that competes.
+class Contest {
+ public:
+  Contest(const EffectContest& contest, std::uint64_t seed)
+      : contest_(contest),
+        columns_(free_columns(contest)),
+        metric_(columns_),
+        zones_(metric_.products(contest.soil, contest.soil), contest.soil_numbers) {
+    constexpr Eigen::Index kDraws = 250;
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    Eigen::MatrixXd draws(contest.data.size(), kDraws + 1);
+    draws.col(0) = contest.data;
+    Eigen::VectorXd off(columns_.cols());
+    for (Eigen::Index i = 1; i <= kDraws; ++i) {
+      for (Eigen::Index k = 0; k < draws.rows(); ++k) draws(k, i) = normal(random);
+      for (double& value : off) value = normal(random);
+      draws.col(i) += columns_ * off;
+    }
+    lengths_ = metric_.products(contest.parameters, contest.parameters);
+    products_ = metric_.products(contest.parameters, draws);
+    soil_products_ = metric_.products(contest.soil, draws);
+    energy_ = metric_.products(contest.data, contest.data)(0, 0);
+  }
+
+  EffectFound strongest() const {
+    const Eigen::Index draws = products_.cols();
+    Eigen::VectorXd largest = Eigen::VectorXd::Constant(draws, -1e9);
+    EffectFound best{.gain = -1e9};
+    std::vector<double> fault_gains(static_cast<std::size_t>(lengths_.cols()), -1e9);
+    for (Eigen::Index k = 0; k < lengths_.cols(); ++k) {
+      const auto parameter = static_cast<std::size_t>(k);
+      if (!may_be_claimed(parameter)) continue;
+      for (Eigen::Index i = 0; i < draws; ++i) {
+        const double gain = fault_gain(lengths_(k, k), products_(k, i));
+        largest[i] = std::max(largest[i], gain);
+        if (i == 0) fault_gains[parameter] = gain;
+      }
+      if (fault_gains[parameter] > best.gain) {
+        best = {.parameter = parameter, .gain = fault_gains[parameter]};
+      }
+    }
+    const double best_fault = best.gain;
+    const double best_zone = scan_zones(largest, best);
+    judge(largest, best);
+    for (std::size_t k = 0; k < fault_gains.size(); ++k) {
+      if (may_be_claimed(k) && is_alike(best, k, fault_gains[k])) best.alike.push_back(k);
+    }
+    best.zone_alike = !best.is_zone && best_zone > best_fault - kAlike;
+    return best;
+  }
+
+ private:
+  bool may_be_claimed(std::size_t parameter) const {
+    return contest_.claimable[parameter] &&
+           std::ranges::find(contest_.faults_known, parameter) == contest_.faults_known.end();
+  }
+
+  bool is_alike(const EffectFound& best, std::size_t other, double gain) const {
+    if (!best.is_zone && other == best.parameter) return true;
+    if (gain > best.gain - kAlike) return true;
+    if (best.is_zone) return false;
+    const auto i = static_cast<Eigen::Index>(best.parameter), k = static_cast<Eigen::Index>(other);
+    return std::abs(lengths_(i, k)) > kCosine * std::sqrt(lengths_(i, i) * lengths_(k, k));
+  }
+
+  /// \returns the gain of the best zone
+  double scan_zones(Eigen::VectorXd& largest, EffectFound& best) const {
+    const auto q = static_cast<Eigen::Index>(contest_.soil_numbers);
+    double best_zone = -1e9;
+    Eigen::Index best_first = 0, best_last = 0;
+    zones_.each_stretch(contest_.follows, [&](Eigen::Index first, Eigen::Index last,
+                                              const ZoneGains::Factor& factor) {
+      Eigen::MatrixXd product = Eigen::MatrixXd::Zero(q, soil_products_.cols());
+      for (Eigen::Index w = first; w <= last; ++w) product += soil_products_.middleRows(w * q, q);
+      const Eigen::MatrixXd solved = factor.factor.matrixL().solve(product);
+      const Eigen::VectorXd gains =
+          (kZone * kZone * solved.colwise().squaredNorm().transpose()).array() - factor.log_det;
+      largest = largest.cwiseMax(gains);
+      if (gains[0] <= best_zone) return;
+      best_zone = gains[0];
+      best_first = first;
+      best_last = last;
+    });
+    if (best_zone > best.gain) {
+      best = {.is_zone = true, .gain = best_zone};
+      place(best_first, best_last, best);
+    }
+    return best_zone;
+  }
+
+  /// Where in its outermost windows a zone begins and ends: by quarters of a window.
+  void place(Eigen::Index first, Eigen::Index last, EffectFound& zone) const {
+    const auto n = static_cast<Eigen::Index>(contest_.follows.size());
+    constexpr double kStep = 0.25, kReach = 1.5;
+    std::vector<std::array<double, 3>> places;  // begins, ends, gain
+    for (double from = -kReach; from <= kReach; from += kStep) {
+      for (double to = -kReach; to <= kReach; to += kStep) {
+        const double begins = static_cast<double>(first) + from;
+        const double ends = static_cast<double>(last) + 1 + to;
+        if (begins < 0 || ends > static_cast<double>(n) || ends - begins < 1) continue;
+        const Eigen::VectorXd share = shares(begins, ends);
+        const double gain = ZoneGains::gain(zones_.factor_of(zones_.length_of(share)),
+                                            zones_.product_of(share, soil_products_.col(0)));
+        places.push_back({begins, ends, gain});
+      }
+    }
+    const auto& most = *std::ranges::max_element(places, {}, [](const auto& at) { return at[2]; });
+    zone.gain = std::max(zone.gain, most[2]);
+    zone.share = shares(most[0], most[1]);
+    zone.first_at = {most[0], most[0]};
+    zone.last_at = {most[1], most[1]};
+    for (const auto& [begins, ends, gain] : places) {
+      constexpr double kWithin = 3.84;  // of chi squared, 95 %
+      if (gain < most[2] - kWithin) continue;
+      zone.first_at = {std::min(zone.first_at[0], begins), std::max(zone.first_at[1], begins)};
+      zone.last_at = {std::min(zone.last_at[0], ends), std::max(zone.last_at[1], ends)};
+    }
+  }
+
+  Eigen::VectorXd shares(double begins, double ends) const {
+    Eigen::VectorXd share(static_cast<Eigen::Index>(contest_.follows.size()));
+    for (Eigen::Index w = 0; w < share.size(); ++w) {
+      const auto from = static_cast<double>(w);
+      share[w] = std::clamp(std::min(ends, from + 1) - std::max(begins, from), 0.0, 1.0);
+    }
+    return share;
+  }
+
+  void judge(Eigen::VectorXd& largest, EffectFound& best) const {
+    const std::vector<double> chance(largest.data() + 1, largest.data() + largest.size());
+    // Gains fall off as exp(-gain / 2): from one in twenty to one in a thousand.
+    best.chance = quantile_value(chance, 0.95) + 2 * std::log(50.0);
+    double explained = best.gain;
+    if (!best.is_zone) {
+      const auto k = static_cast<Eigen::Index>(best.parameter);
+      const double length = lengths_(k, k);
+      explained = products_(k, 0) * products_(k, 0) / length;
+      best.size = products_(k, 0) / length;
+      best.std = std::sqrt(std::max(1e-12, 1 / length - 1));  // without its own prior
+    }
+    const double wide =
+        std::max(1.0, std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
+    best.std *= wide;
+    const double gain = best.gain / (wide * wide);
+    best.sigmas = best.is_zone ? std::sqrt(std::max(0.0, gain)) : std::abs(best.size) / best.std;
+    best.stands_out = gain > best.chance && (!best.is_zone || gain > best.chance + kToSpare) &&
+                      best.sigmas * best.sigmas > best.chance + kToSpare;
+    best.gain = gain;
+  }
+
+  const EffectContest& contest_;
+  Eigen::MatrixXd columns_;
+  Metric metric_;
+  ZoneGains zones_;
+  Eigen::MatrixXd lengths_, products_, soil_products_;
+  double energy_ = 0;
+};
+
+}  // namespace
+
+EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed) {
+  return Contest(contest, seed).strongest();
+}
+
+ContestFit fit_contest(const EffectContest& contest) {
+  const Eigen::MatrixXd columns = free_columns(contest);
+  const Eigen::Index p = columns.cols();
+  const Eigen::MatrixXd covariance =
+      (columns.transpose() * columns + Eigen::MatrixXd::Identity(p, p)).inverse();
+  const Eigen::VectorXd x = covariance * (columns.transpose() * contest.data);
+  const Eigen::VectorXd std = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  const Eigen::Index parameters = contest.parameters.cols();
+  ContestFit fit{.parameters = x.head(parameters), .parameters_std = std.head(parameters)};
+  for (const std::size_t fault : contest.faults_known) {
+    fit.parameters[static_cast<Eigen::Index>(fault)] *= kFault;
+    fit.parameters_std[static_cast<Eigen::Index>(fault)] *= kFault;
+  }
+  const auto q = static_cast<Eigen::Index>(contest.soil_numbers);
+  for (std::size_t z = 0; z < contest.zones_known.size(); ++z) {
+    const Eigen::Index at = parameters + static_cast<Eigen::Index>(z) * q;
+    fit.zones.emplace_back(kZone * x.segment(at, q));
+    fit.zones_std.emplace_back(kZone * std.segment(at, q));
+  }
+  return fit;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace regoplan {
+
+/// Everything that competes to explain a drive, in white data: to first order, what each changes.
+struct EffectContest {
+  Eigen::VectorXd data;
+  /// A column for each parameter, by the size that a sound vehicle is off (one standard deviation).
+  Eigen::MatrixXd parameters;
+  std::vector<bool> claimable;  ///< of each parameter: a fault has a name
+  /// Columns of soil of its own: for each window one for each number, by a standard deviation.
+  Eigen::MatrixXd soil;
+  std::size_t soil_numbers = 0;
+  std::vector<bool> follows;  ///< whether a window follows the one before: zones do not jump
+  std::vector<Eigen::VectorXd> zones_known;  ///< shares of each window whose soil is free already
+  std::vector<std::size_t> faults_known;     ///< parameters that are free already
+};
+
+/// An effect that the data may need: a parameter or a zone.
+struct EffectFound {
+  bool is_zone = false;
+  std::size_t parameter = 0;
+  double size = 0, std = 0;                     ///< in units of the parameter's column
+  Eigen::VectorXd share;                        ///< of each window that lies in the zone
+  std::array<double, 2> first_at{}, last_at{};  ///< 95 % of where it begins and ends, in windows
+  double gain = 0;    ///< twice the nats of evidence over a sound vehicle on the map's soils
+  double chance = 0;  ///< what one contest in a thousand gains by chance
+  double sigmas = 0;
+  bool stands_out = false;
+  std::vector<std::size_t> alike;  ///< parameters that explain as much, or the same
+  bool zone_alike = false;         ///< some zone explains as much
+};
+
+/// The strongest of all effects, judged against the largest gain in null draws of the whole
+/// contest: sound vehicles, soils within their spread, normal noise.
+EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed);
+
+/// The most likely parameters and numbers of the known zones' soils, known faults and zones free.
+struct ContestFit {
+  Eigen::VectorXd parameters, parameters_std;
+  std::vector<Eigen::VectorXd> zones, zones_std;
+};
+ContestFit fit_contest(const EffectContest& contest);
+
+}  // namespace regoplan

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace regoplan {
+
+/// What residuals are made of, by window and channel.
+struct ResidualParts {
+  Eigen::MatrixXd residuals;
+  /// What each global parameter changes, by the size that a sound vehicle is off.
+  std::vector<Eigen::MatrixXd> columns;
+  std::vector<bool> may_be_wrong;  ///< of each: a fault takes it far beyond that size
+  /// What an input of a window that is measured with scatter changes in it, by that scatter.
+  std::vector<Eigen::MatrixXd> inputs;
+  std::vector<bool> follows;  ///< whether a window follows the one before
+  /// Scatter that goes with a measurement goes with this; 0 where it does not.
+  Eigen::MatrixXd reference;
+};
+
+/// How residuals scatter: each channel by a scale of its own, and all by what the inputs' scatter
+/// does to them. Makes them white.
+class ResidualNoise {
+ public:
+  /// Estimates the scales by what is left when everything global is fitted (expectation
+  /// maximisation), robustly: a zone of the map, or a stray window, does not widen them. Residuals
+  /// that go on from window to window widen theirs.
+  explicit ResidualNoise(ResidualParts parts);
+
+  /// Window by window, its channels one behind the other.
+  Eigen::VectorXd whitened(const Eigen::MatrixXd& by_window) const;
+  const std::vector<double>& scales() const { return scale_; }
+
+ private:
+  void factor();
+  Eigen::MatrixXd fitted_residuals() const;
+  void update(const Eigen::MatrixXd& left, double freedom);
+  void choose_shares(const Eigen::MatrixXd& left);
+  void widen_what_goes_on(const Eigen::MatrixXd& left);
+  Eigen::VectorXd variances(Eigen::Index window) const;
+  /// Whether a channel shares its scale with the others that go with their size.
+  bool is_alike(Eigen::Index channel) const { return !parts_.reference.col(channel).isZero(); }
+
+  ResidualParts parts_;
+  std::vector<double> scale_, share_;
+  std::vector<Eigen::MatrixXd> root_;  ///< of each window: inverse of its Cholesky factor
+  std::vector<Eigen::MatrixXd> covariance_;
+};
+
+}  // namespace regoplan

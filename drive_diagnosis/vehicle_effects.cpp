@@ -1,0 +1,329 @@
+#include "drive_diagnosis/vehicle_effects.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drive_diagnosis/effect_contest.h"
+#include "drive_diagnosis/residual_noise.h"
+#include "drive_diagnosis/window_comparison.h"
+#include "terramech/basics/interruption.h"
+
+namespace regoplan {
+namespace {
+
+constexpr std::size_t kWindowsLeast = 12;
+
+/// The contest over a drive, linearised anew about what was found.
+class EffectSearch {
+ public:
+  EffectSearch(const std::vector<DriveWindow>& windows, const TerrainMap& map,
+               const Vehicle& vehicle, const WindowComparison& comparison, std::uint64_t seed,
+               const std::stop_token& stop)
+      : windows_(windows),
+        map_(map),
+        comparison_(comparison),
+        trials_(vehicle_trials(vehicle, map, comparison.soils_driven())),
+        seed_(seed),
+        stop_(stop),
+        fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials_.size()))} {
+    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+      const bool varies = std::ranges::any_of(
+          map.soils(), [k](const MapSoil& soil) { return soil_spread(soil.soil).at(k) > 0; });
+      if (varies) numbers_.push_back(k);
+    }
+    for (std::size_t i = 0; i < comparison.size(); ++i) {
+      contest_.follows.push_back(comparison.consecutive(i));
+    }
+    for (const VehicleTrial& trial : trials_) contest_.claimable.push_back(!trial.id.empty());
+    contest_.soil_numbers = numbers_.size();
+  }
+
+  VehicleEffects run() {
+    VehicleEffects result{.windows = static_cast<int>(comparison_.size()),
+                          .left_out = static_cast<int>(comparison_.left_out()),
+                          .channels = comparison_.channels(),
+                          .has_torque = comparison_.has_torque()};
+    const Eigen::MatrixXd nothing =
+        Eigen::MatrixXd::Zero(comparison_.measured().rows(), comparison_.measured().cols());
+    result.rms = rms(comparison_.measured() - comparison_.predicted({}, {}, nothing, stop_));
+    constexpr int kEffectsMost = 3;
+    linearise();
+    refit();  // soils and sensors as they are, before anything is judged
+    std::vector<EffectFound> found;
+    while (true) {
+      linearise();
+      EffectFound strongest = strongest_effect(contest_, seed_);
+      if (!strongest.stands_out || static_cast<int>(found.size()) == kEffectsMost) {
+        result.strongest_left = told(strongest);
+        break;
+      }
+      if (strongest.is_zone) {
+        contest_.zones_known.push_back(strongest.share);
+        fit_.zones.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size())));
+      } else {
+        contest_.faults_known.push_back(strongest.parameter);
+      }
+      found.push_back(std::move(strongest));
+      refit();
+    }
+    refit();
+    std::size_t zone = 0;
+    for (const EffectFound& effect : found) {
+      VehicleFinding finding = told(effect);
+      if (effect.is_zone) {
+        finding.zone = zone_of(effect, zone++);
+        finding.size = finding.zone->weaker;
+      } else {
+        const auto k = static_cast<Eigen::Index>(effect.parameter);
+        finding.size = fit_.parameters[k] * trials_[effect.parameter].unit;
+        finding.std = fit_.parameters_std[k] * trials_[effect.parameter].unit;
+      }
+      result.found.push_back(std::move(finding));
+    }
+    result.noise = noise_;
+    result.rms_after = rms(comparison_.measured() - predicted());
+    return result;
+  }
+
+ private:
+  VehicleDeviation deviation() const {
+    VehicleDeviation sum;
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+      const double size = fit_.parameters[static_cast<Eigen::Index>(k)];
+      if (size != 0) sum.add(trials_[k].deviation, size);
+    }
+    return sum;
+  }
+
+  SoilNumbers numbers_of(const Eigen::VectorXd& values) const {
+    SoilNumbers numbers{};
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      numbers.at(numbers_[k]) = values[static_cast<Eigen::Index>(k)];
+    }
+    return numbers;
+  }
+
+  std::vector<WindowZone> zones() const {
+    std::vector<WindowZone> result;
+    for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+      const Eigen::VectorXd& share = contest_.zones_known[z];
+      result.push_back(
+          {.share = {share.begin(), share.end()}, .numbers = numbers_of(fit_.zones[z])});
+    }
+    return result;
+  }
+
+  Eigen::MatrixXd predicted() const {
+    const Eigen::MatrixXd nothing =
+        Eigen::MatrixXd::Zero(comparison_.measured().rows(), comparison_.measured().cols());
+    return comparison_.predicted(deviation(), zones(),
+                                 comparison_.predicted({}, {}, nothing, stop_), stop_);
+  }
+
+  std::vector<double> rms(const Eigen::MatrixXd& residuals) const {
+    std::vector<double> result;
+    for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
+      result.push_back(
+          std::sqrt(residuals.col(k).squaredNorm() / static_cast<double>(residuals.rows())));
+    }
+    return result;
+  }
+
+  /// Columns and data about the present fit: what is measured less what is predicted there, plus
+  /// what the parameters there stand for.
+  void linearise() {
+    const VehicleDeviation here = deviation();
+    const std::vector<WindowZone> zones_here = zones();
+    const Eigen::MatrixXd base = predicted();
+    std::vector<Eigen::MatrixXd> columns;
+    Eigen::MatrixXd data = comparison_.measured() - base;
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+      VehicleDeviation there = here;
+      there.add(trials_[k].deviation, 1);
+      columns.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
+      data += fit_.parameters[static_cast<Eigen::Index>(k)] * columns.back();
+    }
+    std::vector<Eigen::MatrixXd> soil;
+    for (const std::size_t number : numbers_) {
+      VehicleDeviation there = here;
+      there.soils.resize(map_.soils().size());
+      for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
+      soil.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
+    }
+    for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+      for (Eigen::Index w = 0; w < data.rows(); ++w) {
+        for (std::size_t k = 0; k < numbers_.size(); ++k) {
+          data.row(w) += contest_.zones_known[z][w] * fit_.zones[z][static_cast<Eigen::Index>(k)] *
+                         soil[k].row(w);
+        }
+      }
+    }
+    whiten(data, columns, soil, base);
+  }
+
+  void whiten(const Eigen::MatrixXd& data, const std::vector<Eigen::MatrixXd>& columns,
+              const std::vector<Eigen::MatrixXd>& soil, const Eigen::MatrixXd& base) {
+    Eigen::MatrixXd reference = Eigen::MatrixXd::Zero(base.rows(), base.cols());
+    for (Eigen::Index k = 0; k < base.cols(); ++k) {
+      if (!comparison_.scales(static_cast<std::size_t>(k))) continue;
+      const double mean = base.col(k).cwiseAbs().mean();
+      if (mean > 0) reference.col(k) = base.col(k) / mean;
+    }
+    // Zones that are known vary freely, and are no noise either.
+    std::vector<Eigen::MatrixXd> global = columns;
+    std::vector<bool> may_be_wrong = contest_.claimable;
+    for (const Eigen::VectorXd& share : contest_.zones_known) {
+      for (const Eigen::MatrixXd& number : soil) {
+        global.emplace_back(share.asDiagonal() * number);
+        may_be_wrong.push_back(true);
+      }
+    }
+    const ResidualNoise noise({.residuals = data,
+                               .columns = std::move(global),
+                               .may_be_wrong = std::move(may_be_wrong),
+                               .inputs = comparison_.of_inputs(deviation(), base, stop_),
+                               .follows = contest_.follows,
+                               .reference = std::move(reference)});
+    noise_ = noise.scales();
+    contest_.data = noise.whitened(data);
+    contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      contest_.parameters.col(static_cast<Eigen::Index>(k)) = noise.whitened(columns[k]);
+    }
+    contest_.soil.resize(contest_.data.size(),
+                         base.rows() * static_cast<Eigen::Index>(numbers_.size()));
+    for (Eigen::Index w = 0; w < base.rows(); ++w) {
+      for (std::size_t k = 0; k < numbers_.size(); ++k) {
+        Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(base.rows(), base.cols());
+        alone.row(w) = soil[k].row(w);
+        contest_.soil.col(w * static_cast<Eigen::Index>(numbers_.size()) +
+                          static_cast<Eigen::Index>(k)) = noise.whitened(alone);
+      }
+    }
+  }
+
+  /// Moves to the most likely parameters, where they are not far out of what was linearised.
+  void refit() {
+    if (!contest_.zones_known.empty() || !contest_.faults_known.empty()) linearise();
+    fit_ = fit_contest(contest_);
+    constexpr double kFarthest = 6;
+    for (Eigen::VectorXd& zone : fit_.zones) zone = zone.cwiseMax(-kFarthest).cwiseMin(kFarthest);
+  }
+
+  VehicleFinding told(const EffectFound& effect) const {
+    VehicleFinding finding{.sigmas = effect.sigmas, .gain = effect.gain, .chance = effect.chance};
+    if (effect.is_zone) {
+      finding.id = "soil_zone";
+      finding.parameter = "weaker_sd";
+    } else {
+      const VehicleTrial& trial = trials_[effect.parameter];
+      finding.id = trial.id;
+      finding.parameter = trial.parameter;
+      finding.size = effect.size * trial.unit;
+      finding.std = effect.std * trial.unit;
+    }
+    finding.equivalent.push_back(finding.id);
+    const auto add = [&finding](const std::string& id) {
+      if (std::ranges::find(finding.equivalent, id) == finding.equivalent.end()) {
+        finding.equivalent.push_back(id);
+      }
+    };
+    for (const std::size_t other : effect.alike) add(trials_[other].id);
+    if (effect.zone_alike) add("soil_zone");
+    return finding;
+  }
+
+  double time_s(double at) const {
+    const auto last = static_cast<double>(comparison_.size() - 1);
+    const auto i = static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, last));
+    const DriveWindow& window = windows_[comparison_.window(i)];
+    return window.start_s + (at - static_cast<double>(i)) * window.duration_s();
+  }
+
+  int soil_at(std::size_t i) const {
+    const WindowInput::Place& middle = comparison_.input(i).places[WindowInput::kPlaces / 2];
+    return map_.soil_index(middle.x_m, middle.y_m).value_or(0);
+  }
+
+  SoilZoneFound zone_of(const EffectFound& effect, std::size_t index) const {
+    std::size_t first = comparison_.size(), last = 0;
+    double begins = 0, ends = 0;
+    for (std::size_t i = 0; i < comparison_.size(); ++i) {
+      const double share = effect.share[static_cast<Eigen::Index>(i)];
+      if (share == 0) continue;
+      if (first == comparison_.size()) {
+        first = i;
+        begins = static_cast<double>(i) + 1 - share;
+      }
+      last = i;
+      ends = static_cast<double>(i) + share;
+    }
+    const auto before_end = [this](double at) { return time_s(at - 1e-9); };
+    SoilZoneFound zone{.drive = windows_[comparison_.window(first)].drive,
+                       .first = comparison_.window(first),
+                       .last = comparison_.window(last),
+                       .starts_s = time_s(begins),
+                       .ends_s = before_end(ends),
+                       .start_s = {time_s(effect.first_at[0]), time_s(effect.first_at[1])},
+                       .end_s = {before_end(effect.last_at[0]), before_end(effect.last_at[1])},
+                       .soil = soil_at((first + last) / 2)};
+    zone.at_border = (first > 0 && soil_at(first - 1) != soil_at(first)) ||
+                     (last + 1 < comparison_.size() && soil_at(last + 1) != soil_at(last));
+    estimate(index, zone);
+    return zone;
+  }
+
+  /// The zone's soil: its map soil as it is estimated all along, with the zone's numbers on top.
+  void estimate(std::size_t index, SoilZoneFound& zone) const {
+    const UncertainSoil& said = map_.soils()[static_cast<std::size_t>(zone.soil)].soil;
+    SoilNumbers numbers = numbers_of(fit_.zones[index]);
+    const VehicleDeviation here = deviation();
+    if (!here.soils.empty()) {
+      for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+        numbers.at(k) += here.soils[static_cast<std::size_t>(zone.soil)].at(k);
+      }
+    }
+    zone.estimate.mean = deviating(said, numbers);
+    const SoilNumbers spread = soil_spread(said);
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+      const std::size_t k = numbers_[i];
+      double Soil::*const member = soil_parameters().at(k).member;
+      const double mean = zone.estimate.mean.*member;
+      const double std = fit_.zones_std[index][static_cast<Eigen::Index>(i)] * spread.at(k);
+      const double before = said.mean.*member;
+      zone.estimate.standard_deviation.*member = before > 0 ? std * mean / before : std;
+      if (member == &Soil::friction_angle_rad || member == &Soil::kphi) {
+        sum -= numbers.at(k);
+        ++count;
+      }
+    }
+    if (count > 0) zone.weaker = sum / count;
+  }
+
+  const std::vector<DriveWindow>& windows_;
+  const TerrainMap& map_;
+  const WindowComparison& comparison_;
+  std::vector<VehicleTrial> trials_;
+  std::uint64_t seed_;
+  const std::stop_token& stop_;
+  std::vector<std::size_t> numbers_;  ///< of soil, that vary
+  EffectContest contest_;
+  ContestFit fit_;
+  std::vector<double> noise_;
+};
+
+}  // namespace
+
+std::optional<VehicleEffects> find_vehicle_effects(const std::vector<DriveRecording>& drives,
+                                                   const std::vector<DriveWindow>& windows,
+                                                   const TerrainMap& map, const Vehicle& vehicle,
+                                                   double gravity_mps2, std::uint64_t seed,
+                                                   const std::stop_token& stop) {
+  const WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2);
+  if (comparison.size() < kWindowsLeast) return {};
+  return EffectSearch(windows, map, vehicle, comparison, seed, stop).run();
+}
+
+}  // namespace regoplan

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "drive_diagnosis/drive_windows.h"
+#include "drive_diagnosis/window_prediction.h"
+
+namespace regoplan {
+
+/// A stretch of a drive whose soil is otherwise than the map says.
+struct SoilZoneFound {
+  std::size_t drive = 0;
+  std::size_t first = 0, last = 0;           ///< windows
+  double starts_s = 0, ends_s = 0;           ///< the most likely
+  std::array<double, 2> start_s{}, end_s{};  ///< 95 % of where it starts and ends
+  bool at_border = false;                    ///< it starts or ends where the map's soil changes
+  int soil = 0;                              ///< of the map, that most of it is said to be
+  UncertainSoil estimate;                    ///< the soil that is there
+  double weaker = 0;  ///< mean deviation of strength and bearing, in their own; > 0: weaker
+};
+
+/// A fault of the vehicle, or a zone.
+struct VehicleFinding {
+  std::string id, parameter;
+  double size = 0, std = 0;  ///< of the parameter
+  double sigmas = 0;
+  double gain = 0, chance = 0;          ///< twice nats of evidence; what chance gives in a thousand
+  std::vector<std::string> equivalent;  ///< ids that explain as much, `id` first
+  std::optional<SoilZoneFound> zone;
+};
+
+/// What the vehicle's windows say.
+struct VehicleEffects {
+  std::vector<VehicleFinding> found;
+  VehicleFinding strongest_left;  ///< what did not stand out
+  int windows = 0;                ///< that were compared
+  int left_out = 0;               ///< beyond the most that are compared
+  std::vector<std::string> channels;
+  std::vector<double> noise;      ///< of each channel
+  std::vector<double> rms;        ///< of the residuals, of what is said to be
+  std::vector<double> rms_after;  ///< with what was found and estimated
+  bool has_torque = false;
+};
+
+/// Compares windows with the vehicle's model on the map: speed along and across, yaw rate,
+/// attitude, torque of each wheel. What a sound vehicle, its sensors and the map's soils may be off
+/// is estimated along. Nothing where fewer than 12 windows can be predicted: no rim speeds, no
+/// steering, off the map. \throws Interrupted
+std::optional<VehicleEffects> find_vehicle_effects(const std::vector<DriveRecording>& drives,
+                                                   const std::vector<DriveWindow>& windows,
+                                                   const TerrainMap& map, const Vehicle& vehicle,
+                                                   double gravity_mps2, std::uint64_t seed,
+                                                   const std::stop_token& stop);
+
+}  // namespace regoplan

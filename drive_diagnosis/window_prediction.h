@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "maps/ground_finder.h"
+#include "maps/terrain_map.h"
+#include "terramech/parameters/vehicle.h"
+
+namespace regoplan {
+
+/// Deviations of the numbers of a soil, in the order of `soil_parameters()`, each in standard
+/// deviations of its own.
+inline constexpr std::size_t kSoilNumbers = 14;
+using SoilNumbers = std::array<double, kSoilNumbers>;
+
+/// How far a number of a soil varies: its standard deviation; where the soil has none at all, a
+/// tenth of strength and bearing moduli.
+SoilNumbers soil_spread(const UncertainSoil& soil);
+
+/// The soil with its numbers so many deviations off. Numbers that are positive stay so: they are
+/// multiplied.
+Soil deviating(const UncertainSoil& soil, const SoilNumbers& deviations);
+
+/// A soil so many standard deviations weaker in friction, cohesion and bearing moduli.
+Soil weaker(const UncertainSoil& soil, double deviations);
+
+/// What a window gives the model: where the vehicle is, and what its wheels are set to.
+struct WindowInput {
+  /// Places along the window, evenly in time.
+  static constexpr std::size_t kPlaces = 5;
+  struct Place {
+    double x_m = 0, y_m = 0, yaw_rad = 0;
+  };
+  std::array<Place, kPlaces> places{};
+  double acceleration_mps2 = 0;      ///< measured, along the heading
+  double yaw_acceleration_rps2 = 0;  ///< of what is commanded
+  double speed_mps = 0;              ///< measured, along the heading: where the search starts
+  double yaw_rate_rad_s = 0;         ///< measured likewise
+  std::array<double, kMaxWheels> rim_rad_s{};
+  std::array<double, kMaxWheels> steer_rad{};
+};
+
+/// What the model says of a window; velocities are horizontal, angles those of the ground.
+struct WindowPrediction {
+  double forward_mps = 0, left_mps = 0, yaw_rate_rad_s = 0;
+  double pitch_rad = 0, roll_rad = 0;
+  std::array<double, kMaxWheels> torque_nm{};
+};
+
+/// What may be otherwise with the vehicle or the ground than it is said to be; all 0 is as said.
+struct VehicleDeviation {
+  std::array<double, kMaxWheels> wheel_drag_nm{};
+  std::array<double, kMaxWheels> steering_offset_rad{};
+  std::array<double, kMaxWheels> motor_share{};  ///< of the torque told
+  double radius_share = 0;                       ///< of the wheels' radius
+  double payload_share = 0;                      ///< of the mass
+  double cg_forward_m = 0, cg_left_m = 0, cg_up_m = 0;
+  double tow_drag_n = 0;                     ///< pulls back at the centre of gravity
+  double map_east_m = 0, map_north_m = 0;    ///< by which the map lies off
+  double soil_east_m = 0, soil_north_m = 0;  ///< by which its soils lie off besides
+  double mounting_pitch_rad = 0, mounting_roll_rad = 0, mounting_yaw_rad = 0;  ///< of the sensors
+  std::vector<SoilNumbers> soils;  ///< of each soil of the map; empty: none
+
+  /// Adds so many times another.
+  void add(const VehicleDeviation& other, double times);
+};
+
+/// Steady motion of a vehicle whose wheels turn and steer as measured: the body's velocities at
+/// which the wheels' forces, gravity and the measured acceleration balance.
+class WindowModel {
+ public:
+  /// All must outlive it.
+  WindowModel(const TerrainMap& map, const Vehicle& vehicle, double gravity_mps2);
+
+  /// Nothing where the ground is not known or no motion balances.
+  /// \param zone deviations of whatever soil lies there, on top of those of the soils
+  std::optional<WindowPrediction> predict(const WindowInput& input,
+                                          const VehicleDeviation& deviation,
+                                          const SoilNumbers& zone = {}) const;
+
+ private:
+  const TerrainMap& map_;
+  const Vehicle& vehicle_;
+  GroundFinder ground_;
+  double gravity_mps2_;
+};
+
+}  // namespace regoplan

@@ -1,0 +1,92 @@
+#include "drive_diagnosis/vehicle_effects.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/drive_diagnosis/simulated_drive.h"
+
+namespace regoplan {
+namespace {
+
+struct Diagnosed {
+  std::vector<DriveRecording> drives;
+  std::vector<DriveWindow> windows;
+  std::optional<VehicleEffects> effects;
+};
+
+Diagnosed diagnosed(const SimulatedDrive& drive) {
+  static const TerrainMap kMap = rolling_map();
+  Diagnosed result{.drives = {record(drive, kMap)}, .windows = {}, .effects = {}};
+  result.windows = drive_windows(result.drives[0], 0, 5, 0.3);
+  result.effects =
+      find_vehicle_effects(result.drives, result.windows, kMap, preset_vehicle("lrv"), 1.62, 7, {});
+  return result;
+}
+
+std::string said(const VehicleEffects& effects) {
+  std::string text = "windows " + std::to_string(effects.windows);
+  for (std::size_t k = 0; k < effects.channels.size(); ++k) {
+    text += "; " + effects.channels[k] + " noise " + std::to_string(effects.noise[k]) + " rms " +
+            std::to_string(effects.rms[k]);
+  }
+  std::vector<VehicleFinding> all = effects.found;
+  all.push_back(effects.strongest_left);
+  for (const VehicleFinding& found : all) {
+    text += "\n" + found.id + " " + found.parameter + " " + std::to_string(found.size) + " +- " +
+            std::to_string(found.std) + " gain " + std::to_string(found.gain) + " of " +
+            std::to_string(found.chance);
+  }
+  return text;
+}
+
+TEST(VehicleEffects, NothingIsClaimedWhereNothingIsOtherwise) {
+  for (const double scatter : {0.03, 0.16}) {
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      const Diagnosed null = diagnosed({.torque_scatter = scatter, .seed = seed});
+      ASSERT_TRUE(null.effects);
+      EXPECT_TRUE(null.effects->found.empty()) << "seed " << seed << ": " << said(*null.effects);
+    }
+  }
+}
+
+TEST(VehicleEffects, AWeakZoneOfThirtyMetresIsFoundWhereItLies) {
+  for (std::uint64_t seed = 11; seed <= 13; ++seed) {
+    const Diagnosed weak = diagnosed(
+        {.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? 4.0 : 0.0; }, .seed = seed});
+    ASSERT_TRUE(weak.effects);
+    ASSERT_EQ(weak.effects->found.size(), 1u) << said(*weak.effects);
+    EXPECT_EQ(weak.effects->found[0].id, "soil_zone") << said(*weak.effects);
+    ASSERT_TRUE(weak.effects->found[0].zone) << said(*weak.effects);
+    const SoilZoneFound& zone = *weak.effects->found[0].zone;
+    const double window_m = 8;
+    EXPECT_NEAR(weak.windows[zone.first].x_m, 140, window_m) << said(*weak.effects);
+    EXPECT_NEAR(weak.windows[zone.last].x_m, 170, window_m) << said(*weak.effects);
+    EXPECT_GT(zone.weaker, 1);
+  }
+}
+
+TEST(VehicleEffects, AWheelThatDragsIsNamed) {
+  SimulatedDrive drive{.seed = 21};
+  drive.deviation.wheel_drag_nm[1] = 5;
+  const Diagnosed dragging = diagnosed(drive);
+  ASSERT_TRUE(dragging.effects);
+  ASSERT_EQ(dragging.effects->found.size(), 1u) << said(*dragging.effects);
+  const VehicleFinding& found = dragging.effects->found[0];
+  EXPECT_EQ(found.id, "wheel_drag") << said(*dragging.effects);
+  EXPECT_EQ(found.equivalent.size(), 1u) << said(*dragging.effects);
+  EXPECT_NEAR(found.size, 5, 3 * found.std + 0.5);
+}
+
+TEST(VehicleEffects, ASteeringOffsetIsNamed) {
+  SimulatedDrive drive{.seed = 31};
+  const Vehicle vehicle = preset_vehicle("lrv");
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    if (vehicle.wheels[i].x_m > 0) drive.deviation.steering_offset_rad.at(i) = 0.01745;
+  }
+  const Diagnosed off = diagnosed(drive);
+  ASSERT_TRUE(off.effects);
+  ASSERT_FALSE(off.effects->found.empty()) << said(*off.effects);
+  EXPECT_EQ(off.effects->found[0].id, "steering_offset") << said(*off.effects);
+}
+
+}  // namespace
+}  // namespace regoplan
