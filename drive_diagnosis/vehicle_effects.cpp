@@ -73,6 +73,7 @@ class EffectSearch {
       if (effect.is_zone) {
         finding.zone = zone_of(effect, zone++);
         finding.size = finding.zone->weaker;
+        finding.std = finding.zone->weaker_std;
       } else {
         const auto k = static_cast<Eigen::Index>(effect.parameter);
         finding.size = fit_.parameters[k] * trials_[effect.parameter].unit;
@@ -285,7 +286,7 @@ class EffectSearch {
     }
     zone.estimate.mean = deviating(said, numbers);
     const SoilNumbers spread = soil_spread(said);
-    double sum = 0;
+    double sum = 0, variance = 0;
     int count = 0;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       const std::size_t k = numbers_[i];
@@ -296,10 +297,14 @@ class EffectSearch {
       zone.estimate.standard_deviation.*member = before > 0 ? std * mean / before : std;
       if (member == &Soil::friction_angle_rad || member == &Soil::kphi) {
         sum -= numbers.at(k);
+        const double off = fit_.zones_std[index][static_cast<Eigen::Index>(i)];
+        variance += off * off;
         ++count;
       }
     }
-    if (count > 0) zone.weaker = sum / count;
+    if (count == 0) return;
+    zone.weaker = sum / count;
+    zone.weaker_std = std::sqrt(variance) / count;
   }
 
   const std::vector<DriveWindow>& windows_;

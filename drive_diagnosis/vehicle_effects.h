@@ -21,7 +21,8 @@ struct SoilZoneFound {
   bool at_border = false;                    ///< it starts or ends where the map's soil changes
   int soil = 0;                              ///< of the map, that most of it is said to be
   UncertainSoil estimate;                    ///< the soil that is there
-  double weaker = 0;  ///< mean deviation of strength and bearing, in their own; > 0: weaker
+  double weaker = 0;  ///< mean deviation of friction and kphi, in their own; > 0: weaker
+  double weaker_std = 0;
 };
 
 /// A fault of the vehicle, or a zone.
