@@ -19,7 +19,7 @@ struct Rows {
 /// A polynomial through samples, about the middle of the window.
 struct Smoothed {
   double value = kNotSampled, slope = kNotSampled, bend = 0;
-  double slope_std = kNotSampled;
+  double slope_std = kNotSampled, bend_std = kNotSampled;
   double scatter = kNotSampled;  ///< standard deviation of the samples about it
   int count = 0;
 };
@@ -49,6 +49,7 @@ Smoothed smoothed(const std::vector<double>& time_s, const std::vector<double>& 
       const Eigen::MatrixXd inverse =
           solver.solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1));
       result.slope_std = std::sqrt(variance * std::max(0.0, inverse(1, 1)));
+      if (degree >= 2) result.bend_std = 2 * std::sqrt(variance * std::max(0.0, inverse(2, 2)));
     }
   }
   return result;
@@ -135,10 +136,9 @@ void smooth_yaw(const DriveRecording& drive, const Rows& rows, double middle_s,
   window.yaw_rate_std_rad_s = fit.slope_std;
 }
 
-/// Wheel speeds come often and without the scatter of fixes: their slope is the best acceleration.
-double wheel_acceleration(const DriveRecording& drive, const Rows& rows, double middle_s) {
-  double sum = 0;
-  int count = 0;
+/// The turning rate of each wheel.
+std::vector<Smoothed> wheel_rates(const DriveRecording& drive, const Rows& rows, double middle_s) {
+  std::vector<Smoothed> rates;
   for (const DriveChannel* wheel : channels_of(drive, "wheel_speed_")) {
     std::vector<double> time_s, values;
     for (std::size_t i = rows.from; i < rows.to; ++i) {
@@ -147,11 +147,37 @@ double wheel_acceleration(const DriveRecording& drive, const Rows& rows, double 
       values.push_back(static_cast<double>(wheel->values[i]));
     }
     constexpr std::size_t kLeast = 5;
-    if (values.size() < kLeast) continue;
-    sum += smoothed(time_s, values).slope;
-    ++count;
+    if (values.size() >= kLeast) rates.push_back(smoothed(time_s, values));
   }
-  return count > 0 ? sum / count : kNotSampled;
+  return rates;
+}
+
+/// Wheel speeds come often and without the scatter of fixes: their slope is the best acceleration.
+double wheel_acceleration(const std::vector<Smoothed>& rates) {
+  double sum = 0;
+  for (const Smoothed& rate : rates) sum += rate.slope;
+  return rates.empty() ? kNotSampled : sum / static_cast<double>(rates.size());
+}
+
+/// How far the wheels' rates are from those of steady driving, over what is smoothed.
+void judge_steadiness(const std::vector<Smoothed>& rates, double duration_s, DriveWindow& window) {
+  double value = 0, slope = 0, bend = 0, slope_variance = 0, bend_variance = 0;
+  for (const Smoothed& rate : rates) {
+    if (std::isnan(rate.bend_std)) continue;
+    value += rate.value;
+    slope += rate.slope;
+    bend += rate.bend;
+    slope_variance += rate.slope_std * rate.slope_std;
+    bend_variance += rate.bend_std * rate.bend_std;
+  }
+  if (!(std::abs(value) > 0)) return;
+  const double half_s = duration_s / 2;
+  const auto beyond_scatter = [](double size, double variance) {
+    return std::max(0.0, std::abs(size) - 2 * std::sqrt(variance));
+  };
+  window.wheel_rate_bend =
+      beyond_scatter(bend, bend_variance) * half_s * half_s / 2 / std::abs(value);
+  window.wheel_rate_least = 1 - beyond_scatter(slope, slope_variance) * half_s / std::abs(value);
 }
 
 /// \param wide rows that position and heading are smoothed over
@@ -162,7 +188,9 @@ DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows
   const double middle_s = (window.start_s + window.end_s) / 2;
   smooth_yaw(drive, wide, middle_s, window);
   smooth_track(drive, wide, middle_s, window);
-  window.wheel_acceleration_rad_s2 = wheel_acceleration(drive, rows, middle_s);
+  window.wheel_acceleration_rad_s2 = wheel_acceleration(wheel_rates(drive, rows, middle_s));
+  judge_steadiness(wheel_rates(drive, wide, middle_s),
+                   drive.time_s[wide.to - 1] - drive.time_s[wide.from], window);
   window.pitch_rad = window.roll_rad = window.sensed_speed_mps = kNotSampled;
   window.steady = true;
   for (const DriveChannel& channel : drive.channels) {

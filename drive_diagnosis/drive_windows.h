@@ -24,6 +24,9 @@ struct DriveWindow {
   double left_mps = 0;
   double acceleration_mps2 = 0;          ///< along the track
   double wheel_acceleration_rad_s2 = 0;  ///< of the wheels' mean turning rate
+  /// By how much that rate departs from a straight line over what is smoothed, and how low it gets:
+  /// shares of its mean, beyond two standard deviations of its scatter.
+  double wheel_rate_bend = 0, wheel_rate_least = 1;
   double yaw_rate_rad_s = 0;
   double course_rad = 0;
   double speed_std_mps = 0;  ///< of the smoothing, from the scatter of the fixes

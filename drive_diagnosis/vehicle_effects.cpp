@@ -41,14 +41,14 @@ class EffectSearch {
   VehicleEffects run() {
     VehicleEffects result{.windows = static_cast<int>(comparison_.size()),
                           .left_out = static_cast<int>(comparison_.left_out()),
+                          .unsteady = static_cast<int>(comparison_.unsteady()),
                           .channels = comparison_.channels(),
                           .has_torque = comparison_.has_torque()};
     const Eigen::MatrixXd nothing =
         Eigen::MatrixXd::Zero(comparison_.measured().rows(), comparison_.measured().cols());
     result.rms = rms(comparison_.measured() - comparison_.predicted({}, {}, nothing, stop_));
     constexpr int kEffectsMost = 3;
-    linearise();
-    refit();  // soils and sensors as they are, before anything is judged
+    settle();  // soils and sensors as they are, before anything is judged
     std::vector<EffectFound> found;
     while (true) {
       linearise();
@@ -64,9 +64,8 @@ class EffectSearch {
         contest_.faults_known.push_back(strongest.parameter);
       }
       found.push_back(std::move(strongest));
-      refit();
+      settle();
     }
-    refit();
     std::size_t zone = 0;
     for (const EffectFound& effect : found) {
       VehicleFinding finding = told(effect);
@@ -203,12 +202,26 @@ class EffectSearch {
     }
   }
 
-  /// Moves to the most likely parameters, where they are not far out of what was linearised.
-  void refit() {
-    if (!contest_.zones_known.empty() || !contest_.faults_known.empty()) linearise();
-    fit_ = fit_contest(contest_);
-    constexpr double kFarthest = 6;
-    for (Eigen::VectorXd& zone : fit_.zones) zone = zone.cwiseMax(-kFarthest).cwiseMin(kFarthest);
+  /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
+  /// their means change what everything else does. Steps that are long are shortened.
+  void settle() {
+    constexpr int kRounds = 6;
+    constexpr double kSettled = 0.05, kLongest = 1.5, kFarthest = 6;  // deviations
+    for (int round = 0; round < kRounds; ++round) {
+      linearise();
+      ContestFit next = fit_contest(contest_);
+      const Eigen::VectorXd step = next.parameters - fit_.parameters;
+      double longest = 0;
+      for (std::size_t k = 0; k < trials_.size(); ++k) {
+        const bool known =
+            std::ranges::find(contest_.faults_known, k) != contest_.faults_known.end();
+        if (!known) longest = std::max(longest, std::abs(step[static_cast<Eigen::Index>(k)]));
+      }
+      if (longest > kLongest) next.parameters = fit_.parameters + kLongest / longest * step;
+      for (Eigen::VectorXd& zone : next.zones) zone = zone.cwiseMax(-kFarthest).cwiseMin(kFarthest);
+      fit_ = std::move(next);
+      if (longest < kSettled && contest_.zones_known.empty()) break;
+    }
   }
 
   VehicleFinding told(const EffectFound& effect) const {

@@ -41,6 +41,7 @@ struct VehicleEffects {
   VehicleFinding strongest_left;  ///< what did not stand out
   int windows = 0;                ///< that were compared
   int left_out = 0;               ///< beyond the most that are compared
+  int unsteady = 0;               ///< starts, stops, changes of acceleration: not compared
   std::vector<std::string> channels;
   std::vector<double> noise;      ///< of each channel
   std::vector<double> rms;        ///< of the residuals, of what is said to be

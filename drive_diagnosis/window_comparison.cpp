@@ -78,6 +78,13 @@ double mean_std(const DriveRecording& drive, const DriveWindow& window, const st
   return steps == 0 || within == 0 ? 0 : std::sqrt(squares / (2.0 * steps * within));
 }
 
+/// The model is one of steady driving: windows in which a vehicle starts, stops or changes its
+/// acceleration say nothing of the ground.
+bool is_steady(const DriveWindow& window) {
+  constexpr double kBendMost = 0.05, kRateLeast = 0.4;
+  return window.wheel_rate_bend <= kBendMost && window.wheel_rate_least >= kRateLeast;
+}
+
 /// Collects trials; a trial's size is what a sound vehicle is off.
 class Trials {
  public:
@@ -189,6 +196,10 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
   for (std::size_t i = 0; i < windows_.size(); ++i) {
     const auto input = input_of(drives_[windows_[i].drive], windows_[i], vehicle_);
     if (!input || !model_.predict(*input, {})) continue;
+    if (!is_steady(windows_[i])) {
+      ++unsteady_;
+      continue;
+    }
     auto measured = measured_in(i);
     if (!measured) continue;
     if (rows.size() == kWindowsMost) {

@@ -46,6 +46,7 @@ class WindowComparison {
   const std::vector<std::string>& channels() const { return channels_; }
   const std::vector<bool>& soils_driven() const { return soils_driven_; }
   std::size_t left_out() const { return left_out_; }  ///< windows beyond what is compared
+  std::size_t unsteady() const { return unsteady_; }  ///< windows of starts and stops
   bool has_torque() const { return !torque_wheels_.empty(); }
   const WindowInput& input(std::size_t i) const { return inputs_[i]; }
 
@@ -81,7 +82,7 @@ class WindowComparison {
   std::vector<std::array<double, kMaxWheels>> rim_std_rad_s_;  ///< of the windows' means
   std::vector<bool> soils_driven_;
   Eigen::MatrixXd measured_;
-  std::size_t left_out_ = 0;
+  std::size_t left_out_ = 0, unsteady_ = 0;
 };
 
 }  // namespace regoplan
