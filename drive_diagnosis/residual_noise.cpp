@@ -79,6 +79,19 @@ Eigen::VectorXd ResidualNoise::whitened(const Eigen::MatrixXd& by_window) const 
   return white;
 }
 
+Eigen::MatrixXd ResidualNoise::inputs_given(const Eigen::MatrixXd& residuals) const {
+  Eigen::MatrixXd result(residuals.rows(), static_cast<Eigen::Index>(parts_.inputs.size()));
+  for (Eigen::Index w = 0; w < residuals.rows(); ++w) {
+    const Eigen::MatrixXd& root = root_[static_cast<std::size_t>(w)];
+    const Eigen::VectorXd white = root * residuals.row(w).transpose();
+    for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
+      const Eigen::VectorXd column = root * parts_.inputs[k].row(w).transpose();
+      result(w, static_cast<Eigen::Index>(k)) = column.dot(white);
+    }
+  }
+  return result;
+}
+
 /// What is left of residuals when the parameters, wider than those of a sound vehicle, are fitted;
 /// far residuals count less.
 Eigen::MatrixXd ResidualNoise::fitted_residuals() const {

@@ -29,6 +29,9 @@ class ResidualNoise {
 
   /// Window by window, its channels one behind the other.
   Eigen::VectorXd whitened(const Eigen::MatrixXd& by_window) const;
+  /// The inputs that residuals make most likely, by window and input, in deviations of each: what
+  /// the inputs' scatter has done to the residuals, and not what parameters do.
+  Eigen::MatrixXd inputs_given(const Eigen::MatrixXd& residuals) const;
   const std::vector<double>& scales() const { return scale_; }
 
  private:

@@ -17,7 +17,7 @@ constexpr std::size_t kWindowsLeast = 12;
 class EffectSearch {
  public:
   EffectSearch(const std::vector<DriveWindow>& windows, const TerrainMap& map,
-               const Vehicle& vehicle, const WindowComparison& comparison, std::uint64_t seed,
+               const Vehicle& vehicle, WindowComparison& comparison, std::uint64_t seed,
                const std::stop_token& stop)
       : windows_(windows),
         map_(map),
@@ -26,6 +26,8 @@ class EffectSearch {
         seed_(seed),
         stop_(stop),
         fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials_.size()))} {
+    shifts_ = Eigen::MatrixXd::Zero(comparison.measured().rows(),
+                                    static_cast<Eigen::Index>(comparison.inputs()));
     for (std::size_t k = 0; k < kSoilNumbers; ++k) {
       const bool varies = std::ranges::any_of(
           map.soils(), [k](const MapSoil& soil) { return soil_spread(soil.soil).at(k) > 0; });
@@ -134,9 +136,16 @@ class EffectSearch {
   void linearise() {
     const VehicleDeviation here = deviation();
     const std::vector<WindowZone> zones_here = zones();
+    comparison_.shift_inputs(shifts_);
     const Eigen::MatrixXd base = predicted();
     std::vector<Eigen::MatrixXd> columns;
+    // Told of the measured inputs, to first order about the likely ones.
+    const std::vector<Eigen::MatrixXd> inputs = comparison_.of_inputs(here, base, stop_);
     Eigen::MatrixXd data = comparison_.measured() - base;
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+      data += shifts_.col(static_cast<Eigen::Index>(k)).asDiagonal() * inputs[k];
+    }
+    const Eigen::MatrixXd left = data;
     for (std::size_t k = 0; k < trials_.size(); ++k) {
       VehicleDeviation there = here;
       there.add(trials_[k].deviation, 1);
@@ -158,11 +167,13 @@ class EffectSearch {
         }
       }
     }
-    whiten(data, columns, soil, base);
+    const ResidualNoise noise = whiten(data, columns, soil, base, inputs);
+    shifts_ = noise.inputs_given(left);
   }
 
-  void whiten(const Eigen::MatrixXd& data, const std::vector<Eigen::MatrixXd>& columns,
-              const std::vector<Eigen::MatrixXd>& soil, const Eigen::MatrixXd& base) {
+  ResidualNoise whiten(const Eigen::MatrixXd& data, const std::vector<Eigen::MatrixXd>& columns,
+                       const std::vector<Eigen::MatrixXd>& soil, const Eigen::MatrixXd& base,
+                       const std::vector<Eigen::MatrixXd>& inputs) {
     Eigen::MatrixXd reference = Eigen::MatrixXd::Zero(base.rows(), base.cols());
     for (Eigen::Index k = 0; k < base.cols(); ++k) {
       if (!comparison_.scales(static_cast<std::size_t>(k))) continue;
@@ -181,7 +192,7 @@ class EffectSearch {
     const ResidualNoise noise({.residuals = data,
                                .columns = std::move(global),
                                .may_be_wrong = std::move(may_be_wrong),
-                               .inputs = comparison_.of_inputs(deviation(), base, stop_),
+                               .inputs = inputs,
                                .follows = contest_.follows,
                                .reference = std::move(reference)});
     noise_ = noise.scales();
@@ -200,6 +211,7 @@ class EffectSearch {
                           static_cast<Eigen::Index>(k)) = noise.whitened(alone);
       }
     }
+    return noise;
   }
 
   /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
@@ -322,7 +334,8 @@ class EffectSearch {
 
   const std::vector<DriveWindow>& windows_;
   const TerrainMap& map_;
-  const WindowComparison& comparison_;
+  WindowComparison& comparison_;
+  Eigen::MatrixXd shifts_;  ///< of the inputs that were linearised about
   std::vector<VehicleTrial> trials_;
   std::uint64_t seed_;
   const std::stop_token& stop_;
@@ -339,7 +352,7 @@ std::optional<VehicleEffects> find_vehicle_effects(const std::vector<DriveRecord
                                                    const TerrainMap& map, const Vehicle& vehicle,
                                                    double gravity_mps2, std::uint64_t seed,
                                                    const std::stop_token& stop) {
-  const WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2);
+  WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2);
   if (comparison.size() < kWindowsLeast) return {};
   return EffectSearch(windows, map, vehicle, comparison, seed, stop).run();
 }

@@ -284,6 +284,30 @@ bool WindowComparison::consecutive(std::size_t i) const {
          windows_[windows_of_[i]].drive == windows_[windows_of_[i - 1]].drive;
 }
 
+/// No window is steady: what its mean acceleration leaves out.
+double WindowComparison::acceleration_std_mps2(const WindowInput& input) {
+  constexpr double kUnsteady = 0.1, kLeast_mps2 = 0.002;
+  return std::hypot(kLeast_mps2, kUnsteady * input.acceleration_mps2);
+}
+
+void WindowComparison::shift(WindowInput& input, std::size_t window, std::size_t which,
+                             double deviations) const {
+  if (which < vehicle_.wheels.size()) {
+    input.rim_rad_s.at(which) += deviations * rim_std_rad_s_[window].at(which);
+  } else {
+    input.acceleration_mps2 += deviations * acceleration_std_mps2(inputs_[window]);
+  }
+}
+
+WindowInput WindowComparison::shifted(std::size_t i) const {
+  WindowInput input = inputs_[i];
+  if (shifts_.size() == 0) return input;
+  for (std::size_t k = 0; k < inputs(); ++k) {
+    shift(input, i, k, shifts_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+  }
+  return input;
+}
+
 Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
                                             const std::vector<WindowZone>& zones,
                                             const Eigen::MatrixXd& otherwise,
@@ -299,8 +323,9 @@ Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
       share = zone.share[i];
       numbers = zone.numbers;
     }
-    const auto plain = share < 1 ? model_.predict(inputs_[i], deviation) : std::nullopt;
-    const auto zoned = share > 0 ? model_.predict(inputs_[i], deviation, numbers) : std::nullopt;
+    const WindowInput input = shifted(i);
+    const auto plain = share < 1 ? model_.predict(input, deviation) : std::nullopt;
+    const auto zoned = share > 0 ? model_.predict(input, deviation, numbers) : std::nullopt;
     if ((share < 1 && !plain) || (share > 0 && !zoned)) continue;
     Eigen::VectorXd values = Eigen::VectorXd::Zero(result.cols());
     if (plain) values += (1 - share) * vector_of(*plain);
@@ -314,20 +339,15 @@ std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const VehicleDeviation&
                                                          const Eigen::MatrixXd& base,
                                                          const std::stop_token& stop) const {
   std::vector<Eigen::MatrixXd> result;
-  const std::size_t wheels = vehicle_.wheels.size();
-  for (std::size_t k = 0; k <= wheels; ++k) {
+  for (std::size_t k = 0; k < inputs(); ++k) {
     throw_if_stopped(stop);
     Eigen::MatrixXd change = Eigen::MatrixXd::Zero(base.rows(), base.cols());
     for (std::size_t i = 0; i < size(); ++i) {
-      WindowInput input = inputs_[i];
-      if (k < wheels) input.rim_rad_s.at(k) += rim_std_rad_s_[i].at(k);
-      // No window is steady: what its mean acceleration leaves out.
-      constexpr double kUnsteady = 0.1, kLeast_mps2 = 0.002;
-      if (k == wheels) {
-        input.acceleration_mps2 += std::hypot(kLeast_mps2, kUnsteady * input.acceleration_mps2);
-      }
-      const auto there = model_.predict(input, deviation);
-      const auto here = model_.predict(inputs_[i], deviation);
+      const WindowInput input = shifted(i);
+      WindowInput further = input;
+      shift(further, i, k, 1);
+      const auto there = model_.predict(further, deviation);
+      const auto here = model_.predict(input, deviation);
       if (there && here) {
         change.row(static_cast<Eigen::Index>(i)) = vector_of(*there) - vector_of(*here);
       }

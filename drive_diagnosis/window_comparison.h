@@ -49,6 +49,10 @@ class WindowComparison {
   std::size_t unsteady() const { return unsteady_; }  ///< windows of starts and stops
   bool has_torque() const { return !torque_wheels_.empty(); }
   const WindowInput& input(std::size_t i) const { return inputs_[i]; }
+  /// From now on windows are asked at inputs off the measured ones: of each window so many standard
+  /// deviations of each wheel's turning, and of the acceleration.
+  void shift_inputs(const Eigen::MatrixXd& shifts) { shifts_ = shifts; }
+  std::size_t inputs() const { return vehicle_.wheels.size() + 1; }
 
   /// By window and channel.
   const Eigen::MatrixXd& measured() const { return measured_; }
@@ -65,6 +69,9 @@ class WindowComparison {
   bool scales(std::size_t channel) const { return channels_[channel].starts_with("torque"); }
 
  private:
+  WindowInput shifted(std::size_t i) const;
+  static double acceleration_std_mps2(const WindowInput& input);
+  void shift(WindowInput& input, std::size_t window, std::size_t which, double deviations) const;
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;
   void choose_channels();
@@ -81,7 +88,7 @@ class WindowComparison {
   std::vector<WindowInput> inputs_;
   std::vector<std::array<double, kMaxWheels>> rim_std_rad_s_;  ///< of the windows' means
   std::vector<bool> soils_driven_;
-  Eigen::MatrixXd measured_;
+  Eigen::MatrixXd measured_, shifts_;
   std::size_t left_out_ = 0, unsteady_ = 0;
 };
 
