@@ -160,7 +160,8 @@ DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveR
                  {"end_s", zone.end_s}},
       .effect = finding.size,
       .ci95 = {finding.size - 1.96 * finding.std, finding.size + 1.96 * finding.std},
-      .p_value = 1e-3};
+      // Beyond what one contest in a thousand gains, gains fall off as exp(-gain / 2).
+      .p_value = 1e-3 * std::exp((finding.chance - finding.gain) / 2)};
 }
 
 void claim_effects(const std::vector<DriveRecording>& drives, DriveDiagnosis& result) {

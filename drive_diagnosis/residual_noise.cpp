@@ -148,6 +148,17 @@ void ResidualNoise::update(const Eigen::MatrixXd& left, double freedom) {
     seen_alike += seen[k];
     due_alike += due[k];
   }
+  // Where the inputs' scatter hides theirs, neighbouring samples say what it is: worth so many
+  // windows of one wheel.
+  constexpr double kSamplesWorth = 30;
+  const double sampled = sampled_scale();
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    if (!is_alike(k) || !(sampled > 0)) continue;
+    const double ratio = sampled / scale_[static_cast<std::size_t>(k)];
+    seen_alike += kSamplesWorth * ratio * ratio;
+    due_alike += kSamplesWorth;
+    break;  // alike channels have one scale
+  }
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     if (is_alike(k)) {
       seen[k] = seen_alike;
@@ -157,6 +168,17 @@ void ResidualNoise::update(const Eigen::MatrixXd& left, double freedom) {
     double& scale = scale_[static_cast<std::size_t>(k)];
     scale = std::max(kLeast, scale * std::sqrt(seen[k] / (due[k] * freedom)));
   }
+}
+
+/// The scale of alike channels that neighbouring samples speak for; 0 where they say nothing.
+double ResidualNoise::sampled_scale() const {
+  std::vector<double> scales;
+  for (Eigen::Index k = 0; k < parts_.residuals.cols(); ++k) {
+    const auto channel = static_cast<std::size_t>(k);
+    if (!is_alike(k)) continue;
+    scales.push_back(parts_.sampled_std[channel] / std::hypot(1, share_[channel]));
+  }
+  return scales.empty() ? 0 : median_value(scales);
 }
 
 /// How far the scatter of alike channels goes with their size: what makes the residuals most

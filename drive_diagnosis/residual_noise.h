@@ -16,6 +16,9 @@ struct ResidualParts {
   std::vector<bool> follows;  ///< whether a window follows the one before
   /// Scatter that goes with a measurement goes with this; 0 where it does not.
   Eigen::MatrixXd reference;
+  /// What neighbouring samples say of the scatter of a window's measurement, of each channel whose
+  /// scatter goes with what it measures.
+  std::vector<double> sampled_std;
 };
 
 /// How residuals scatter: each channel by a scale of its own, and all by what the inputs' scatter
@@ -41,6 +44,7 @@ class ResidualNoise {
   void choose_shares(const Eigen::MatrixXd& left);
   void widen_what_goes_on(const Eigen::MatrixXd& left);
   Eigen::VectorXd variances(Eigen::Index window) const;
+  double sampled_scale() const;
   /// Whether a channel shares its scale with the others that go with their size.
   bool is_alike(Eigen::Index channel) const { return !parts_.reference.col(channel).isZero(); }
 

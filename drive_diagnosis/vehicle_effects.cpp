@@ -12,6 +12,7 @@ namespace regoplan {
 namespace {
 
 constexpr std::size_t kWindowsLeast = 12;
+constexpr SoilNumbers kOne{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 /// The contest over a drive, linearised anew about what was found.
 class EffectSearch {
@@ -53,8 +54,7 @@ class EffectSearch {
     settle();  // soils and sensors as they are, before anything is judged
     std::vector<EffectFound> found;
     while (true) {
-      linearise();
-      EffectFound strongest = strongest_effect(contest_, seed_);
+      EffectFound strongest = strongest_now();
       if (!strongest.stands_out || static_cast<int>(found.size()) == kEffectsMost) {
         result.strongest_left = told(strongest);
         break;
@@ -83,6 +83,7 @@ class EffectSearch {
       result.found.push_back(std::move(finding));
     }
     result.noise = noise_;
+    result.soils = soils_left();
     result.rms_after = rms(comparison_.measured() - predicted());
     return result;
   }
@@ -131,9 +132,26 @@ class EffectSearch {
     return result;
   }
 
+  /// What is measured and what changes it, about the present fit.
+  struct Linearised {
+    Eigen::MatrixXd data, base;
+    std::vector<Eigen::MatrixXd> columns, soil, inputs;
+  };
+
+  EffectFound strongest_now() {
+    const Linearised here = linearise();
+    EffectFound strongest = strongest_effect(contest_, seed_);
+    if (strongest.stands_out || !strongest.is_zone) return strongest;
+    // A zone that is there has widened the noise that it was held against.
+    std::vector<Eigen::VectorXd> zones = contest_.zones_known;
+    zones.push_back(strongest.share);
+    whiten(here, zones);
+    return strongest_effect(contest_, seed_);
+  }
+
   /// Columns and data about the present fit: what is measured less what is predicted there, plus
   /// what the parameters there stand for.
-  void linearise() {
+  Linearised linearise() {
     const VehicleDeviation here = deviation();
     const std::vector<WindowZone> zones_here = zones();
     comparison_.shift_inputs(shifts_);
@@ -167,23 +185,28 @@ class EffectSearch {
         }
       }
     }
-    const ResidualNoise noise = whiten(data, columns, soil, base, inputs);
-    shifts_ = noise.inputs_given(left);
+    Linearised result{.data = std::move(data),
+                      .base = base,
+                      .columns = std::move(columns),
+                      .soil = std::move(soil),
+                      .inputs = inputs};
+    shifts_ = whiten(result, contest_.zones_known).inputs_given(left);
+    return result;
   }
 
-  ResidualNoise whiten(const Eigen::MatrixXd& data, const std::vector<Eigen::MatrixXd>& columns,
-                       const std::vector<Eigen::MatrixXd>& soil, const Eigen::MatrixXd& base,
-                       const std::vector<Eigen::MatrixXd>& inputs) {
+  /// Makes data and columns of the contest white.
+  /// \param zones stretches whose soil is no noise
+  ResidualNoise whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones) {
+    const auto& [data, base, columns, soil, inputs] = here;
     Eigen::MatrixXd reference = Eigen::MatrixXd::Zero(base.rows(), base.cols());
     for (Eigen::Index k = 0; k < base.cols(); ++k) {
       if (!comparison_.scales(static_cast<std::size_t>(k))) continue;
       const double mean = base.col(k).cwiseAbs().mean();
       if (mean > 0) reference.col(k) = base.col(k) / mean;
     }
-    // Zones that are known vary freely, and are no noise either.
     std::vector<Eigen::MatrixXd> global = columns;
     std::vector<bool> may_be_wrong = contest_.claimable;
-    for (const Eigen::VectorXd& share : contest_.zones_known) {
+    for (const Eigen::VectorXd& share : zones) {
       for (const Eigen::MatrixXd& number : soil) {
         global.emplace_back(share.asDiagonal() * number);
         may_be_wrong.push_back(true);
@@ -194,7 +217,8 @@ class EffectSearch {
                                .may_be_wrong = std::move(may_be_wrong),
                                .inputs = inputs,
                                .follows = contest_.follows,
-                               .reference = std::move(reference)});
+                               .reference = std::move(reference),
+                               .sampled_std = comparison_.sampled_std()});
     noise_ = noise.scales();
     contest_.data = noise.whitened(data);
     contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(columns.size()));
@@ -299,34 +323,61 @@ class EffectSearch {
     return zone;
   }
 
-  /// The zone's soil: its map soil as it is estimated all along, with the zone's numbers on top.
-  void estimate(std::size_t index, SoilZoneFound& zone) const {
-    const UncertainSoil& said = map_.soils()[static_cast<std::size_t>(zone.soil)].soil;
-    SoilNumbers numbers = numbers_of(fit_.zones[index]);
-    const VehicleDeviation here = deviation();
-    if (!here.soils.empty()) {
-      for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-        numbers.at(k) += here.soils[static_cast<std::size_t>(zone.soil)].at(k);
+  /// The map's soils as the fit has them.
+  std::vector<MapSoil> soils_left() const {
+    std::vector<MapSoil> soils = map_.soils();
+    std::vector<SoilNumbers> numbers = deviation().soils;
+    numbers.resize(soils.size());
+    std::vector<SoilNumbers> stds(soils.size(), kOne);
+    for (std::size_t i = 0; i < trials_.size(); ++i) {
+      const std::vector<SoilNumbers>& of = trials_[i].deviation.soils;
+      for (std::size_t soil = 0; soil < of.size(); ++soil) {
+        for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+          if (of[soil].at(k) != 0) {
+            stds[soil].at(k) = fit_.parameters_std[static_cast<Eigen::Index>(i)];
+          }
+        }
       }
     }
-    zone.estimate.mean = deviating(said, numbers);
+    for (std::size_t i = 0; i < soils.size(); ++i) {
+      if (comparison_.soils_driven()[i])
+        soils[i].soil = soil_of(soils[i].soil, numbers[i], stds[i]);
+    }
+    return soils;
+  }
+
+  /// A soil whose numbers are so many standard deviations off, and known to so many of them.
+  static UncertainSoil soil_of(const UncertainSoil& said, const SoilNumbers& numbers,
+                               const SoilNumbers& stds) {
+    UncertainSoil soil{.mean = deviating(said, numbers)};
     const SoilNumbers spread = soil_spread(said);
+    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+      double Soil::*const member = soil_parameters().at(k).member;
+      const double before = said.mean.*member;
+      const double std = stds.at(k) * spread.at(k);  // of its logarithm, where it is positive
+      soil.standard_deviation.*member = before > 0 ? std * (soil.mean.*member) / before : std;
+    }
+    return soil;
+  }
+
+  /// The zone's soil: its map soil as it is estimated all along, with the zone's numbers on top.
+  void estimate(std::size_t index, SoilZoneFound& zone) const {
+    const auto soil = static_cast<std::size_t>(zone.soil);
+    SoilNumbers numbers = numbers_of(fit_.zones[index]), stds = kOne;
+    const std::vector<SoilNumbers> all_along = deviation().soils;
     double sum = 0, variance = 0;
     int count = 0;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       const std::size_t k = numbers_[i];
+      stds.at(k) = fit_.zones_std[index][static_cast<Eigen::Index>(i)];
+      if (!all_along.empty()) numbers.at(k) += all_along[soil].at(k);
       double Soil::*const member = soil_parameters().at(k).member;
-      const double mean = zone.estimate.mean.*member;
-      const double std = fit_.zones_std[index][static_cast<Eigen::Index>(i)] * spread.at(k);
-      const double before = said.mean.*member;
-      zone.estimate.standard_deviation.*member = before > 0 ? std * mean / before : std;
-      if (member == &Soil::friction_angle_rad || member == &Soil::kphi) {
-        sum -= numbers.at(k);
-        const double off = fit_.zones_std[index][static_cast<Eigen::Index>(i)];
-        variance += off * off;
-        ++count;
-      }
+      if (member != &Soil::friction_angle_rad && member != &Soil::kphi) continue;
+      sum -= numbers.at(k);
+      variance += stds.at(k) * stds.at(k);
+      ++count;
     }
+    zone.estimate = soil_of(map_.soils()[soil].soil, numbers, stds);
     if (count == 0) return;
     zone.weaker = sum / count;
     zone.weaker_std = std::sqrt(variance) / count;

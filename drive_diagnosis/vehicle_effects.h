@@ -39,9 +39,10 @@ struct VehicleFinding {
 struct VehicleEffects {
   std::vector<VehicleFinding> found;
   VehicleFinding strongest_left;  ///< what did not stand out
-  int windows = 0;                ///< that were compared
-  int left_out = 0;               ///< beyond the most that are compared
-  int unsteady = 0;               ///< starts, stops, changes of acceleration: not compared
+  std::vector<MapSoil> soils;  ///< of the map, with what is left of the spread of those driven on
+  int windows = 0;             ///< that were compared
+  int left_out = 0;            ///< beyond the most that are compared
+  int unsteady = 0;            ///< starts, stops, changes of acceleration: not compared
   std::vector<std::string> channels;
   std::vector<double> noise;      ///< of each channel
   std::vector<double> rms;        ///< of the residuals, of what is said to be

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive_diagnosis/robust_statistics.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/interruption.h"
 
@@ -224,6 +225,19 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
                    static_cast<Eigen::Index>(channels_.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     measured_.row(static_cast<Eigen::Index>(i)) = rows[i];
+  }
+  estimate_sampled_std();
+}
+
+void WindowComparison::estimate_sampled_std() {
+  sampled_std_.assign(channels_.size(), 0);
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    if (!scales(k)) continue;
+    std::vector<double> of_windows;
+    for (const std::size_t i : windows_of_) {
+      of_windows.push_back(mean_std(drives_[windows_[i].drive], windows_[i], channels_[k]));
+    }
+    if (!of_windows.empty()) sampled_std_[k] = median_value(of_windows);
   }
 }
 

@@ -65,6 +65,8 @@ class WindowComparison {
   std::vector<Eigen::MatrixXd> of_inputs(const VehicleDeviation& deviation,
                                          const Eigen::MatrixXd& base,
                                          const std::stop_token& stop) const;
+  /// What neighbouring samples say of the scatter of each channel's windows; 0 where nothing.
+  const std::vector<double>& sampled_std() const { return sampled_std_; }
   /// How far a channel's scatter goes with what it measures: torques, by their mean.
   bool scales(std::size_t channel) const { return channels_[channel].starts_with("torque"); }
 
@@ -75,6 +77,7 @@ class WindowComparison {
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;
   void choose_channels();
+  void estimate_sampled_std();
 
   const std::vector<DriveRecording>& drives_;
   const std::vector<DriveWindow>& windows_;
@@ -88,6 +91,7 @@ class WindowComparison {
   std::vector<WindowInput> inputs_;
   std::vector<std::array<double, kMaxWheels>> rim_std_rad_s_;  ///< of the windows' means
   std::vector<bool> soils_driven_;
+  std::vector<double> sampled_std_;
   Eigen::MatrixXd measured_, shifts_;
   std::size_t left_out_ = 0, unsteady_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/command/progress_line.h"
+#include "app/diagnose_drive/corrected_files.h"
 #include "app/diagnose_drive/drive_diagnosis_files.h"
 #include "app/diagnose_drive/drive_file.h"
 #include "app/io/interrupt.h"
@@ -36,6 +37,8 @@ ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
       command.columns ? read_drive_columns_file(*command.columns) : DriveColumnMap{};
   for (const std::string& notice : run.setup.notices) notify(notice, command.quiet);
   require_results_fit(command.folder, drive_diagnosis_file_names());
+  const ResultFolder corrected{command.folder.path / kCorrectedFolder, command.folder.force};
+  require_results_fit(corrected, corrected_file_names());
   ProgressLine line(command.quiet);
   std::vector<DriveRecording> drives;
   for (const std::string& file : command.drives) {
@@ -65,12 +68,17 @@ ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
     notify(finding.drive.empty() ? finding.text : finding.drive + ": " + finding.text,
            command.quiet);
   }
+  if (has_corrected_map(run)) write_corrected_map(run, corrected);
   write_drive_diagnosis_files(run, command.folder);
   if (command.json) {
     fmt::print("{}", drive_diagnosis_json(run));
   } else if (!command.quiet) {
     fmt::print("{}report: {}\n", drive_diagnosis_summary(run),
                (command.folder.path / "report.html").string());
+    if (has_corrected_map(run)) {
+      fmt::print("map, soils and vehicle as the drives tell them: regoplan plan {}\n",
+                 (corrected.path / "scenario.yaml").string());
+    }
   }
   return run.diagnosis.interrupted ? kInterrupted : kYes;
 }

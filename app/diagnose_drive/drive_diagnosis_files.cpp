@@ -8,6 +8,7 @@
 
 #include "app/diagnose_drive/drive_diagnosis_report.h"
 #include "app/io/csv_cells.h"
+#include "drive_diagnosis/corrected_world.h"
 #include "terramech/basics/angles.h"
 
 namespace regoplan {
@@ -39,6 +40,42 @@ Json where_json(const DriveMismatch& at) {
   for (const auto& [column, ends] : at.region) region[column] = ends;
   return {{"channel", at.channel}, {"where", at.where}, {"region", region},
           {"effect", at.effect},   {"ci95", at.ci95},   {"p_value", at.p_value}};
+}
+
+Json soil_json(const UncertainSoil& soil) {
+  Json numbers = Json::object();
+  for (const SoilParameter& parameter : soil_parameters()) {
+    numbers[std::string(parameter.name)] = {
+        {"mean", soil.mean.*parameter.member / parameter.file_unit},
+        {"std", soil.standard_deviation.*parameter.member / parameter.file_unit}};
+  }
+  return numbers;
+}
+
+/// A zone with the soil that is there and the track through it.
+Json zone_json(const DriveDiagnosisRun& run, const SoilZoneFound& zone) {
+  Json track = Json::array();
+  for (const MapPlace& place : zone_track(zone, run.diagnosis.windows)) {
+    track.push_back({place.x_m, place.y_m});
+  }
+  const std::vector<MapSoil>& soils = run.setup.setup.map.soils();
+  return {{"drive", run.drive_ids[zone.drive]},
+          {"map_soil", soils[static_cast<std::size_t>(zone.soil)].name},
+          {"track", track},
+          {"starts_s", zone.starts_s},
+          {"starts_ci95_s", zone.start_s},
+          {"ends_s", zone.ends_s},
+          {"ends_ci95_s", zone.end_s},
+          {"soil", soil_json(zone.estimate)}};
+}
+
+Json zones_json(const DriveDiagnosisRun& run) {
+  Json zones = Json::array();
+  if (!run.diagnosis.effects) return zones;
+  for (const VehicleFinding& finding : run.diagnosis.effects->found) {
+    if (finding.zone) zones.push_back(zone_json(run, *finding.zone));
+  }
+  return zones;
 }
 
 Json finding_json(const DriveFinding& finding) {
@@ -126,6 +163,7 @@ Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
   }
   json["mechanisms"] = list_json(diagnosis.claims, claim_json);
   json["where"] = list_json(diagnosis.where, where_json);
+  json["zones"] = zones_json(run);
   json["findings"] = list_json(diagnosis.findings, finding_json);
   json["fit"] = fit_json(diagnosis);
   if (diagnosis.currents) json["currents"] = currents_json(run, *diagnosis.currents);

@@ -1,0 +1,55 @@
+#include "app/diagnose_drive/corrected_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include "app/settings/settings_json.h"
+#include "app/settings/soil_settings.h"
+#include "app/settings/vehicle_settings.h"
+#include "drive_diagnosis/corrected_world.h"
+#include "maps/raster_files.h"
+
+namespace regoplan {
+namespace {
+
+/// The scenario, with map and vehicle from the files beside it. JSON is YAML.
+std::string scenario_text(const DriveDiagnosisRun& run, bool with_rocks) {
+  nlohmann::ordered_json scenario = to_json(read_settings(run.scenario_file));
+  nlohmann::ordered_json map = {
+      {"elevation", "dem.tif"}, {"soil_class", "classes.tif"}, {"soils", "soils.yaml"}};
+  if (with_rocks) map["rocks"] = "rocks.csv";
+  scenario["map"] = std::move(map);
+  scenario["vehicle"] = "vehicle.yaml";
+  return "# " + run.scenario_file + " with map and vehicle as a diagnosis of drives tells them.\n" +
+         scenario.dump(2) + "\n";
+}
+
+}  // namespace
+
+bool has_corrected_map(const DriveDiagnosisRun& run) {
+  return run.diagnosis.effects.has_value() && !run.diagnosis.interrupted;
+}
+
+std::vector<std::string> corrected_file_names() {
+  return {"dem.tif", "classes.tif", "rocks.csv", "soils.yaml", "vehicle.yaml", "scenario.yaml"};
+}
+
+void write_corrected_map(const DriveDiagnosisRun& run, const ResultFolder& folder) {
+  const VehicleEffects& effects = *run.diagnosis.effects;
+  const DriveSetup& setup = run.setup.setup;
+  const TerrainMap map = corrected_map(setup.map, effects, run.diagnosis.windows);
+  StagedFiles files(folder);
+  write_elevation(map.elevation(), files.path("dem.tif"));
+  write_classes(*map.classes(), files.path("classes.tif"));
+  if (map.rocks().empty()) {
+    files.remove("rocks.csv");
+  } else {
+    write_rocks(map.rocks(), files.path("rocks.csv"));
+  }
+  files.write({"soils.yaml", soil_catalogue_text(map.catalogue())});
+  files.write({"vehicle.yaml",
+               vehicle_text(corrected_vehicle(*setup.vehicle, effects).value_or(*setup.vehicle))});
+  files.write({"scenario.yaml", scenario_text(run, !map.rocks().empty())});
+  files.commit();
+}
+
+}  // namespace regoplan
