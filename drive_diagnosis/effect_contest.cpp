@@ -55,9 +55,13 @@ class Metric {
   Eigen::MatrixXd shadow_;
 };
 
+/// Twice the nats of evidence for one number whose deviation is told.
+double gain_of_one(double length, double product, double deviation) {
+  const double variance = deviation * deviation;
+  return product * product / (1 / variance + length) - std::log(1 + variance * length);
+}
 double fault_gain(double length, double product) {
-  constexpr double kVariance = kFault * kFault;
-  return product * product / (1 / kVariance + length) - std::log(1 + kVariance * length);
+  return gain_of_one(length, product, kFault);
 }
 
 /// Gains of zones from the products of their windows' columns.
@@ -99,7 +103,7 @@ class ZoneGains {
     for (Eigen::Index i = 0; i < share.size(); ++i) sum += share[i] * products.segment(i * q_, q_);
     return sum;
   }
-  /// Calls visit(first, last, factor) for every stretch of windows without a gap.
+  /// Calls visit(first, last, length) for every stretch of windows without a gap.
   template <class Visit>
   void each_stretch(const std::vector<bool>& follows, const Visit& visit) const {
     const auto n = static_cast<Eigen::Index>(follows.size());
@@ -111,7 +115,7 @@ class ZoneGains {
         if (!follows[static_cast<std::size_t>(last)]) break;
         for (Eigen::Index i = first; i < last; ++i) length += block(i, last) + block(last, i);
         length += block(last, last);
-        visit(first, last, factor_of(length));
+        visit(first, last, length);
       }
     }
   }
@@ -187,45 +191,65 @@ class Contest {
     return std::abs(lengths_(i, k)) > kCosine * std::sqrt(lengths_(i, i) * lengths_(k, k));
   }
 
+  struct ZonePlace {
+    Eigen::Index first = 0, last = 0;
+    const Eigen::VectorXd* soil = nullptr;  ///< the likely one; none: of any numbers
+  };
+
   /// \returns the gain of the best zone
   double scan_zones(Eigen::VectorXd& largest, EffectFound& best) const {
     const auto q = static_cast<Eigen::Index>(contest_.soil_numbers);
     double best_zone = -1e9;
-    Eigen::Index best_first = 0, best_last = 0;
-    zones_.each_stretch(contest_.follows, [&](Eigen::Index first, Eigen::Index last,
-                                              const ZoneGains::Factor& factor) {
-      Eigen::MatrixXd product = Eigen::MatrixXd::Zero(q, soil_products_.cols());
-      for (Eigen::Index w = first; w <= last; ++w) product += soil_products_.middleRows(w * q, q);
-      const Eigen::MatrixXd solved = factor.factor.matrixL().solve(product);
-      const Eigen::VectorXd gains =
-          (kZone * kZone * solved.colwise().squaredNorm().transpose()).array() - factor.log_det;
+    ZonePlace most;
+    const auto consider = [&](const Eigen::VectorXd& gains, const ZonePlace& place) {
       largest = largest.cwiseMax(gains);
       if (gains[0] <= best_zone) return;
       best_zone = gains[0];
-      best_first = first;
-      best_last = last;
+      most = place;
+    };
+    zones_.each_stretch(contest_.follows, [&](Eigen::Index first, Eigen::Index last,
+                                              const Eigen::MatrixXd& length) {
+      Eigen::MatrixXd product = Eigen::MatrixXd::Zero(q, soil_products_.cols());
+      for (Eigen::Index w = first; w <= last; ++w) product += soil_products_.middleRows(w * q, q);
+      const ZoneGains::Factor factor = zones_.factor_of(length);
+      const Eigen::MatrixXd solved = factor.factor.matrixL().solve(product);
+      consider(
+          (kZone * kZone * solved.colwise().squaredNorm().transpose()).array() - factor.log_det,
+          {.first = first, .last = last});
+      for (const Eigen::VectorXd& soil : contest_.likely_soils) {
+        const double along = soil.dot(length * soil);
+        const Eigen::VectorXd gains = (product.transpose() * soil).unaryExpr([along](double p) {
+          return gain_of_one(along, p, 1);
+        });
+        consider(gains, {.first = first, .last = last, .soil = &soil});
+      }
     });
     if (best_zone > best.gain) {
       best = {.is_zone = true, .gain = best_zone};
-      place(best_first, best_last, best);
+      place(most, best);
     }
     return best_zone;
   }
 
+  double gain_of(const Eigen::VectorXd& share, const Eigen::VectorXd* soil) const {
+    const Eigen::MatrixXd length = zones_.length_of(share);
+    const Eigen::VectorXd product = zones_.product_of(share, soil_products_.col(0));
+    if (soil) return gain_of_one(soil->dot(length * *soil), soil->dot(product), 1);
+    return ZoneGains::gain(zones_.factor_of(length), product);
+  }
+
   /// Where in its outermost windows a zone begins and ends: by quarters of a window.
-  void place(Eigen::Index first, Eigen::Index last, EffectFound& zone) const {
+  void place(const ZonePlace& most_likely, EffectFound& zone) const {
     const auto n = static_cast<Eigen::Index>(contest_.follows.size());
     constexpr double kStep = 0.25, kReach = 1.5;
     std::vector<std::array<double, 3>> places;  // begins, ends, gain
     for (double from = -kReach; from <= kReach; from += kStep) {
       for (double to = -kReach; to <= kReach; to += kStep) {
-        const double begins = static_cast<double>(first) + from;
-        const double ends = static_cast<double>(last) + 1 + to;
+        const double begins = static_cast<double>(most_likely.first) + from;
+        const double ends = static_cast<double>(most_likely.last) + 1 + to;
         if (begins < 0 || ends > static_cast<double>(n) || ends - begins < 1) continue;
         const Eigen::VectorXd share = shares(begins, ends);
-        const double gain = ZoneGains::gain(zones_.factor_of(zones_.length_of(share)),
-                                            zones_.product_of(share, soil_products_.col(0)));
-        places.push_back({begins, ends, gain});
+        places.push_back({begins, ends, gain_of(share, most_likely.soil)});
       }
     }
     const auto& most = *std::ranges::max_element(places, {}, [](const auto& at) { return at[2]; });

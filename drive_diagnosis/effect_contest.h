@@ -17,6 +17,9 @@ struct EffectContest {
   /// Columns of soil of its own: for each window one for each number, by a standard deviation.
   Eigen::MatrixXd soil;
   std::size_t soil_numbers = 0;
+  /// Soils that a zone may well have, as numbers by which it would differ, each one deviation long:
+  /// less evidence shows one of these than a soil of which nothing is known.
+  std::vector<Eigen::VectorXd> likely_soils;
   std::vector<bool> follows;  ///< whether a window follows the one before: zones do not jump
   std::vector<Eigen::VectorXd> zones_known;  ///< shares of each window whose soil is free already
   std::vector<std::size_t> faults_known;     ///< parameters that are free already

@@ -39,6 +39,7 @@ class EffectSearch {
     }
     for (const VehicleTrial& trial : trials_) contest_.claimable.push_back(!trial.id.empty());
     contest_.soil_numbers = numbers_.size();
+    add_likely_soils();
   }
 
   VehicleEffects run() {
@@ -104,6 +105,29 @@ class EffectSearch {
       numbers.at(numbers_[k]) = values[static_cast<Eigen::Index>(k)];
     }
     return numbers;
+  }
+
+  /// Soils of the map, where another is said to be that was driven on; and one that is weaker or
+  /// stronger in all that carries and holds.
+  void add_likely_soils() {
+    const auto add = [this](const SoilNumbers& numbers) {
+      Eigen::VectorXd likely(static_cast<Eigen::Index>(numbers_.size()));
+      for (std::size_t k = 0; k < numbers_.size(); ++k) {
+        constexpr double kFarthest = 6;
+        likely[static_cast<Eigen::Index>(k)] =
+            std::clamp(numbers.at(numbers_[k]), -kFarthest, kFarthest);
+      }
+      contest_.likely_soils.push_back(std::move(likely));
+    };
+    const std::vector<MapSoil>& soils = map_.soils();
+    for (std::size_t here = 0; here < soils.size(); ++here) {
+      if (!comparison_.soils_driven()[here]) continue;
+      for (std::size_t there = 0; there < soils.size(); ++there) {
+        if (here != there) add(deviations_between(soils[here].soil, soils[there].soil.mean));
+      }
+    }
+    constexpr double kWeaker = 3;
+    add(weaker_by(kWeaker));
   }
 
   std::vector<WindowZone> zones() const {

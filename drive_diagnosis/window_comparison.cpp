@@ -79,11 +79,46 @@ double mean_std(const DriveRecording& drive, const DriveWindow& window, const st
   return steps == 0 || within == 0 ? 0 : std::sqrt(squares / (2.0 * steps * within));
 }
 
+/// How far the side force that the steering asks for varies in a window: standard deviation, as a
+/// share of the weight.
+double side_force_std(const DriveRecording& drive, const DriveWindow& window,
+                      const Vehicle& vehicle, double gravity_mps2) {
+  double middle_m = 0, spread_m2 = 0;
+  for (const WheelMount& mount : vehicle.wheels) middle_m += mount.x_m;
+  middle_m /= static_cast<double>(vehicle.wheels.size());
+  std::vector<std::pair<const DriveChannel*, double>> levers;
+  for (const WheelMount& mount : vehicle.wheels) {
+    spread_m2 += (mount.x_m - middle_m) * (mount.x_m - middle_m);
+    const DriveChannel* steer = drive.channel(fmt::format("steer_{}_rad", mount.name));
+    if (mount.steered && steer) levers.emplace_back(steer, mount.x_m - middle_m);
+  }
+  const DriveChannel* told = drive.channel("curvature_1pm");
+  double sum = 0, squares = 0;
+  int samples = 0;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    if (drive.time_s[i] < window.start_s || drive.time_s[i] > window.end_s) continue;
+    double curvature_1pm = levers.empty() && told ? static_cast<double>(told->values[i]) : 0;
+    for (const auto& [steer, lever_m] : levers) {
+      curvature_1pm += lever_m * static_cast<double>(steer->values[i]) / spread_m2;
+    }
+    if (std::isnan(curvature_1pm)) continue;
+    sum += curvature_1pm;
+    squares += curvature_1pm * curvature_1pm;
+    ++samples;
+  }
+  if (samples < 2) return 0;
+  const double mean = sum / samples;
+  return std::sqrt(std::max(0.0, squares / samples - mean * mean)) * window.speed_mps *
+         window.speed_mps / gravity_mps2;
+}
+
 /// The model is one of steady driving: windows in which a vehicle starts, stops or changes its
-/// acceleration say nothing of the ground.
-bool is_steady(const DriveWindow& window) {
-  constexpr double kBendMost = 0.05, kRateLeast = 0.4;
-  return window.wheel_rate_bend <= kBendMost && window.wheel_rate_least >= kRateLeast;
+/// acceleration, or the side force that it asks for, say nothing of the ground.
+bool is_steady(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
+               double gravity_mps2) {
+  constexpr double kBendMost = 0.05, kRateLeast = 0.4, kSideForceMost = 0.04;
+  return window.wheel_rate_bend <= kBendMost && window.wheel_rate_least >= kRateLeast &&
+         side_force_std(drive, window, vehicle, gravity_mps2) <= kSideForceMost;
 }
 
 /// Collects trials; a trial's size is what a sound vehicle is off.
@@ -197,7 +232,7 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
   for (std::size_t i = 0; i < windows_.size(); ++i) {
     const auto input = input_of(drives_[windows_[i].drive], windows_[i], vehicle_);
     if (!input || !model_.predict(*input, {})) continue;
-    if (!is_steady(windows_[i])) {
+    if (!is_steady(drives_[windows_[i].drive], windows_[i], vehicle_, gravity_mps2)) {
       ++unsteady_;
       continue;
     }

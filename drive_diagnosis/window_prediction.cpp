@@ -213,16 +213,31 @@ Soil deviating(const UncertainSoil& soil, const SoilNumbers& deviations) {
   return soil.mean;
 }
 
-Soil weaker(const UncertainSoil& soil, double deviations) {
+SoilNumbers deviations_between(const UncertainSoil& soil, const Soil& other) {
+  const SoilNumbers spread = soil_spread(soil);
   SoilNumbers numbers{};
-  const auto& parameters = soil_parameters();
   for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-    double Soil::*const member = parameters.at(k).member;
+    if (!(spread.at(k) > 0)) continue;
+    double Soil::*const member = soil_parameters().at(k).member;
+    const double from = soil.mean.*member, to = other.*member;
+    numbers.at(k) = (from > 0 && to > 0 ? from * std::log(to / from) : to - from) / spread.at(k);
+  }
+  return numbers;
+}
+
+SoilNumbers weaker_by(double deviations) {
+  SoilNumbers numbers{};
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    double Soil::*const member = soil_parameters().at(k).member;
     const bool counts = member == &Soil::cohesion_pa || member == &Soil::friction_angle_rad ||
                         member == &Soil::kc || member == &Soil::kphi;
     if (counts) numbers.at(k) = -deviations;
   }
-  return deviating(soil, numbers);
+  return numbers;
+}
+
+Soil weaker(const UncertainSoil& soil, double deviations) {
+  return deviating(soil, weaker_by(deviations));
 }
 
 void VehicleDeviation::add(const VehicleDeviation& other, double times) {

@@ -23,7 +23,11 @@ SoilNumbers soil_spread(const UncertainSoil& soil);
 /// multiplied.
 Soil deviating(const UncertainSoil& soil, const SoilNumbers& deviations);
 
-/// A soil so many standard deviations weaker in friction, cohesion and bearing moduli.
+/// The deviations of a soil by which `deviating` gives another.
+SoilNumbers deviations_between(const UncertainSoil& soil, const Soil& other);
+
+/// So many standard deviations less of friction, cohesion and bearing moduli.
+SoilNumbers weaker_by(double deviations);
 Soil weaker(const UncertainSoil& soil, double deviations);
 
 /// What a window gives the model: where the vehicle is, and what its wheels are set to.
