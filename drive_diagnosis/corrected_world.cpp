@@ -80,6 +80,23 @@ void paint(const std::vector<MapPlace>& track, std::int32_t code, ClassRaster& c
   }
 }
 
+/// The class that a zone is of: that of the soil that it is like, or a new one.
+std::int32_t code_of(const SoilZoneFound& zone, int number, SoilCatalogue& catalogue) {
+  std::int32_t free_code = 1;
+  for (const auto& [code, soil] : catalogue.classes) {
+    if (zone.like && soil == *zone.like) return code;
+    free_code = std::max(free_code, code + 1);
+  }
+  catalogue.classes.emplace_back(free_code, static_cast<int>(catalogue.soils.size()));
+  const std::string before = catalogue.soils[static_cast<std::size_t>(zone.soil)].name;
+  catalogue.soils.push_back(
+      {.name = fmt::format("{}_zone_{}", before, number),
+       .source = fmt::format("diagnosis of a drive: the soil found from {:.0f} to {:.0f} s of it",
+                             zone.starts_s, zone.ends_s),
+       .soil = zone.estimate});
+  return free_code;
+}
+
 /// How far a named offset of that id lies off, m.
 MapPlace offset(const VehicleEffects& effects, std::string_view id) {
   MapPlace off;
@@ -129,27 +146,14 @@ TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
   int zones = 0;
   for (const VehicleFinding& found : effects.found) {
     if (!found.zone) continue;
-    std::int32_t code = 0;
-    for (const auto& [taken, soil] : catalogue.classes) code = std::max(code, taken);
-    ++code;
-    catalogue.classes.emplace_back(code, static_cast<int>(catalogue.soils.size()));
-    const MapSoil& before = map.soils()[static_cast<std::size_t>(found.zone->soil)];
-    catalogue.soils.push_back(
-        {.name = fmt::format("{}_zone_{}", before.name, ++zones),
-         .source = fmt::format("diagnosis of a drive: the soil found from {:.0f} to {:.0f} s of it",
-                               found.zone->starts_s, found.zone->ends_s),
-         .soil = found.zone->estimate});
-    paint(zone_track(*found.zone, windows), code, classes);
+    paint(zone_track(*found.zone, windows), code_of(*found.zone, ++zones, catalogue), classes);
   }
   return {std::move(elevation), std::move(classes), std::move(catalogue), std::move(rocks)};
 }
 
-std::optional<Vehicle> corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects) {
+Vehicle corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects) {
   Vehicle corrected = vehicle;
-  bool otherwise = false;
   for (const VehicleFinding& found : effects.found) {
-    otherwise =
-        otherwise || found.id == "wheel_radius" || found.id == "payload" || found.id == "cg_offset";
     if (found.id == "wheel_radius") corrected.wheel.radius_m *= 1 + found.size;
     if (found.id == "payload") corrected.mass_kg *= 1 + found.size;
     if (found.id != "cg_offset") continue;
@@ -160,7 +164,6 @@ std::optional<Vehicle> corrected_vehicle(const Vehicle& vehicle, const VehicleEf
       if (found.parameter == "left_m") mount.y_m -= found.size;
     }
   }
-  if (!otherwise) return {};
   return corrected;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "drive_diagnosis/drive_windows.h"
@@ -27,8 +26,7 @@ std::vector<MapPlace> zone_track(const SoilZoneFound& zone,
 TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
                          const std::vector<DriveWindow>& windows);
 
-/// The vehicle with wheel radius, mass and centre of gravity as they were named; nothing where none
-/// of them was.
-std::optional<Vehicle> corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects);
+/// The vehicle with wheel radius, mass and centre of gravity as they were named.
+Vehicle corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects);
 
 }  // namespace regoplan

@@ -164,7 +164,19 @@ DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveR
       .p_value = 1e-3 * std::exp((finding.chance - finding.gain) / 2)};
 }
 
-void claim_effects(const std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
+std::string zone_text(const SoilZoneFound& zone, const TerrainMap& map, const std::string& where) {
+  const std::vector<MapSoil>& soils = map.soils();
+  const std::string& said = soils[static_cast<std::size_t>(zone.soil)].name;
+  const std::string resistance =
+      fmt::format("a wheel takes {:+.1f} +- {:.1f} % of its load more to roll there",
+                  100 * zone.resistance.value, 100 * zone.resistance.std);
+  if (!zone.like) return fmt::format("other soil than {} in {}: {}", said, where, resistance);
+  return fmt::format("{} in place of {} in {}: {}",
+                     soils[static_cast<std::size_t>(*zone.like)].name, said, where, resistance);
+}
+
+void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
+                   DriveDiagnosis& result) {
   const VehicleEffects& effects = *result.effects;
   for (const VehicleFinding& finding : effects.found) {
     DriveClaim claim{.id = finding.id,
@@ -180,9 +192,7 @@ void claim_effects(const std::vector<DriveRecording>& drives, DriveDiagnosis& re
         claim.equivalent.emplace_back("zone_border");
       }
       DriveMismatch where = mismatch_of(result, drives, finding);
-      claim.text = fmt::format("soil {} by {:.2g} of its standard deviations in {}",
-                               finding.size > 0 ? "weaker" : "stronger", std::abs(finding.size),
-                               where.where);
+      claim.text = zone_text(*finding.zone, setup.map, where.where);
       result.where.push_back(std::move(where));
     }
     result.claims.push_back(std::move(claim));
@@ -300,7 +310,7 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     result.effects = find_vehicle_effects(drives, result.windows, setup.map, *setup.vehicle,
                                           setup.gravity_mps2, options.seed, options.stop);
   }
-  if (result.effects) claim_effects(drives, result);
+  if (result.effects) claim_effects(setup, drives, result);
   say_what_is_silent(setup, drives, result);
   const bool a_class = std::ranges::any_of(
       result.claims, [](const DriveClaim& claim) { return claim.equivalent.size() > 1; });

@@ -227,6 +227,7 @@ class Contest {
     if (best_zone > best.gain) {
       best = {.is_zone = true, .gain = best_zone};
       place(most, best);
+      liken(best);
     }
     return best_zone;
   }
@@ -262,6 +263,23 @@ class Contest {
       if (gain < most[2] - kWithin) continue;
       zone.first_at = {std::min(zone.first_at[0], begins), std::max(zone.first_at[1], begins)};
       zone.last_at = {std::min(zone.last_at[0], ends), std::max(zone.last_at[1], ends)};
+    }
+  }
+
+  /// Which of the likely soils lies there.
+  void liken(EffectFound& zone) const {
+    const Eigen::MatrixXd length = zones_.length_of(zone.share);
+    const Eigen::VectorXd product = zones_.product_of(zone.share, soil_products_.col(0));
+    double most = ZoneGains::gain(zones_.factor_of(length), product);
+    for (std::size_t i = 0; i < contest_.likely_soils.size(); ++i) {
+      const Eigen::VectorXd& soil = contest_.likely_soils[i];
+      const double along = soil.dot(length * soil), towards = soil.dot(product);
+      const double gain = gain_of_one(along, towards, 1);
+      if (gain < most) continue;
+      most = gain;
+      zone.like = i;
+      zone.like_size = towards / (1 + along);
+      zone.like_std = 1 / std::sqrt(1 + along);
     }
   }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ struct EffectFound {
   double size = 0, std = 0;                     ///< in units of the parameter's column
   Eigen::VectorXd share;                        ///< of each window that lies in the zone
   std::array<double, 2> first_at{}, last_at{};  ///< 95 % of where it begins and ends, in windows
+  /// The likely soil whose evidence is most in the zone, and how much of it is there; nothing where
+  /// soil of any numbers has more.
+  std::optional<std::size_t> like;
+  double like_size = 0, like_std = 0;
   double gain = 0;    ///< twice the nats of evidence over a sound vehicle on the map's soils
   double chance = 0;  ///< what one contest in a thousand gains by chance
   double sigmas = 0;

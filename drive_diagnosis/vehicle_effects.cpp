@@ -5,6 +5,7 @@
 
 #include "drive_diagnosis/effect_contest.h"
 #include "drive_diagnosis/residual_noise.h"
+#include "drive_diagnosis/rolling_resistance.h"
 #include "drive_diagnosis/window_comparison.h"
 #include "terramech/basics/interruption.h"
 
@@ -18,10 +19,12 @@ constexpr SoilNumbers kOne{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 class EffectSearch {
  public:
   EffectSearch(const std::vector<DriveWindow>& windows, const TerrainMap& map,
-               const Vehicle& vehicle, WindowComparison& comparison, std::uint64_t seed,
-               const std::stop_token& stop)
+               const Vehicle& vehicle, double gravity_mps2, WindowComparison& comparison,
+               std::uint64_t seed, const std::stop_token& stop)
       : windows_(windows),
         map_(map),
+        vehicle_(vehicle),
+        gravity_mps2_(gravity_mps2),
         comparison_(comparison),
         trials_(vehicle_trials(vehicle, map, comparison.soils_driven())),
         seed_(seed),
@@ -74,8 +77,8 @@ class EffectSearch {
       VehicleFinding finding = told(effect);
       if (effect.is_zone) {
         finding.zone = zone_of(effect, zone++);
-        finding.size = finding.zone->weaker;
-        finding.std = finding.zone->weaker_std;
+        finding.size = finding.zone->resistance.value;
+        finding.std = finding.zone->resistance.std;
       } else {
         const auto k = static_cast<Eigen::Index>(effect.parameter);
         finding.size = fit_.parameters[k] * trials_[effect.parameter].unit;
@@ -107,10 +110,16 @@ class EffectSearch {
     return numbers;
   }
 
+  /// A soil of the map where it says another.
+  struct Likely {
+    int here = 0, there = 0;
+  };
+
   /// Soils of the map, where another is said to be that was driven on; and one that is weaker or
   /// stronger in all that carries and holds.
   void add_likely_soils() {
-    const auto add = [this](const SoilNumbers& numbers) {
+    const auto add = [this](const SoilNumbers& numbers, std::optional<Likely> what) {
+      likely_.push_back(what);
       Eigen::VectorXd likely(static_cast<Eigen::Index>(numbers_.size()));
       for (std::size_t k = 0; k < numbers_.size(); ++k) {
         constexpr double kFarthest = 6;
@@ -123,11 +132,13 @@ class EffectSearch {
     for (std::size_t here = 0; here < soils.size(); ++here) {
       if (!comparison_.soils_driven()[here]) continue;
       for (std::size_t there = 0; there < soils.size(); ++there) {
-        if (here != there) add(deviations_between(soils[here].soil, soils[there].soil.mean));
+        if (here == there) continue;
+        add(deviations_between(soils[here].soil, soils[there].soil.mean),
+            Likely{.here = static_cast<int>(here), .there = static_cast<int>(there)});
       }
     }
     constexpr double kWeaker = 3;
-    add(weaker_by(kWeaker));
+    add(weaker_by(kWeaker), {});
   }
 
   std::vector<WindowZone> zones() const {
@@ -288,7 +299,7 @@ class EffectSearch {
     VehicleFinding finding{.sigmas = effect.sigmas, .gain = effect.gain, .chance = effect.chance};
     if (effect.is_zone) {
       finding.id = "soil_zone";
-      finding.parameter = "weaker_sd";
+      finding.parameter = "resistance_share";
     } else {
       const VehicleTrial& trial = trials_[effect.parameter];
       finding.id = trial.id;
@@ -344,6 +355,12 @@ class EffectSearch {
     zone.at_border = (first > 0 && soil_at(first - 1) != soil_at(first)) ||
                      (last + 1 < comparison_.size() && soil_at(last + 1) != soil_at(last));
     estimate(index, zone);
+    const std::optional<Likely> likely = effect.like ? likely_[*effect.like] : std::nullopt;
+    constexpr double kWithin = 2;  // deviations
+    if (likely && likely->here == zone.soil &&
+        std::abs(effect.like_size - 1) < kWithin * effect.like_std) {
+      zone.like = likely->there;
+    }
     return zone;
   }
 
@@ -389,26 +406,21 @@ class EffectSearch {
     const auto soil = static_cast<std::size_t>(zone.soil);
     SoilNumbers numbers = numbers_of(fit_.zones[index]), stds = kOne;
     const std::vector<SoilNumbers> all_along = deviation().soils;
-    double sum = 0, variance = 0;
-    int count = 0;
     for (std::size_t i = 0; i < numbers_.size(); ++i) {
       const std::size_t k = numbers_[i];
       stds.at(k) = fit_.zones_std[index][static_cast<Eigen::Index>(i)];
       if (!all_along.empty()) numbers.at(k) += all_along[soil].at(k);
-      double Soil::*const member = soil_parameters().at(k).member;
-      if (member != &Soil::friction_angle_rad && member != &Soil::kphi) continue;
-      sum -= numbers.at(k);
-      variance += stds.at(k) * stds.at(k);
-      ++count;
     }
-    zone.estimate = soil_of(map_.soils()[soil].soil, numbers, stds);
-    if (count == 0) return;
-    zone.weaker = sum / count;
-    zone.weaker_std = std::sqrt(variance) / count;
+    const UncertainSoil& said = map_.soils()[soil].soil;
+    zone.estimate = soil_of(said, numbers, stds);
+    const Soil before = all_along.empty() ? said.mean : deviating(said, all_along[soil]);
+    zone.resistance = added_resistance(vehicle_, gravity_mps2_, before, zone.estimate, seed_);
   }
 
   const std::vector<DriveWindow>& windows_;
   const TerrainMap& map_;
+  const Vehicle& vehicle_;
+  double gravity_mps2_;
   WindowComparison& comparison_;
   Eigen::MatrixXd shifts_;  ///< of the inputs that were linearised about
   std::vector<VehicleTrial> trials_;
@@ -417,6 +429,7 @@ class EffectSearch {
   std::vector<std::size_t> numbers_;  ///< of soil, that vary
   EffectContest contest_;
   ContestFit fit_;
+  std::vector<std::optional<Likely>> likely_;  ///< what the contest's likely soils are
   std::vector<double> noise_;
 };
 
@@ -429,7 +442,7 @@ std::optional<VehicleEffects> find_vehicle_effects(const std::vector<DriveRecord
                                                    const std::stop_token& stop) {
   WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2);
   if (comparison.size() < kWindowsLeast) return {};
-  return EffectSearch(windows, map, vehicle, comparison, seed, stop).run();
+  return EffectSearch(windows, map, vehicle, gravity_mps2, comparison, seed, stop).run();
 }
 
 }  // namespace regoplan

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "drive_diagnosis/drive_windows.h"
+#include "drive_diagnosis/mounting.h"
 #include "drive_diagnosis/window_prediction.h"
 
 namespace regoplan {
@@ -20,9 +21,11 @@ struct SoilZoneFound {
   std::array<double, 2> start_s{}, end_s{};  ///< 95 % of where it starts and ends
   bool at_border = false;                    ///< it starts or ends where the map's soil changes
   int soil = 0;                              ///< of the map, that most of it is said to be
+  std::optional<int> like;                   ///< the map's soil that is there, where it is one
   UncertainSoil estimate;                    ///< the soil that is there
-  double weaker = 0;  ///< mean deviation of friction and kphi, in their own; > 0: weaker
-  double weaker_std = 0;
+  /// What a wheel that pulls nothing takes to roll there more than on the map's soil, as a share of
+  /// its load: its torque over its radius.
+  DriveEstimate resistance;
 };
 
 /// A fault of the vehicle, or a zone.

@@ -46,8 +46,7 @@ void write_corrected_map(const DriveDiagnosisRun& run, const ResultFolder& folde
     write_rocks(map.rocks(), files.path("rocks.csv"));
   }
   files.write({"soils.yaml", soil_catalogue_text(map.catalogue())});
-  files.write({"vehicle.yaml",
-               vehicle_text(corrected_vehicle(*setup.vehicle, effects).value_or(*setup.vehicle))});
+  files.write({"vehicle.yaml", vehicle_text(corrected_vehicle(*setup.vehicle, effects))});
   files.write({"scenario.yaml", scenario_text(run, !map.rocks().empty())});
   files.commit();
 }

@@ -59,14 +59,17 @@ Json zone_json(const DriveDiagnosisRun& run, const SoilZoneFound& zone) {
     track.push_back({place.x_m, place.y_m});
   }
   const std::vector<MapSoil>& soils = run.setup.setup.map.soils();
-  return {{"drive", run.drive_ids[zone.drive]},
-          {"map_soil", soils[static_cast<std::size_t>(zone.soil)].name},
-          {"track", track},
-          {"starts_s", zone.starts_s},
-          {"starts_ci95_s", zone.start_s},
-          {"ends_s", zone.ends_s},
-          {"ends_ci95_s", zone.end_s},
-          {"soil", soil_json(zone.estimate)}};
+  return {
+      {"drive", run.drive_ids[zone.drive]},
+      {"map_soil", soils[static_cast<std::size_t>(zone.soil)].name},
+      {"like", zone.like ? Json(soils[static_cast<std::size_t>(*zone.like)].name) : Json(nullptr)},
+      {"resistance_share", estimate_json(zone.resistance)},
+      {"track", track},
+      {"starts_s", zone.starts_s},
+      {"starts_ci95_s", zone.start_s},
+      {"ends_s", zone.ends_s},
+      {"ends_ci95_s", zone.end_s},
+      {"soil", soil_json(zone.estimate)}};
 }
 
 Json zones_json(const DriveDiagnosisRun& run) {
