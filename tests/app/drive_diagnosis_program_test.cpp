@@ -1,0 +1,66 @@
+// `diagnose` of a drive, and what it hands back, as a person meets them.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program_run.h"
+#include "tests/app/scratch_folder.h"
+
+namespace regoplan {
+namespace {
+
+class DriveDiagnosisProgram : public testing::Test {
+ protected:
+  DriveDiagnosisProgram() {
+    folder_.write("s.yaml",
+                  "map:\n  soils: " REGOPLAN_SOURCE_DIR
+                  "/scenarios/demo/soils.yaml\n"
+                  "  terrain: {width_m: 220, height_m: 60, roughness_m: 0.03}\n"
+                  "vehicle: lrv\ngravity_mps2: 1.62\n"
+                  "start: {x_m: 20, y_m: 30, heading_deg: 0}\n"
+                  "goal: {x_m: 190, y_m: 30, radius_m: 3}\n"
+                  "planner: {name: Lattice, iterations: 400, candidates: 1, soil_draws: 10}\n");
+    std::string path = "x_m,y_m,speed_mps\n";
+    for (int x = 20; x <= 190; x += 5) {
+      path += std::to_string(x) + "," + std::to_string(30 + (x / 20) % 2) +
+              (x == 20 ? ",0\n" : ",1.2\n");
+    }
+    folder_.write("p.csv", path);
+  }
+
+  ProgramRun run(const std::string& arguments) const { return run_program(folder_, arguments); }
+  nlohmann::json diagnosis() const {
+    return nlohmann::json::parse(folder_.read("said/diagnosis.json"));
+  }
+
+  ScratchFolder folder_;
+};
+
+TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
+  folder_.write("t.yaml",
+                "zones:\n  - {name: patch, like: soft_patch, corners_m: [[90, 0], [120, 0], "
+                "[120, 60], [90, 60]]}\n");
+  const std::string s = folder_.path("s.yaml"), out = folder_.path("said");
+  run("drive '" + s + "' '" + folder_.path("p.csv") + "' --truth '" + folder_.path("t.yaml") +
+      "' --sensors A --deviation-max-m 5 --out '" + folder_.path("driven") + "'");
+  const ProgramRun said = run("diagnose '" + folder_.path("driven/drive.csv") + "' --scenario '" +
+                              s + "' --out '" + out + "'");
+  ASSERT_EQ(said.status, 0) << said.errors;
+  const nlohmann::json zones = diagnosis()["zones"];
+  ASSERT_EQ(zones.size(), 1u) << diagnosis()["mechanisms"];
+  EXPECT_EQ(zones[0]["map_soil"], "firm_regolith");
+  const auto& track = zones[0]["track"];
+  constexpr double kWindow_m = 7;  // of 5 s
+  EXPECT_NEAR(track.front()[0], 90, kWindow_m);
+  EXPECT_NEAR(track.back()[0], 120, kWindow_m);
+  EXPECT_GT(zones[0]["resistance_share"]["value"], 0);
+
+  const std::string corrected = folder_.path("said/corrected-map/scenario.yaml");
+  const ProgramRun again = run("plan '" + corrected + "' --out '" + folder_.path("second") + "'");
+  EXPECT_EQ(again.status, 0) << again.errors;
+  const auto plan = nlohmann::json::parse(folder_.read("second/plan.json"));
+  EXPECT_EQ(plan["status"], "feasible");
+}
+
+}  // namespace
+}  // namespace regoplan
