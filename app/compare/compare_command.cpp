@@ -50,8 +50,22 @@ std::string asked_text(const Comparison& comparison) {
   return text;
 }
 
+/// The page of a comparison would replace that of a result in the same folder.
+void require_other_folder(const CompareOptions& options) {
+  for (const std::filesystem::path& result : {options.a, options.b}) {
+    std::error_code none;
+    const bool is_folder = std::filesystem::is_directory(result, none);
+    if (std::filesystem::equivalent(options.folder.path, is_folder ? result : result.parent_path(),
+                                    none)) {
+      throw InputError(fmt::format("--out: {} holds one of the results (allowed: another folder)",
+                                   options.folder.path.string()));
+    }
+  }
+}
+
 ExitStatus run(const CompareOptions& options) {
   if (!options.folder.path.empty()) {
+    require_other_folder(options);
     require_results_fit(options.folder, {"comparison.json", "report.html"});
   }
   const ComparedResult a = read_compared_result(options.a), b = read_compared_result(options.b);

@@ -136,6 +136,15 @@ TEST_F(CompareProgram, WritesAPageAndWhatItsSchemaSays) {
   EXPECT_NE(folder_.read("both/report.html").find("Paths over each other"), std::string::npos);
 }
 
+TEST_F(CompareProgram, NeverReplacesThePageOfAResult) {
+  const std::string page = folder_.read("after/report.html");
+  for (const std::string b : {"after", "after/plan.json"}) {
+    expect_refusal(compare("before", b, "--out '" + folder_.path("after") + "'"),
+                   {"--out", "holds one of the results"});
+  }
+  EXPECT_EQ(folder_.read("after/report.html"), page);
+}
+
 TEST_F(CompareProgram, RefusesWhatIsNoResultAndResultsOfTwoKinds) {
   expect_refusal(compare("before", "nowhere"), {"nowhere", "plan.json, evaluation.json"});
   folder_.write("plan.json", "{\"version\": \"1\"}");
