@@ -103,16 +103,19 @@ class ZoneGains {
     for (Eigen::Index i = 0; i < share.size(); ++i) sum += share[i] * products.segment(i * q_, q_);
     return sum;
   }
-  /// Calls visit(first, last, length) for every stretch of windows without a gap.
+  /// Calls visit(first, last, length) for every stretch of free windows without a gap.
   template <class Visit>
-  void each_stretch(const std::vector<bool>& follows, const Visit& visit) const {
+  void each_stretch(const std::vector<bool>& follows, const std::vector<bool>& free,
+                    const Visit& visit) const {
     const auto n = static_cast<Eigen::Index>(follows.size());
     const Eigen::Index longest =
         std::max<Eigen::Index>(kShortest, std::min<Eigen::Index>(n / 2, 24));
     for (Eigen::Index first = 0; first < n; ++first) {
+      if (!free[static_cast<std::size_t>(first)]) continue;
       Eigen::MatrixXd length = block(first, first);
       for (Eigen::Index last = first + 1; last < std::min(n, first + longest); ++last) {
-        if (!follows[static_cast<std::size_t>(last)]) break;
+        const auto next = static_cast<std::size_t>(last);
+        if (!follows[next] || !free[next]) break;
         for (Eigen::Index i = first; i < last; ++i) length += block(i, last) + block(last, i);
         length += block(last, last);
         visit(first, last, length);
@@ -124,6 +127,21 @@ class ZoneGains {
   Eigen::MatrixXd lengths_;
   Eigen::Index q_;
 };
+
+/// Windows that lie neither in a known zone nor beside one: what is left there is that zone's.
+std::vector<bool> free_of_zones(const EffectContest& contest) {
+  const std::size_t n = contest.follows.size();
+  std::vector<bool> free(n, true);
+  for (const Eigen::VectorXd& share : contest.zones_known) {
+    for (std::size_t w = 0; w < n; ++w) {
+      if (share[static_cast<Eigen::Index>(w)] == 0) continue;
+      free[w] = false;
+      if (w > 0) free[w - 1] = false;
+      if (w + 1 < n) free[w + 1] = false;
+    }
+  }
+  return free;
+}
 
 /// One contest: products of the data and of null draws with all that competes.
 class Contest {
@@ -207,23 +225,26 @@ class Contest {
       best_zone = gains[0];
       most = place;
     };
-    zones_.each_stretch(contest_.follows, [&](Eigen::Index first, Eigen::Index last,
-                                              const Eigen::MatrixXd& length) {
-      Eigen::MatrixXd product = Eigen::MatrixXd::Zero(q, soil_products_.cols());
-      for (Eigen::Index w = first; w <= last; ++w) product += soil_products_.middleRows(w * q, q);
-      const ZoneGains::Factor factor = zones_.factor_of(length);
-      const Eigen::MatrixXd solved = factor.factor.matrixL().solve(product);
-      consider(
-          (kZone * kZone * solved.colwise().squaredNorm().transpose()).array() - factor.log_det,
-          {.first = first, .last = last});
-      for (const Eigen::VectorXd& soil : contest_.likely_soils) {
-        const double along = soil.dot(length * soil);
-        const Eigen::VectorXd gains = (product.transpose() * soil).unaryExpr([along](double p) {
-          return gain_of_one(along, p, 1);
+    const std::vector<bool> free = free_of_zones(contest_);
+    zones_.each_stretch(
+        contest_.follows, free,
+        [&](Eigen::Index first, Eigen::Index last, const Eigen::MatrixXd& length) {
+          Eigen::MatrixXd product = Eigen::MatrixXd::Zero(q, soil_products_.cols());
+          for (Eigen::Index w = first; w <= last; ++w)
+            product += soil_products_.middleRows(w * q, q);
+          const ZoneGains::Factor factor = zones_.factor_of(length);
+          const Eigen::MatrixXd solved = factor.factor.matrixL().solve(product);
+          consider(
+              (kZone * kZone * solved.colwise().squaredNorm().transpose()).array() - factor.log_det,
+              {.first = first, .last = last});
+          for (const Eigen::VectorXd& soil : contest_.likely_soils) {
+            const double along = soil.dot(length * soil);
+            const Eigen::VectorXd gains = (product.transpose() * soil).unaryExpr([along](double p) {
+              return gain_of_one(along, p, 1);
+            });
+            consider(gains, {.first = first, .last = last, .soil = &soil});
+          }
         });
-        consider(gains, {.first = first, .last = last, .soil = &soil});
-      }
-    });
     if (best_zone > best.gain) {
       best = {.is_zone = true, .gain = best_zone};
       place(most, best);

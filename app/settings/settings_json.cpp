@@ -1,5 +1,7 @@
 #include "app/settings/settings_json.h"
 
+#include <charconv>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "app/io/number_text.h"
@@ -11,6 +13,12 @@ nlohmann::ordered_json scalar_json(const SettingsNode& scalar) {
   const std::string& text = scalar.scalar();
   if (scalar.quoted()) return text;
   if (text == "true" || text == "false") return text == "true";
+  std::int64_t whole = 0;  // stays whole: keys that count things take no 400.0
+  const char* const end = text.data() + text.size();
+  if (const auto read = std::from_chars(text.data(), end, whole);
+      read.ec == std::errc() && read.ptr == end) {
+    return whole;
+  }
   if (const auto number = parse_number(text)) return *number;
   return text;
 }

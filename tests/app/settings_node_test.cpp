@@ -147,8 +147,14 @@ TEST(SettingsNode, AsJsonTextInQuotesStaysText) {
       "wheels: [lrv, 1e-3, '1e-3']\nlong: >-\n  12\n",
       "f.yaml");
   EXPECT_EQ(to_json(settings).dump(),
-            R"({"name":"2024","mass_kg":2024.0,"steered":true,"label":"true","source":"",)"
+            R"({"name":"2024","mass_kg":2024,"steered":true,"label":"true","source":"",)"
             R"("nothing":null,"wheels":["lrv",0.001,"1e-3"],"long":"12"})");
+}
+
+TEST(SettingsNode, AsJsonWholeNumbersStayWhole) {
+  const SettingsNode settings =
+      parse_settings("{count: 400, length: 400.0, seed: -3, far: 1e3}", "f.yaml");
+  EXPECT_EQ(to_json(settings).dump(), R"({"count":400,"length":400.0,"seed":-3,"far":1000.0})");
 }
 
 TEST(SettingsNode, AFileThatCannotBeReadIsAnError) {
