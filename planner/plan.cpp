@@ -1,9 +1,11 @@
 #include "planner/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -248,11 +250,16 @@ class Planning {
     const int draws = problem_.search.soil_draws;
     std::vector<std::map<int, std::vector<double>>> drawn(chosen_.size());
     std::vector<int> given(chosen_.size());
-    bool bounded = false, mapped = false;
+    bool bounded = false, mapped = false, weighed = false;
     work_off([&]() -> std::optional<Piece> {
       if (!std::exchange(bounded, true)) return bound_piece();
       if (!chosen_.empty() && given.front() > 0 && !std::exchange(mapped, true)) {
         return rasters_piece();
+      }
+      constexpr int kFirst = 20;  // draws of every candidate come first
+      if (!given.empty() && *std::ranges::min_element(given) >= kFirst &&
+          !std::exchange(weighed, true)) {
+        return probability_piece();
       }
       const auto least = std::min_element(given.begin(), given.end());
       const double left_s = budget_.left_s(kDrawsShare);
@@ -276,6 +283,7 @@ class Planning {
                          reader(drawn[i][range.first]);
                        }};
     });
+    if (result_.rasters) result_.rasters->probability = std::move(probability_);
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       std::vector<double> smallest;
       for (const auto& [first, margins] : drawn[i]) {
@@ -308,6 +316,22 @@ class Planning {
             .take =
                 [this](const std::optional<std::vector<char>>& bytes) {
                   if (bytes) result_.rasters = from_bytes<TerrainRasters>(*bytes);
+                }};
+  }
+
+  Piece probability_piece() {
+    return {.work =
+                [this] {
+                  ByteWriter writer;
+                  writer(straight_on_probability(problem_));
+                  return writer.take();
+                },
+            .time_limit_s = budget_.left_s(kDrawsShare),
+            .take =
+                [this](const std::optional<std::vector<char>>& bytes) {
+                  if (!bytes) return;
+                  ByteReader reader(*bytes);
+                  reader(probability_);
                 }};
   }
 
@@ -355,19 +379,27 @@ class Planning {
   }
 
   void ask_what_if() {
-    std::vector<std::optional<WhatIf>> answers(kCircumstances.size());
+    const VerifiedPath& best = chosen_.front();
+    std::vector<std::function<WhatIf()>> questions;
+    if (is_doubtful(best.candidate, problem_.limits)) {
+      questions.emplace_back([&] {
+        return slow_enough(verdict_, best.replay, best.candidate.spread->draws,
+                           share_counted_on(problem_.limits));
+      });
+    }
+    for (const Circumstance circumstance : kCircumstances) {
+      questions.emplace_back([&, circumstance] {
+        return what_if(circumstance, verdict_, best.replay, best.candidate.controls);
+      });
+    }
+    std::vector<std::optional<WhatIf>> answers(questions.size());
     std::size_t next = 0;
     work_off([&]() -> std::optional<Piece> {
       const double left_s = budget_.left_s(TimeBudget::kAnswerShare);
-      if (next == kCircumstances.size() || left_s <= 0) return std::nullopt;
+      if (next == questions.size() || left_s <= 0) return std::nullopt;
       tell("asking what if", 0);
       const std::size_t i = next++;
-      return Piece{.work =
-                       [this, i] {
-                         const VerifiedPath& best = chosen_.front();
-                         return bytes_of(what_if(kCircumstances[i], verdict_, best.replay,
-                                                 best.candidate.controls));
-                       },
+      return Piece{.work = [&questions, i] { return bytes_of(questions[i]()); },
                    .time_limit_s = left_s,
                    .take =
                        [&answers, i](const std::optional<std::vector<char>>& bytes) {
@@ -383,8 +415,12 @@ class Planning {
   std::string with_relaxation(const std::string& reason) {
     tell("looking for what would help", 0);
     result_.relaxed = relaxed_answers(problem_, budget_, session_.stop);
-    if (result_.relaxed.empty() || !result_.relaxed.back().opened) return reason;
-    return fmt::format("{}; a verified path exists {}", reason, result_.relaxed.back().given_up);
+    std::vector<std::string> opening;
+    for (const RelaxedAnswer& answer : result_.relaxed) {
+      if (answer.opened) opening.push_back(answer.given_up);
+    }
+    if (opening.empty()) return reason;
+    return fmt::format("{}; a verified path exists {}", reason, fmt::join(opening, ", or "));
   }
 
   PlanResult answered() {
@@ -402,6 +438,7 @@ class Planning {
   std::vector<RunResult> runs_;       ///< by number
   std::vector<VerifiedPath> paths_;   ///< that passed, by run
   std::vector<VerifiedPath> chosen_;  ///< the candidates
+  std::vector<float> probability_;    ///< of the rasters
   int found_ = 0, verified_ = 0;
   double search_end_s_ = 0;
 };

@@ -17,14 +17,15 @@ struct Relaxation {
   PlanningProblem problem;
 };
 
-/// What might be given up for a path: half the speed, margin to spare, 5 deg of the slope limit.
-/// Each is a problem that can be asked as it stands.
-std::vector<Relaxation> relaxations_of(const PlanningProblem& problem);
+/// What might be otherwise for a path: less speed, less margin to spare, a higher slope limit, a
+/// larger goal, stronger soils; first a small change of each, then a large one. Each is a problem
+/// that can be asked as it stands.
+std::vector<std::vector<Relaxation>> relaxations_of(const PlanningProblem& problem);
 
-/// Of a problem without a path: its relaxations up to the first that opens the way. Each is planned
-/// for briefly and the path verified, so that what helps is known to; only the last may have
-/// helped. \param budget whose share for the answer ends it; without a budget it does not hang on
-/// the clock
+/// Of a problem without a path: its small relaxations side by side, and, where none of them opens
+/// the way, the large ones. Each is planned for briefly and the path verified, so that what helps
+/// is known to. \param budget whose share for the answer ends it; without a budget it does not hang
+/// on the clock
 std::vector<RelaxedAnswer> relaxed_answers(const PlanningProblem& problem, const TimeBudget& budget,
                                            const std::stop_token& stop,
                                            const SingleThread& alone = {});

@@ -86,6 +86,25 @@ void add_attitude(const PlanningProblem& problem, const std::vector<TrajectoryPo
   columns["slope_deg"] = std::move(slope);
 }
 
+/// Columns of what the drives give: `energy_j` so far, and on the way to the next point `power_w`
+/// and `energy_per_m_j`, null where it creeps.
+void add_energy(const std::vector<TrajectoryPoint>& points, json& columns) {
+  json energy = json::array(), power = json::array(), per_metre = json::array();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const TrajectoryPoint& from = points[i];
+    const TrajectoryPoint& to = points[std::min(i + 1, points.size() - 1)];
+    const double gained_j = to.energy_j - from.energy_j, lasts_s = to.time_s - from.time_s;
+    const double way_m = std::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
+    constexpr double kCreeps_m = 0.05;
+    energy.push_back(rounded(from.energy_j, 1));
+    power.push_back(lasts_s > 0 ? json(rounded(gained_j / lasts_s, 1)) : json());
+    per_metre.push_back(way_m > kCreeps_m ? json(rounded(gained_j / way_m, 2)) : json());
+  }
+  columns["energy_j"] = std::move(energy);
+  columns["power_w"] = std::move(power);
+  columns["energy_per_m_j"] = std::move(per_metre);
+}
+
 json points_json(const PlanningProblem& problem, const std::vector<TrajectoryPoint>& points) {
   json columns = json::object();
   const auto column = [&](const char* name, int decimals, const auto& value) {
@@ -106,6 +125,7 @@ json points_json(const PlanningProblem& problem, const std::vector<TrajectoryPoi
   column("slip_max", 4, &P::slip_max);
   column("slip_angle_max_deg", 2, [](const P& p) { return degrees(p.slip_angle_max_rad); });
   column("sinkage_max_m", 5, &P::sinkage_max_m);
+  column("torque_max_nm", 2, &P::torque_max_nm);
   column("demand_n", 1, &P::demand_n);
   column("supply_min_n", 1, &P::supply_min_n);
   column("supply_max_n", 1, &P::supply_max_n);
@@ -118,6 +138,7 @@ json points_json(const PlanningProblem& problem, const std::vector<TrajectoryPoi
   columns["soil"] = std::move(soils);
   add_wheel_loads(problem, points, columns);
   add_attitude(problem, points, columns);
+  add_energy(points, columns);
   return columns;
 }
 
@@ -175,13 +196,16 @@ json what_if_json(const WhatIf& what_if) {
               {"time_s", what_if.time_s},
               {"margin_min", what_if.margin_min},
               {"reason", nullptr},
-              {"end_shift_m", nullptr}};
+              {"end_shift_m", nullptr},
+              {"probability", nullptr},
+              {"driven", what_if.driven}};
+  if (what_if.probability) row["probability"] = what_if.probability->share;
   if (what_if.reason) row["reason"] = name(*what_if.reason);
   if (what_if.end_shift_m) row["end_shift_m"] = *what_if.end_shift_m;
   return row;
 }
 
-/// What was given up in turn, with the path of the one that opened the way.
+/// What was given up, with the paths of those that opened the way.
 json relaxed_json(const PlanningProblem& problem, const std::vector<RelaxedAnswer>& answers) {
   json rows = json::array();
   for (const RelaxedAnswer& answer : answers) {
@@ -266,7 +290,8 @@ json vehicle_json(const Vehicle& vehicle) {
           {"curvature_max_1pm", vehicle.curvature_max_1pm},
           {"curvature_rate_max_1pms", vehicle.curvature_rate_max_1pms},
           {"steer_angle_max_deg", degrees(vehicle.steer_angle_max_rad)},
-          {"step_max_m", vehicle.step_max_m}};
+          {"step_max_m", vehicle.step_max_m},
+          {"torque_max_nm", vehicle.torque_max_nm ? json(*vehicle.torque_max_nm) : json()}};
 }
 
 json search_json(const Search& search) {

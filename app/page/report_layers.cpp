@@ -66,6 +66,10 @@ json report_layers(const TerrainRasters& rasters) {
   json layers = json::array();
   layers.push_back(layer(rasters.frame, rasters.margin));
   layers.back()["of"] = "margin";
+  if (!rasters.probability.empty()) {
+    layers.push_back(layer(rasters.frame, rasters.probability));
+    layers.back()["of"] = "probability";
+  }
   for (std::size_t i = 0; i < rasters.speeds_mps.size(); ++i) {
     layers.push_back(layer(rasters.frame, rasters.supply_n[i]));
     layers.back()["of"] = "supply";

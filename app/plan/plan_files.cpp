@@ -21,6 +21,10 @@
 namespace regoplan {
 namespace {
 
+constexpr const char* kMarginFile = "margin.tif";
+constexpr const char* kSupplyFile = "supply.tif";
+constexpr const char* kProbabilityFile = "probability.tif";
+
 using Json = nlohmann::ordered_json;
 
 std::string candidate_file(int rank, std::string_view extension) {
@@ -86,6 +90,10 @@ Json what_if_json(const WhatIf& what_if) {
     json["time_s"] = what_if.time_s;
   }
   if (what_if.end_shift_m) json["end_shift_m"] = *what_if.end_shift_m;
+  if (what_if.probability) {
+    json["probability_feasible"] = what_if.probability->share;
+    json["probability_feasible_ci95"] = {what_if.probability->low, what_if.probability->high};
+  }
   return json;
 }
 
@@ -187,7 +195,8 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
   std::string text =
       "time_s,x_m,y_m,z_m,yaw_deg,speed_mps,yaw_rate_rad_s,steer_deg,slip_max,"
       "slip_angle_max_deg,sinkage_max_m,soil,demand_n,supply_min_n,supply_max_n,"
-      "cornering_margin,tip_over_margin,traction_margin,margin,curvature_1pm,acceleration_mps2\n";
+      "cornering_margin,tip_over_margin,traction_margin,margin,curvature_1pm,acceleration_mps2,"
+      "torque_max_nm,energy_j\n";
   for (const TrajectoryPoint& point : candidate.points) {
     for (const double value :
          {point.time_s, point.x_m, point.y_m, point.z_m, degrees(point.yaw_rad), point.speed_mps,
@@ -196,9 +205,10 @@ std::string candidate_csv(const PlanningProblem& problem, const Candidate& candi
       text += fmt::format("{},", number_cell(value));
     }
     text += own_text_cell(soil_name(problem, point.soil));
-    for (const double value : {point.demand_n, point.supply_min_n, point.supply_max_n,
-                               point.cornering_margin, point.tip_over_margin, point.traction_margin,
-                               point.margin, point.curvature_1pm, point.acceleration_mps2}) {
+    for (const double value :
+         {point.demand_n, point.supply_min_n, point.supply_max_n, point.cornering_margin,
+          point.tip_over_margin, point.traction_margin, point.margin, point.curvature_1pm,
+          point.acceleration_mps2, point.torque_max_nm, point.energy_j}) {
       text += fmt::format(",{}", number_cell(value));
     }
     text += "\n";
@@ -223,9 +233,6 @@ std::string candidate_geojson(const PlanningProblem& problem, const Candidate& c
 
 namespace {
 
-constexpr const char* kMarginFile = "margin.tif";
-constexpr const char* kSupplyFile = "supply.tif";
-
 void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
   write_bands(rasters.frame,
               {{.description = "stability margin of driving straight on, smallest over headings",
@@ -239,12 +246,19 @@ void write_rasters(const TerrainRasters& rasters, StagedFiles& staged) {
          .values = rasters.supply_n[i]});
   }
   write_bands(rasters.frame, supply, staged.path(kSupplyFile));
+  if (rasters.probability.empty()) return;
+  write_bands(rasters.frame,
+              {{.description = "share of the soils' draws in which driving straight on keeps the "
+                               "least margin in every direction",
+                .values = rasters.probability}},
+              staged.path(kProbabilityFile));
 }
 
 }  // namespace
 
 std::vector<std::string> plan_file_names(const PlanningProblem& problem) {
-  std::vector<std::string> names{"plan.json", "report.html", "margin.tif", "supply.tif"};
+  std::vector<std::string> names{"plan.json", "report.html", kMarginFile, kSupplyFile,
+                                 kProbabilityFile};
   for (int rank = 1; rank <= problem.search.candidates; ++rank) {
     for (const char* extension : {"csv", "geojson"})
       names.push_back(candidate_file(rank, extension));
@@ -269,6 +283,7 @@ void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
   for (const char* raster : {kMarginFile, kSupplyFile}) {
     if (!result.rasters) staged.remove(raster);
   }
+  if (!result.rasters || result.rasters->probability.empty()) staged.remove(kProbabilityFile);
   for (std::size_t rank = result.candidates.size() + 1;; ++rank) {
     bool found = false;
     for (const std::string_view extension : {"csv", "geojson"}) {

@@ -79,10 +79,12 @@ constexpr double kSlow_mps = 0.01;
 
 /// The smallest margin of driving straight on, whatever the heading on the slope. The vehicle is
 /// the same to either side, so half of the directions do.
-double margin_of_any_heading(const Plane& plane, double slope_rad) {
+/// \param enough below that, how much smaller it is does not matter
+double margin_of_any_heading(const Plane& plane, double slope_rad,
+                             double enough = -std::numeric_limits<double>::infinity()) {
   constexpr int kDirections = 6;
   double least = 1;
-  for (int i = 0; i <= (slope_rad > 0 ? kDirections : 0); ++i) {
+  for (int i = 0; i <= (slope_rad > 0 ? kDirections : 0) && least >= enough; ++i) {
     const StateMargins margins =
         plane.margins(kSlow_mps, 0, slope_rad, i * std::numbers::pi / kDirections);
     least = std::min(least, margins.stability().value_or(-1));
@@ -164,6 +166,21 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings) {
     at.any_heading = margin_of_any_heading(plane, at.slope_rad);
   });
   return chart;
+}
+
+std::optional<double> straight_on_limit_rad(const ChartSettings& settings, std::size_t soil) {
+  const Plane plane(settings, soil);
+  const auto holds = [&](int degree) {
+    return margin_of_any_heading(plane, degree * kDegree, settings.limits.margin_min) >=
+           settings.limits.margin_min;
+  };
+  if (!holds(0)) return std::nullopt;
+  int good = 0, bad = static_cast<int>(settings.slope_max_rad / kDegree * (1 + 1e-9)) + 1;
+  while (bad - good > 1) {
+    const int middle = (good + bad) / 2;
+    (holds(middle) ? good : bad) = middle;
+  }
+  return good * kDegree;
 }
 
 std::vector<double> side_slope_limits_rad(const FeasibilityChart& chart,

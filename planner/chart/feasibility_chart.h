@@ -58,4 +58,9 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings);
 std::vector<double> side_slope_limits_rad(const FeasibilityChart& chart,
                                           const ChartSettings& settings);
 
+/// The steepest slope, in whole degrees up to `slope_max_rad`, on which driving straight on keeps
+/// the least margin in every direction; nothing where not even level ground does. Sought by
+/// bisection: what is steeper is taken to be worse.
+std::optional<double> straight_on_limit_rad(const ChartSettings& settings, std::size_t soil);
+
 }  // namespace regoplan

@@ -6,7 +6,9 @@
 
 #include "maps/ground_finder.h"
 #include "planner/chart/feasibility_chart.h"
+#include "planner/soils/soil_uncertainty.h"
 #include "terramech/basics/angles.h"
+#include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {
@@ -74,12 +76,21 @@ std::vector<OverSlope> supplies_of(const FeasibilityChart& chart, std::size_t so
   return supplies;
 }
 
-GridFrame coarser(GridFrame frame, int factor) {
+/// The grid of the rasters: that of the elevation, with larger cells where it has many.
+GridFrame raster_frame(const TerrainMap& map) {
+  GridFrame frame = map.elevation().frame;
+  const int factor = (std::max(frame.columns, frame.rows) + kSideMax - 1) / kSideMax;
   frame.columns = (frame.columns + factor - 1) / factor;
   frame.rows = (frame.rows + factor - 1) / factor;
   frame.cell_width_m *= factor;
   frame.cell_height_m *= factor;
   return frame;
+}
+
+bool is_uncertain(const MapSoil& soil) {
+  return std::ranges::any_of(soil_parameters(), [&soil](const SoilParameter& parameter) {
+    return soil.soil.standard_deviation.*parameter.member > 0;
+  });
 }
 
 /// The ground of a cell.
@@ -124,10 +135,9 @@ std::vector<float> raster_of(const std::vector<Cell>& cells, const std::vector<O
 TerrainRasters terrain_rasters(const PlanningProblem& problem) {
   const ChartSettings settings = chart_settings(problem);
   const FeasibilityChart chart = feasibility_chart(settings);
-  const GridFrame& fine = problem.map.elevation().frame;
-  const int factor = (std::max(fine.columns, fine.rows) + kSideMax - 1) / kSideMax;
-  TerrainRasters rasters{.frame = coarser(fine, factor),
+  TerrainRasters rasters{.frame = raster_frame(problem.map),
                          .margin = {},
+                         .probability = {},
                          .speeds_mps = settings.speeds_mps,
                          .supply_n = {}};
   const std::vector<Cell> cells = cells_of(problem, rasters.frame);
@@ -137,6 +147,35 @@ TerrainRasters terrain_rasters(const PlanningProblem& problem) {
     rasters.supply_n.push_back(raster_of(cells, supplies_of(chart, soils, speed_mps)));
   }
   return rasters;
+}
+
+std::vector<float> straight_on_probability(const PlanningProblem& problem) {
+  const std::size_t soils = problem.map.soils().size();
+  constexpr std::size_t kDraws = 20;
+  const std::size_t count = std::ranges::any_of(problem.map.soils(), is_uncertain) ? kDraws : 1;
+  std::vector<ChartSettings> draws(count, chart_settings(problem));
+  for (std::size_t k = 0; k < count; ++k) {
+    const SoilDraw draw = soil_draw(problem.map.soils(), problem.search.seed, static_cast<int>(k));
+    for (std::size_t soil = 0; soil < soils; ++soil) draws[k].soils[soil].soil.mean = draw[soil];
+  }
+  std::vector<std::optional<double>> limits_rad(count * soils);
+  parallel_for(limits_rad.size(), problem.search.threads, [&](std::size_t i) {
+    limits_rad[i] = straight_on_limit_rad(draws[i / soils], i % soils);
+  });
+  std::vector<float> probability;
+  for (const Cell& cell : cells_of(problem, raster_frame(problem.map))) {
+    if (std::isnan(cell.slope_rad)) {
+      probability.push_back(static_cast<float>(kNone));
+      continue;
+    }
+    int bears = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::optional<double>& limit_rad = limits_rad[k * soils + cell.soil];
+      bears += limit_rad && cell.slope_rad <= *limit_rad;
+    }
+    probability.push_back(static_cast<float>(bears) / static_cast<float>(count));
+  }
+  return probability;
 }
 
 }  // namespace regoplan

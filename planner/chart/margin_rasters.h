@@ -11,4 +11,8 @@ namespace regoplan {
 /// a side every so manieth is taken, with cells as much larger.
 TerrainRasters terrain_rasters(const PlanningProblem& problem);
 
+/// `TerrainRasters::probability` on the same grid, over 20 draws of the soils: the share of draws
+/// that bear the slope of a cell, in whole degrees.
+std::vector<float> straight_on_probability(const PlanningProblem& problem);
+
 }  // namespace regoplan

@@ -79,6 +79,7 @@ class Driver {
   }
   void judge() {
     record_.points.push_back(world_.describe(state_, strain_, record_.duration_s));
+    record_.points.back().energy_j = record_.energy_j;
     record_.judged.push_back({state_, strain_});
   }
 

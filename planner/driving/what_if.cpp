@@ -1,12 +1,21 @@
 #include "planner/driving/what_if.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 
+#include "planner/driving/margin_draws.h"
+#include "planner/driving/path_margins.h"
+#include "planner/problem/margin_spread.h"
+
 namespace regoplan {
 namespace {
+
+using MapPoint = std::array<double, 2>;  ///< x_m, y_m
 
 PlanningProblem on_weaker_soils(const PlanningProblem& problem, double factor) {
   std::vector<MapSoil> soils = problem.map.soils();
@@ -54,9 +63,10 @@ bool stands(const VehicleState& state) {
 }
 
 /// Where controls lead, limits aside: to their end, or to where the vehicle stands.
-VehicleState driven_out(const World& world, const std::vector<ControlSegment>& controls,
-                        double longest_s) {
+std::vector<MapPoint> driven_out(const World& world, const std::vector<ControlSegment>& controls,
+                                 double longest_s) {
   VehicleState state = world.start();
+  std::vector<MapPoint> way{{state.x_m, state.y_m}};
   double time_s = 0, standing_s = 0;
   const double step_s = world.search_step_s();
   constexpr double kForGood_s = 1;  // longer than setting off takes
@@ -66,11 +76,22 @@ VehicleState driven_out(const World& world, const std::vector<ControlSegment>& c
       const StepResult step = world.dynamics().step(
           state, {segment.speed_target_mps, segment.curvature_target_1pm}, step_s);
       state = step.state;
+      way.push_back({state.x_m, state.y_m});
       standing_s = stands(state) ? standing_s + step_s : 0;
-      if (!step.converged || standing_s > kForGood_s) return state;
+      if (!step.converged || standing_s > kForGood_s) return way;
     }
   }
-  return state;
+  return way;
+}
+
+/// Every so manieth place, and the last.
+std::vector<MapPoint> thinned(const std::vector<MapPoint>& way) {
+  constexpr std::size_t kMost = 300;
+  const std::size_t every = way.size() / kMost + 1;
+  std::vector<MapPoint> kept;
+  for (std::size_t i = 0; i + 1 < way.size(); i += every) kept.push_back(way[i]);
+  kept.push_back(way.back());
+  return kept;
 }
 
 WhatIf same_controls(std::string question, const World& world, const Replay& verified,
@@ -89,13 +110,52 @@ WhatIf same_controls(std::string question, const World& world, const Replay& ver
     result.y_m = driven.rejection->y_m;
     result.time_s = driven.rejection_time_s;
   }
-  const VehicleState state = driven_out(world, controls, verified.duration_s);
-  const VehicleState& end = verified.end;
-  result.end_shift_m = std::hypot(state.x_m - end.x_m, state.y_m - end.y_m);
+  const std::vector<MapPoint> way = driven_out(world, controls, verified.duration_s);
+  result.end_shift_m =
+      std::hypot(way.back()[0] - verified.end.x_m, way.back()[1] - verified.end.y_m);
+  result.driven = thinned(way);
   return result;
 }
 
+VehicleState slowed(VehicleState state, double share) {
+  state.motion.vx_mps *= share;
+  state.motion.vy_mps *= share;
+  state.motion.yaw_rate_rad_s *= share;
+  state.rim_speed_mps *= share;
+  state.rim_acceleration_mps2 *= share * share;
+  return state;
+}
+
+/// The same path at a share of its speeds, judged where it was.
+Replay slowed(const World& world, const Replay& verified, double share) {
+  Replay slower;
+  for (std::size_t i = 0; i < verified.judged.size(); ++i) {
+    const auto& [state, strain] = verified.judged[i];
+    slower.judged.push_back({slowed(state, share), strain});
+    slower.points.push_back(
+        world.describe(slower.judged.back().state, strain, verified.points[i].time_s / share));
+  }
+  return slower;
+}
+
 }  // namespace
+
+WhatIf slow_enough(const World& world, const Replay& verified, int draws, double asked) {
+  const PlanningProblem& problem = world.problem();
+  WhatIf result{.feasible = true};
+  for (int tenths = 9; tenths >= 5; --tenths) {
+    const double share = tenths / 10.0;
+    const Replay slower = slowed(world, verified, share);
+    const MarginSpread spread =
+        margin_spread(smallest_margins(problem, slower, {.count = draws}, problem.search.seed, 1),
+                      problem.limits.margin_min);
+    result.question = fmt::format("the same path at {} of its speeds", share);
+    result.probability = spread.feasible;
+    result.margin_min = slower.points[smallest_margin_index(slower.points)].margin;
+    if (spread.feasible.share >= asked) break;
+  }
+  return result;
+}
 
 Soil with_scaled_strength(Soil soil, double factor) {
   soil.cohesion_pa *= factor;

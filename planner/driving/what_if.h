@@ -20,6 +20,11 @@ inline constexpr std::array kCircumstances{Circumstance::kTwiceTheSpeed, Circums
 WhatIf what_if(Circumstance circumstance, const World& world, const Replay& verified,
                const std::vector<ControlSegment>& controls);
 
+/// The best candidate slowed down by tenths, to half its speeds at most, until so large a share of
+/// the draws of the soils holds as is asked; where none does, at half its speeds.
+/// \pre the soils are drawn: draws is at least 1
+WhatIf slow_enough(const World& world, const Replay& verified, int draws, double asked);
+
 /// A soil with cohesion and tan(friction angle) scaled.
 Soil with_scaled_strength(Soil soil, double factor);
 
@@ -34,6 +39,8 @@ void each_field(Archive& archive, Answer& answer) {
   archive(answer.time_s);
   archive(answer.margin_min);
   archive(answer.end_shift_m);
+  archive(answer.driven);
+  archive(answer.probability);
 }
 
 }  // namespace regoplan

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ struct TrajectoryPoint {
   double slip_max = 0;           ///< of the wheels, by magnitude, signed
   double slip_angle_max_rad = 0;
   double sinkage_max_m = 0;
+  double torque_max_nm = 0;  ///< of the wheels, by magnitude, signed, driving positive
+  /// That the drives have given since the start; NaN of a point that is no replay's.
+  double energy_j = std::numeric_limits<double>::quiet_NaN();
   int soil = -1;  ///< index in the map's soils, below the centre of gravity
   double demand_n = 0;
   double supply_min_n = 0;
@@ -100,6 +104,9 @@ struct WhatIf {
   double time_s = 0;
   double margin_min = 0;
   std::optional<double> end_shift_m;  ///< how far away the same controls end
+  /// Where the same controls lead: x_m, y_m of a few hundred places.
+  std::vector<std::array<double, 2>> driven;
+  std::optional<Probability> probability;  ///< over the soils' draws, where they are asked
 };
 
 /// What was given up of a problem without a path, and what a brief search then found.
@@ -118,7 +125,7 @@ struct PlanResult {
   std::vector<Candidate> candidates;   ///< verified, in rank order
   std::vector<Candidate> overturned;   ///< found, but failed verification
   std::vector<WhatIf> what_ifs;        ///< of the best candidate
-  std::vector<RelaxedAnswer> relaxed;  ///< without a path: to the first that helps
+  std::vector<RelaxedAnswer> relaxed;  ///< without a path: what would open the way, and would not
   std::array<std::int64_t, kRejectionCount> rejected{};  ///< states, by first reason
   std::vector<RejectedState> rejected_states;            ///< an even sample of them for display
   std::optional<TerrainRasters> rasters;  ///< where a search was made, and time left for them

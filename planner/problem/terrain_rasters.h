@@ -15,6 +15,9 @@ struct TerrainRasters {
   /// Stability margin (the smallest of cornering, tip-over and traction) of driving straight on at
   /// a steady pace, the smallest over the headings; -1 where no steady driving is found.
   std::vector<float> margin;
+  /// Share of the draws of the soils in which driving straight on at a steady pace keeps the least
+  /// margin in every direction; empty where it was not worked out.
+  std::vector<float> probability;
   std::vector<double> speeds_mps;
   /// For each speed the lateral supply, newtons: the smaller of its two ends, A+ and -A-, in the
   /// tightest turn to either side that keeps every margin at that speed, the slope across the path.
@@ -33,6 +36,7 @@ void each_field(Archive& archive, Rasters& rasters) {
   archive(frame.cell_height_m);
   archive(frame.crs_wkt);
   archive(rasters.margin);
+  archive(rasters.probability);
   archive(rasters.speeds_mps);
   archive(rasters.supply_n);
 }

@@ -265,6 +265,7 @@ TrajectoryPoint World::point_of(const VehicleState& state, const WheelStrain& st
           .slip_max = strain.slip,
           .slip_angle_max_rad = strain.slip_angle_rad,
           .sinkage_max_m = strain.sinkage_m,
+          .torque_max_nm = strain.torque_max_nm,
           .soil = problem_.map.soil_index(state.x_m, state.y_m).value_or(-1),
           .demand_n = margins.demand_n,
           .supply_min_n = margins.supply ? margins.supply->right_n : kNone,

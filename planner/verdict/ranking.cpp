@@ -81,10 +81,13 @@ bool probable_enough(const Candidate& candidate, const Limits& limits) {
   return shown >= limits.probability_min;
 }
 
-bool is_doubtful(const Candidate& candidate, const Limits& limits) {
+double share_counted_on(const Limits& limits) {
   constexpr double kCountedOn = 0.95;
-  const double asked = limits.probability_min > 0 ? limits.probability_min : kCountedOn;
-  return candidate.spread && candidate.spread->feasible.share < asked;
+  return limits.probability_min > 0 ? limits.probability_min : kCountedOn;
+}
+
+bool is_doubtful(const Candidate& candidate, const Limits& limits) {
+  return candidate.spread && candidate.spread->feasible.share < share_counted_on(limits);
 }
 
 }  // namespace regoplan

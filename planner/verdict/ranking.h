@@ -19,8 +19,11 @@ void rank(std::vector<VerifiedPath>& paths);
 /// counts. What was not drawn keeps none but that of 0.
 bool probable_enough(const Candidate& candidate, const Limits& limits);
 
-/// Whether fewer of its draws hold than somebody would count on: than the chance constraint asks,
-/// or than 95 % where there is none.
+/// The share of draws that somebody counts on: what the chance constraint asks, .95 where there is
+/// none.
+double share_counted_on(const Limits& limits);
+
+/// Whether fewer of its draws hold than that.
 bool is_doubtful(const Candidate& candidate, const Limits& limits);
 
 }  // namespace regoplan

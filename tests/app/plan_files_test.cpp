@@ -62,6 +62,7 @@ PlanResult result_with_rasters(int candidates) {
   PlanningProblem problem = flat_problem();
   problem.limits = default_limits(problem.vehicle);
   result.rasters = terrain_rasters(problem);
+  result.rasters->probability = straight_on_probability(problem);
   return result;
 }
 
@@ -150,7 +151,7 @@ TEST(PlanFiles, ACandidatesTableHasDegreesAndSoilNames) {
             "time_s,x_m,y_m,z_m,yaw_deg,speed_mps,yaw_rate_rad_s,steer_deg,slip_max,"
             "slip_angle_max_deg,sinkage_max_m,soil,demand_n,supply_min_n,supply_max_n,"
             "cornering_margin,tip_over_margin,traction_margin,margin,curvature_1pm,"
-            "acceleration_mps2");
+            "acceleration_mps2,torque_max_nm,energy_j");
   const auto columns = split_cells(first_line(csv)).value();
   const auto cells = split_cells(first_line(csv.substr(csv.find('\n') + 1))).value();
   ASSERT_EQ(cells.size(), columns.size());
@@ -178,9 +179,9 @@ TEST(PlanFiles, AFolderHoldsTheCandidatesOfOnePlanOnly) {
   const ScratchFolder folder;
   folder.write("candidate-notes.csv", "mine");
   write_plan_files(flat_problem(), result_with_rasters(3), {folder.path("")});
-  EXPECT_EQ(folder.count(), 1 + 5 + 3 * 2);
+  EXPECT_EQ(folder.count(), 1 + 6 + 3 * 2);
   write_plan_files(flat_problem(), result_with_rasters(1), {folder.path("")});
-  EXPECT_EQ(folder.count(), 1 + 5 + 1 * 2);
+  EXPECT_EQ(folder.count(), 1 + 6 + 1 * 2);
   write_plan_files(flat_problem(), result_with(1), {folder.path("")});
   EXPECT_EQ(folder.count(), 1 + 3 + 1 * 2) << "rasters of an earlier plan";
   EXPECT_EQ(folder.read("plan.json"), plan_json(flat_problem(), result_with(1)));
@@ -191,7 +192,7 @@ TEST(PlanFiles, MarginAndSupplyLieInTheMapsPlace) {
   PlanningProblem problem = flat_problem();
   problem.limits = default_limits(problem.vehicle);
   write_plan_files(problem, result_with_rasters(1), {folder.path("out")});
-  for (const char* name : {"out/margin.tif", "out/supply.tif"}) {
+  for (const char* name : {"out/margin.tif", "out/supply.tif", "out/probability.tif"}) {
     const ElevationRaster read = read_elevation(folder.path(name));  // band 1
     EXPECT_EQ(read.frame, problem.map.elevation().frame) << name;
     EXPECT_GT(read.height_m[20 * 40 + 20], 0.1F) << name;
@@ -208,6 +209,7 @@ TEST(PlanFiles, WhereNothingWasSearchedThereAreNoRastersNotEvenOlderOnes) {
   write_plan_files(flat_problem(), refused, {folder.path("")});
   EXPECT_FALSE(std::filesystem::exists(folder.path("margin.tif")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("supply.tif")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("probability.tif")));
   EXPECT_EQ(folder.count(), 3);
 }
 

@@ -90,6 +90,8 @@ Candidate made_up_path(const PlanningProblem& problem, int rank, double bow_m, d
     p.slip_max = 0.12 + 0.08 * std::sin(14 * s + bow_m + 3);
     p.slip_angle_max_rad = 0.35 * p.demand_n / weight_n;
     p.sinkage_max_m = 0.021 + 0.02 * p.slip_max;
+    p.torque_max_nm = 24 + 18 * std::sin(14 * s + bow_m);
+    p.energy_j = 16000 * s;
     p.soil = problem.map.soil_index(p.x_m, p.y_m).value_or(-1);
     candidate.points.push_back(p);
   }
@@ -246,7 +248,9 @@ PlanResult report_test_result(const PlanningProblem& problem) {
                       .y_m = loose.y_m,
                       .time_s = loose.time_s,
                       .margin_min = -0.04,
-                      .end_shift_m = 6.3}};
+                      .end_shift_m = 6.3,
+                      .driven = {{fast.x_m, fast.y_m}, {loose.x_m, loose.y_m}},
+                      .probability = probability_of(19, 20)}};
   result.relaxed = {
       {.given_up = "at half the speed, 1.5 m/s", .opened = {}},
       {.given_up = "with margin_min 0", .opened = made_up_path(problem, 0, 80, 0.02)}};

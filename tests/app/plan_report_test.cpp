@@ -98,6 +98,20 @@ TEST_F(PlanReport, KeepsWhatWasRejectedAndWhy) {
   EXPECT_EQ(data["what_ifs"][0]["reason"], "cornering");
   EXPECT_TRUE(data["what_ifs"][0]["end_shift_m"].is_null());
   EXPECT_EQ(data["what_ifs"][1]["end_shift_m"], 6.3);
+  EXPECT_EQ(data["what_ifs"][1]["driven"].size(), 2u);
+  EXPECT_EQ(data["what_ifs"][1]["probability"], 0.95);
+}
+
+TEST_F(PlanReport, PowerIsTheEnergyOfTheWayToTheNextPoint) {
+  const Json points = data_of(plan_report(problem_, result_))["candidates"][0]["points"];
+  const std::vector<double> energy_j = points["energy_j"], time_s = points["time_s"];
+  ASSERT_EQ(points["power_w"].size(), energy_j.size());
+  EXPECT_TRUE(points["power_w"].back().is_null());
+  double sum_j = 0;
+  for (std::size_t i = 0; i + 1 < energy_j.size(); ++i) {
+    sum_j += points["power_w"][i].get<double>() * (time_s[i + 1] - time_s[i]);
+  }
+  EXPECT_NEAR(sum_j, energy_j.back() - energy_j.front(), 0.01 * energy_j.back());
 }
 
 TEST_F(PlanReport, KeepsThePathThatARelaxationOpens) {

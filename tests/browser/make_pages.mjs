@@ -40,9 +40,9 @@ writeFileSync(
     join(folder, 'careful.yaml'),
     readFileSync(scenario('fast_corner'), 'utf8')
             .replace('../../scenarios', join(source, 'scenarios')) +
-        'limits: {margin_min: 0.35}\n');
+        'limits: {margin_min: 0.42}\n');
 regoplan(
-    'plan', join(folder, 'careful.yaml'), '--planner', 'Lattice', '--iterations', '600',
+    'plan', join(folder, 'careful.yaml'), '--planner', 'Lattice', '--iterations', '3000',
     '--candidates', '1', '--out', join(folder, 'undecided'));
 regoplan(
     'evaluate', scenario('fast_corner'), cornerPath('wide.csv', 14, 1),

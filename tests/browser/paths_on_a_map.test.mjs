@@ -171,7 +171,7 @@ test(
         const seen = new Set([await picture()]);
         const grounds =
             await page.getByLabel('Colour of the ground').locator('option').allInnerTexts();
-        for (const ground of ['Elevation', 'Slope', 'Margin of driving straight on'])
+        for (const ground of ['Elevation', 'Slope', 'Margin of driving straight on', 'Share of soil draws that bear driving straight on'])
           assert.ok(grounds.includes(ground), ground);
         for (const label of grounds.slice(1)) {
           await page.getByLabel('Colour of the ground').selectOption({label});
@@ -195,20 +195,25 @@ test('charts show the other paths when asked to', async () => {
   });
 });
 
-test('without a path, the smallest change that opens the way is shown with its path', async () => {
+test('without a path, changes stand side by side, those that open the way with their paths', async () => {
   await withPage('undecided', async page => {
     assert.match(await page.locator('#what-if-title').innerText(), /smallest change/);
     const rows = page.locator('#what-ifs tbody tr');
-    assert.match(await rows.last().innerText(), /with margin_min 0\s+opens/);
-    assert.match(await page.locator('.candidates tbody').innerText(), /with margin_min 0/);
+    const texts = await rows.allInnerTexts();
+    for (const change of [/with slope_max_deg/, /goal of radius_m/, /friction_angle_deg/])
+      assert.ok(texts.some(text => change.test(text) && /no path found/.test(text)), texts.join());
+    const opening = rows.filter({hasText: 'opens'});
+    assert.equal(await opening.count(), 1);
+    assert.match(await opening.innerText(), /^A\s+with margin_min 0\.21\s+opens/);
+    assert.match(await page.locator('.candidates tbody').innerText(), /A/);
     const box = page.getByRole('checkbox', {name: /^Show/});
     assert.ok(await box.isChecked());
     assert.equal(await shownPaths(page), 1);
     await box.uncheck();
     assert.equal(await shownPaths(page), 0);
-    await rows.last().getByRole('button').click();
+    await opening.getByRole('button').click();
     assert.equal(await shownPaths(page), 1);
-    assert.match(await page.locator('#along-path').innerText(), /with margin_min 0/);
-    assert.match(await readout(page), /with margin_min 0/);
+    assert.match(await page.locator('#along-path').innerText(), /Path A/);
+    assert.match(await readout(page), /\bA\b/);
   });
 });

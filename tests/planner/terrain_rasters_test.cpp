@@ -88,5 +88,35 @@ TEST(TerrainRasters, NothingIsKnownBeyondTheSlopeLimitAndAtTheEdge) {
   EXPECT_FALSE(std::isnan(middle(level, level.margin)));
 }
 
+/// Ground of a slope in the middle of the map, of soil whose friction is known to a deviation.
+float probability_in_the_middle(double slope, double friction_std_rad) {
+  PlanningProblem problem = on_slope(slope);
+  std::vector<MapSoil> soils = problem.map.soils();
+  soils.front().soil.standard_deviation.friction_angle_rad = friction_std_rad;
+  problem.map = problem.map.with_soils(soils);
+  return middle(terrain_rasters(problem), straight_on_probability(problem));
+}
+
+TEST(TerrainRasters, WhatIsKnownHoldsOrDoesNot) {
+  const double weak = std::tan(24 * kTestDegree);
+  const PlanningProblem steep = on_slope(weak);
+  const bool holds = least_margin(steep) >= steep.limits.margin_min;
+  EXPECT_EQ(probability_in_the_middle(weak, 0), holds ? 1 : 0);
+  EXPECT_EQ(probability_in_the_middle(0, 0), 1);
+}
+
+TEST(TerrainRasters, SteeperGroundHoldsInFewerDraws) {
+  const double std_rad = 6 * kTestDegree;
+  float before = 1;
+  bool between = false;
+  for (const double slope_deg : {0.0, 8.0, 12.0, 16.0, 20.0, 24.0}) {
+    const float share = probability_in_the_middle(std::tan(slope_deg * kTestDegree), std_rad);
+    EXPECT_LE(share, before) << slope_deg;
+    between = between || (share > 0 && share < 1);
+    before = share;
+  }
+  EXPECT_TRUE(between);
+}
+
 }  // namespace
 }  // namespace regoplan

@@ -105,7 +105,7 @@ function candidateTable(host) {
   if (view.paths.some(path => path.relaxed))
     host.append(element(
         'p', {},
-        'No path was verified within the limits. The one that is named by what was given up for it keeps all other limits; it is dashed on the map.'));
+        'No path was verified within the limits. Those named by letters take a change that stands in the table below; they keep all other limits and are dashed on the map.'));
   host.append(element(
       'p', {class: 'note'},
       'Ranked by the margin that 95 % of the soil draws keep. Every path was replayed with the direct wheel model and a ten times finer step; the deviation is between search and replay. \u25c6 marks what no other path beats in smallest margin, duration and energy at once.'));

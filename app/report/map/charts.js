@@ -63,6 +63,22 @@ const CHARTS = [
     series: [{name: 'largest of the wheels', key: 'sinkage_max_m', colour: '--series-1'}]
   },
   {
+    title: 'Torque',
+    unit: 'N m',
+    decimals: 1,
+    zero: true,
+    limits: isKnown(VEHICLE.torque_max_nm) ? [VEHICLE.torque_max_nm, -VEHICLE.torque_max_nm] : [],
+    series: [{name: 'largest of the wheels', key: 'torque_max_nm', colour: '--series-1'}]
+  },
+  {
+    title: 'Drive power',
+    unit: 'W',
+    decimals: 0,
+    zero: true,
+    note: 'Torque times turning rate of the wheels that drive, mean to the next point.',
+    series: [{name: 'all wheels', key: 'power_w', colour: '--series-2'}]
+  },
+  {
     title: 'Wheel loads',
     unit: 'N',
     decimals: 0,

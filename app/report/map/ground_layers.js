@@ -31,23 +31,28 @@ function ramped(text, unit, decimals, layer, interpolate, domain = null) {
   return {text, unit, decimals, ...layer, domain: colour.domain(), colour: colour.clamp(true)};
 }
 
-const plannedText = ({of, speed_mps}) =>
-    (of === 'margin' ? 'Margin of driving straight on' :
-                       `Lateral supply at ${significant(speed_mps, 3)} m/s`);
+const PLANNED_TEXTS = {
+  margin: () => 'Margin of driving straight on',
+  probability: () => 'Share of soil draws that bear driving straight on',
+  supply: ({speed_mps}) => `Lateral supply at ${significant(speed_mps, 3)} m/s`
+};
+const plannedText = layer => PLANNED_TEXTS[layer.of](layer);
 
 /// A layer that the planner made.
 function plannedLayer(layer) {
+  const text = plannedText(layer), read = readLayer(layer);
   if (layer.of === 'margin')
     return {
-      text: plannedText(layer),
+      text,
       unit: '',
       decimals: 2,
-      ...readLayer(layer),
+      ...read,
       domain: marginColour.domain(),
       colour: marginColour,
       limited: true
     };
-  return ramped(plannedText(layer), 'N', 0, readLayer(layer), d3.interpolatePuBuGn);
+  if (layer.of === 'probability') return ramped(text, '', 2, read, d3.interpolateRdYlBu, [0, 1]);
+  return ramped(text, 'N', 0, read, d3.interpolatePuBuGn);
 }
 
 /// In the order in which they are offered; `make` is asked once, when one is chosen.

@@ -109,6 +109,14 @@ function mapOverlay(svg, frame) {
             path.verified_path ? path.label : path.label.replace('overturned ', '\u2715'),
             ...frame.screen(path.points.x_m[i], path.points.y_m[i]), 9, -7);
     }
+    for (const w of PLAN.what_ifs) {
+      if (!w.driven || !w.driven.length) continue;
+      placeLayer.append('path')
+          .attr('class', 'driven')
+          .attr('d', d3.line()(w.driven.map(([x_m, y_m]) => frame.screen(x_m, y_m))))
+          .append('title')
+          .text(w.question);
+    }
     PLAN.what_ifs.forEach((w, k) => {
       if (w.feasible || !isKnown(w.x_m) || !isKnown(w.y_m)) return;
       const [x, y] = frame.screen(w.x_m, w.y_m);
@@ -120,7 +128,7 @@ function mapOverlay(svg, frame) {
           .attr('stroke', cssVar('--alarm'))
           .attr('stroke-width', 2);
       g.append('circle').attr('cy', -24).attr('r', 9.5);
-      g.append('text').attr('y', -24).text(whatIfLetter(k));
+      g.append('text').attr('y', -24).text(letter(k));
     });
     if (view.mark) {
       const [x, y] = frame.screen(view.mark.x_m, view.mark.y_m);

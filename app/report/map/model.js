@@ -3,6 +3,8 @@
 const PLAN = REPORT, MAP = REPORT.map, TERRAIN = readTerrain(MAP), LIMITS = REPORT.problem.limits,
       VEHICLE = REPORT.problem.vehicle;
 const WEIGHT_N = VEHICLE.mass_kg * PLAN.problem.gravity_mps2;
+/// Of an entry of a list that the map names.
+const letter = k => String.fromCharCode(65 + k % 26);
 /// Axles counted from the front.
 const AXLES_X_M = [...new Set(VEHICLE.wheels.map(w => w.x_m))].sort(d3.descending);
 const axleOf = wheel => AXLES_X_M.indexOf(wheel.x_m);
@@ -11,7 +13,7 @@ const MARGINS = ['cornering', 'tip_over', 'traction'];
 const view = {
   paths: [
     ...PLAN.candidates.map(c => readPath(c, true)),
-    ...PLAN.relaxed.filter(r => r.path).map(readRelaxed),
+    ...PLAN.relaxed.map(readRelaxed).filter(Boolean),
     ...PLAN.overturned.map((c, k) => readPath(c, false, k))
   ],
   selected: null,      // a path
@@ -63,9 +65,9 @@ function readPath(candidate, verified, number) {
   };
 }
 
-/// The path that giving something up opens, called by what was given up.
-function readRelaxed({given_up, path}) {
-  return {...readPath(path, true), label: given_up, relaxed: true};
+/// The path that giving something up opens, called by the letter of what was given up.
+function readRelaxed({given_up, path}, k) {
+  return path && {...readPath(path, true), label: letter(k), given_up, relaxed: true};
 }
 
 const marginTop = d3.quantile(
@@ -133,6 +135,8 @@ function stateAt(path, i) {
       'Largest sinkage', millimetres(p.sinkage_max_m[i]),
       over(p.sinkage_max_m[i], LIMITS.sinkage_max_m)
     ],
+    ['Largest torque', fixed(p.torque_max_nm[i], 1, 'N m'), false],
+    ['Energy so far', fixed(p.energy_j[i] / 1000, 2, 'kJ'), false],
     ['Steering', fixed(p.steer_deg[i], 1, '\u00b0'), false],
     ['Heading', fixed(p.yaw_deg[i], 1, '\u00b0'), false],
     ['Position', `${fixed(p.x_m[i], 1)}, ${fixed(p.y_m[i], 1, 'm')}`, false],

@@ -50,7 +50,8 @@ const PATH_COLOURS = [
     limit: LIMITS.sinkage_max_m
   },
   {key: 'slope_deg', text: 'Slope', unit: '\u00b0', decimals: 1, limit: LIMITS.slope_max_deg},
-].map((quantity, k) => (k ? quantityColours(quantity) : quantity));
+  {key: 'energy_per_m_j', text: 'Energy per metre', unit: 'J', decimals: 0},
+].filter(({key}) => view.paths.some(p => (p.points[key] || []).some(isKnown))).map((quantity, k) => (k ? quantityColours(quantity) : quantity));
 view.pathColour = PATH_COLOURS[0];
 
 /// The colour of a piece of a path between two values: that of the worse, in forty steps, so that

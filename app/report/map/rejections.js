@@ -125,8 +125,6 @@ function rejectionDetail(state) {
   ].filter(Boolean);
 }
 
-const whatIfLetter = k => String.fromCharCode(65 + k % 26);
-
 function whatIfTable(host) {
   if (!PLAN.what_ifs.length) {
     host.append(element(
@@ -137,7 +135,11 @@ function whatIfTable(host) {
   }
   const rows = PLAN.what_ifs.map((w, k) => {
     const answer = w.feasible ?
-        element('span', {class: 'good'}, 'feasible') :
+        element(
+            'span', {class: 'good'},
+            'feasible' +
+                (isKnown(w.probability) ? `, in ${fixed(100 * w.probability, 0)} % of the draws` :
+                                          '')) :
         element(
             'span', {class: 'alarm'}, w.reason ? `rejected for ${words(w.reason)}` : 'rejected');
     const go = element(
@@ -148,14 +150,14 @@ function whatIfTable(host) {
         UNKNOWN :
         element('span', {class: 'together'}, go, ` ${fixed(w.time_s, 1, 's')}`);
     return [
-      `${whatIfLetter(k)}\u2002${w.question}`, answer, where, fixed(w.margin_min, 3),
+      `${letter(k)}\u2002${w.question}`, answer, where, fixed(w.margin_min, 3),
       fixed(w.end_shift_m, 1, 'm')
     ];
   });
   host.append(
       element(
           'p', {class: 'note'},
-          'The best candidate under other circumstances. Letters mark on the map where it is rejected; the end shift is how far from its own end the same controls lead.'),
+          'The best candidate under other circumstances. Letters mark on the map where it is rejected; the end shift is how far from its own end the same controls lead, by the dotted way.'),
       element(
           'div',
           {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': 'Table of what-ifs'},
