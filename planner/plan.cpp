@@ -383,7 +383,8 @@ class Planning {
     std::vector<std::function<WhatIf()>> questions;
     if (is_doubtful(best.candidate, problem_.limits)) {
       questions.emplace_back([&] {
-        return slow_enough(verdict_, best.replay, best.candidate.spread->draws,
+        constexpr int kDraws = 20;  // of each of several speeds: the first will do
+        return slow_enough(verdict_, best.replay, std::min(kDraws, best.candidate.spread->draws),
                            share_counted_on(problem_.limits));
       });
     }

@@ -32,10 +32,10 @@ std::string candidate_geojson(const PlanningProblem& problem, const Candidate& c
 std::vector<std::string> plan_file_names(const PlanningProblem& problem);
 
 /// Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, and where the plan has them
-/// as GeoTIFF in the map's place margin.tif, probability.tif and supply.tif, a band for each speed (see
-/// `TerrainRasters`), all or none. Takes away the candidate files and rasters of an earlier plan in
-/// the same folder that are not written again.
-/// \throws InputError where the folder takes no files
+/// as GeoTIFF in the map's place margin.tif, probability.tif and supply.tif, a band for each speed
+/// (see `TerrainRasters`), all or none. Takes away the candidate files and rasters of an earlier
+/// plan in the same folder that are not written again. \throws InputError where the folder takes no
+/// files
 void write_plan_files(const PlanningProblem& problem, const PlanResult& result,
                       const ResultFolder& folder, const PlanOrigin& origin = {});
 

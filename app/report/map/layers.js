@@ -40,9 +40,12 @@ function pathColours() {
   return legendChoice('Colour of the paths', PATH_COLOURS.map(c => c.text), 0, k => {
     view.pathColour = PATH_COLOURS[k];
     view.events.call('coloured');
-    const {domain, decimals, ramp, key} = view.pathColour;
+    const {domain, decimals, ramp, key, limited} = view.pathColour;
     if (key !== 'margin')
-      return [...rampLegend(domain, decimals, ramp, ['', '']), beyondEntry('beyond the limit')];
+      return [
+        ...rampLegend(domain, decimals, ramp, ['', '']),
+        limited ? beyondEntry('beyond the limit') : null
+      ];
     return [
       ...rampLegend(domain, decimals, ramp, [' limit', 'and more']),
       PLAN.overturned.length ? beyondEntry(view.said.under) : null

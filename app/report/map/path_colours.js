@@ -1,6 +1,6 @@
 // What the paths on the map may be coloured by: {key: column, size: what is shown of a value, text,
 // decimals, domain: of the ramp, ramp: sizes to colours, beyond: whether a size breaks its limit,
-// worst: of several sizes}.
+// limited: whether it has one, worst: of several sizes}.
 
 /// A quantity along paths that is the worse the larger it is; its ramp ends at the limit, or at the
 /// largest of the verified paths.
@@ -17,6 +17,7 @@ function quantityColours({key, text, unit, scale = 1, decimals, limit}) {
     domain: [0, high],
     ramp: d3.scaleSequential(d3.interpolateViridis).domain([0, high]).clamp(true),
     beyond: shown => shown > allowed,
+    limited: isKnown(limit),
     worst: d3.max
   };
 }
