@@ -247,13 +247,13 @@ class EffectSearch {
         may_be_wrong.push_back(true);
       }
     }
-    const ResidualNoise noise({.residuals = data,
-                               .columns = std::move(global),
-                               .may_be_wrong = std::move(may_be_wrong),
-                               .inputs = inputs,
-                               .follows = contest_.follows,
-                               .reference = std::move(reference),
-                               .sampled_std = comparison_.sampled_std()});
+    ResidualNoise noise({.residuals = data,
+                         .columns = std::move(global),
+                         .may_be_wrong = std::move(may_be_wrong),
+                         .inputs = inputs,
+                         .follows = contest_.follows,
+                         .reference = std::move(reference),
+                         .sampled_std = comparison_.sampled_std()});
     noise_ = noise.scales();
     contest_.data = noise.whitened(data);
     contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(columns.size()));

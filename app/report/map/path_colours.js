@@ -52,7 +52,9 @@ const PATH_COLOURS = [
   },
   {key: 'slope_deg', text: 'Slope', unit: '\u00b0', decimals: 1, limit: LIMITS.slope_max_deg},
   {key: 'energy_per_m_j', text: 'Energy per metre', unit: 'J', decimals: 0},
-].filter(({key}) => view.paths.some(p => (p.points[key] || []).some(isKnown))).map((quantity, k) => (k ? quantityColours(quantity) : quantity));
+]
+    .filter(({key}) => key === 'margin' || view.paths.some(p => (p.points[key] || []).some(isKnown)))
+    .map((quantity, k) => (k ? quantityColours(quantity) : quantity));
 view.pathColour = PATH_COLOURS[0];
 
 /// The colour of a piece of a path between two values: that of the worse, in forty steps, so that
