@@ -291,6 +291,16 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   }
 }
 
+DriveVerdict verdict_of(const DriveDiagnosis& diagnosis) {
+  if (diagnosis.claims.empty()) {
+    const bool compared = diagnosis.effects || diagnosis.currents;
+    return compared ? DriveVerdict::kConsistent : DriveVerdict::kUndecided;
+  }
+  const bool a_class = std::ranges::any_of(
+      diagnosis.claims, [](const DriveClaim& claim) { return claim.equivalent.size() > 1; });
+  return a_class ? DriveVerdict::kClass : DriveVerdict::kNamed;
+}
+
 /// What the windows of all drives say together.
 void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
              const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
@@ -312,11 +322,7 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   }
   if (result.effects) claim_effects(setup, drives, result);
   say_what_is_silent(setup, drives, result);
-  const bool a_class = std::ranges::any_of(
-      result.claims, [](const DriveClaim& claim) { return claim.equivalent.size() > 1; });
-  result.verdict = result.claims.empty() ? DriveVerdict::kConsistent
-                   : a_class             ? DriveVerdict::kClass
-                                         : DriveVerdict::kNamed;
+  result.verdict = verdict_of(result);
 }
 
 }  // namespace

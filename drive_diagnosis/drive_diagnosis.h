@@ -58,7 +58,8 @@ struct SilentEffect {
   std::string drive;
 };
 
-/// Of drives: a class where their claims cannot tell names apart.
+/// Of drives: undecided where nothing is claimed and neither vehicle nor currents could be
+/// compared, a class where their claims cannot tell names apart.
 enum class DriveVerdict { kUndecided, kConsistent, kNamed, kClass };
 
 /// `undecided`, `consistent`, `named`, `class`.

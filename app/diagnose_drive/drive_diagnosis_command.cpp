@@ -80,7 +80,8 @@ ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
                  (corrected.path / "scenario.yaml").string());
     }
   }
-  return run.diagnosis.interrupted ? kInterrupted : kYes;
+  if (run.diagnosis.interrupted) return kInterrupted;
+  return run.diagnosis.verdict == DriveVerdict::kUndecided ? kNo : kYes;
 }
 
 }  // namespace regoplan

@@ -214,6 +214,7 @@ std::string windows_csv(const DriveDiagnosisRun& run) {
 std::string drive_diagnosis_summary(const DriveDiagnosisRun& run) {
   const DriveDiagnosis& diagnosis = run.diagnosis;
   std::string text = drive_diagnosis_headline(run) + "\n";
+  if (const auto what = what_would_decide(diagnosis)) text += *what + "\n";
   for (const DriveClaim& claim : diagnosis.claims) {
     text += fmt::format("  {}: {}\n", fmt::join(claim.equivalent, " | "), claim.text);
   }

@@ -17,6 +17,9 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
   const std::string of = run.drive_ids.size() == 1 ? std::string("1 drive")
                                                    : fmt::format("{} drives", run.drive_ids.size());
   if (diagnosis.interrupted) return fmt::format("Interrupted: {}, not diagnosed yet.", of);
+  if (diagnosis.verdict == DriveVerdict::kUndecided) {
+    return fmt::format("Undecided: nothing of {} could be compared with the model.", of);
+  }
   if (diagnosis.claims.empty()) {
     return fmt::format("Consistent: in {} nothing is otherwise than the model has it.", of);
   }
@@ -25,6 +28,12 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
   return fmt::format("{} in {}: {}.",
                      diagnosis.verdict == DriveVerdict::kClass ? "Told as a class" : "Named", of,
                      fmt::join(names, ", "));
+}
+
+std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis) {
+  if (diagnosis.verdict != DriveVerdict::kUndecided || diagnosis.silent.empty()) return {};
+  const SilentEffect& first = diagnosis.silent.front();
+  return fmt::format("Why: {}. What would decide: {}.", first.why, first.drive);
 }
 
 std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
@@ -39,6 +48,7 @@ std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
   }
   data["track"] = std::move(track);
   std::vector<std::string> lead;
+  if (const auto what = what_would_decide(run.diagnosis)) lead.push_back(*what);
   for (const DriveClaim& claim : run.diagnosis.claims) {
     lead.push_back(fmt::format("{}: {}.", fmt::join(claim.equivalent, " or "), claim.text));
   }

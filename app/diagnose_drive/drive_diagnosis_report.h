@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/diagnose_drive/drive_diagnosis_files.h"
@@ -8,6 +9,10 @@ namespace regoplan {
 
 /// The finding in one sentence.
 std::string drive_diagnosis_headline(const DriveDiagnosisRun& run);
+
+/// Why nothing could be decided and the drive that would decide, in two sentences; nothing where
+/// something was decided.
+std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis);
 
 /// A diagnosis of drives for people: one self-contained HTML page.
 std::string drive_diagnosis_report(const DriveDiagnosisRun& run);

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
 #include "tests/app/scratch_folder.h"
 
@@ -46,6 +47,7 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
   const ProgramRun said = run("diagnose '" + folder_.path("driven/drive.csv") + "' --scenario '" +
                               s + "' --out '" + out + "'");
   ASSERT_EQ(said.status, 0) << said.errors;
+  EXPECT_EQ(schema("drive-diagnosis").errors(diagnosis()), std::vector<std::string>());
   const nlohmann::json zones = diagnosis()["zones"];
   ASSERT_EQ(zones.size(), 1u) << diagnosis()["mechanisms"];
   EXPECT_EQ(zones[0]["map_soil"], "firm_regolith");
@@ -60,6 +62,22 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
   EXPECT_EQ(again.status, 0) << again.errors;
   const auto plan = nlohmann::json::parse(folder_.read("second/plan.json"));
   EXPECT_EQ(plan["status"], "feasible");
+}
+
+TEST_F(DriveDiagnosisProgram, ADriveTooShortToCompareIsUndecidedNotConsistent) {
+  std::string path = "x_m,y_m,speed_mps\n20,30,0\n35,30,1.2\n";
+  folder_.write("short.csv", path);
+  const std::string s = folder_.path("s.yaml");
+  run("drive '" + s + "' '" + folder_.path("short.csv") + "' --sensors A --out '" +
+      folder_.path("driven") + "'");
+  const ProgramRun said = run("diagnose '" + folder_.path("driven/drive.csv") + "' --scenario '" +
+                              s + "' --out '" + folder_.path("said") + "'");
+  EXPECT_EQ(said.status, 2) << said.errors;
+  EXPECT_EQ(diagnosis()["verdict"], "undecided");
+  EXPECT_EQ(schema("drive-diagnosis").errors(diagnosis()), std::vector<std::string>());
+  EXPECT_NE(said.output.find("Undecided: nothing of 1 drive could be compared"), std::string::npos)
+      << said.output;
+  EXPECT_NE(said.output.find("What would decide: a minute on the map"), std::string::npos);
 }
 
 }  // namespace

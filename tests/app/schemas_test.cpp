@@ -70,6 +70,10 @@ TEST(Schemas, HoldWhatRunsWrite) {
   };
   ASSERT_EQ(run("plan --iterations 200 --candidates 1", scenario).status, 0);
   expect_kept("plan", folder.read("out/plan.json"));
+  const ProgramRun map = run_program(
+      folder, fmt::format("map info --json '{}' '{}'", scenario, folder.path("dem.tif")));
+  ASSERT_EQ(map.status, 0) << map.errors;
+  expect_kept("map", map.output);
   const std::string found = folder.path("out/candidate-1.csv");
   const ProgramRun judged = run("evaluate '" + scenario + "'", found);
   ASSERT_EQ(judged.status, 0) << judged.errors;
