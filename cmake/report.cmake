@@ -42,8 +42,8 @@ regoplan_embed(
   kDiagnosisHtml app/report/diagnosis/diagnosis.html
   kDiagnosisScript ${diagnosis_scripts}
   kDrivesHtml app/report/drives/drives.html
-  kDrivesScript app/report/drives/main.js
+  kDrivesScript app/report/map/terrain.js app/report/map/map_chart.js app/report/drives/main.js
   kCompareHtml app/report/compare/compare.html
-  kCompareScript app/report/compare/main.js
+  kCompareScript app/report/map/map_chart.js app/report/compare/main.js
   kBenchmarkHtml app/report/benchmark/benchmark.html
-  kBenchmarkScript app/report/map/terrain.js ${benchmark_scripts})
+  kBenchmarkScript app/report/map/terrain.js app/report/map/map_chart.js ${benchmark_scripts})

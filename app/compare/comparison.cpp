@@ -1,6 +1,7 @@
 #include "app/compare/comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -99,10 +100,15 @@ std::string outcome_text(const ComparedResult& a, const Comparison& comparison) 
     ++(gain > 0 ? better : gain < 0 ? worse : same);
   }
   if (both == 0) return "They have nothing of one name.";
-  const int untold = both - better - worse - same;
-  return fmt::format("Of {} in both, B is better for {}, worse for {}, the same for {}{} ({}).",
-                     both, better, worse, same,
-                     untold > 0 ? fmt::format(", not known for {}", untold) : "", metric.words);
+  std::vector<std::string> parts;
+  const auto tell = [&](std::string_view how, int count) {
+    if (count > 0) parts.push_back(fmt::format("{} for {}", how, count));
+  };
+  tell("better", better);
+  tell("worse", worse);
+  tell("the same", same);
+  tell("not known", both - better - worse - same);
+  return fmt::format("Of {} in both, B is {} ({}).", both, fmt::join(parts, ", "), metric.words);
 }
 
 Json entry_json(const ComparedEntry* entry, const std::vector<ComparedMetric>& metrics) {

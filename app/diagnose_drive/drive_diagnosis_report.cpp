@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/page/report_assets.h"
+#include "app/page/report_map.h"
 #include "app/page/report_page.h"
 
 namespace regoplan {
@@ -36,17 +37,38 @@ std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis) {
   return fmt::format("Why: {}. What would decide: {}.", first.why, first.drive);
 }
 
+namespace {
+
+/// A page under 5 MB: the map and the tracks as fine as a person can see.
+constexpr ReportMapDetail kSmall{.cells_a_side = 400, .rocks = 4000};
+constexpr std::size_t kPlacesDrawn = 4000;
+
+/// Where was driven: the windows' places, a stretch each time nothing was sampled for long.
+nlohmann::json tracks_json(const std::vector<DriveWindow>& windows) {
+  const std::size_t step = std::max<std::size_t>(1, windows.size() / kPlacesDrawn);
+  nlohmann::json tracks = nlohmann::json::array();
+  const DriveWindow* last = nullptr;
+  for (std::size_t i = 0; i < windows.size(); i += step) {
+    const DriveWindow& window = windows[i];
+    if (std::isnan(window.x_m)) continue;
+    const double gap_max_s = 3 * static_cast<double>(step) * (window.end_s - window.start_s);
+    const bool goes_on =
+        last && last->drive == window.drive && window.start_s - last->end_s < gap_max_s;
+    if (!goes_on) {
+      tracks.push_back({{"drive", window.drive}, {"points", nlohmann::json::array()}});
+    }
+    tracks.back()["points"].push_back({window.x_m, window.y_m});
+    last = &window;
+  }
+  return tracks;
+}
+
+}  // namespace
+
 std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
   nlohmann::json data = nlohmann::json::parse(drive_diagnosis_json(run));
-  constexpr std::size_t kDrawn = 4000;
-  const std::size_t step = std::max<std::size_t>(1, run.diagnosis.windows.size() / kDrawn);
-  nlohmann::json track = nlohmann::json::array();
-  for (std::size_t i = 0; i < run.diagnosis.windows.size(); i += step) {
-    const DriveWindow& window = run.diagnosis.windows[i];
-    if (std::isnan(window.x_m)) continue;
-    track.push_back({window.x_m, window.y_m, window.drive});
-  }
-  data["track"] = std::move(track);
+  data["tracks"] = tracks_json(run.diagnosis.windows);
+  data["map"] = report_map(run.setup.setup.map, kSmall);
   std::vector<std::string> lead;
   if (const auto what = what_would_decide(run.diagnosis)) lead.push_back(*what);
   for (const DriveClaim& claim : run.diagnosis.claims) {

@@ -87,7 +87,7 @@ Command add_map_import_command(CLI::App& map) {
       ->type_name("DIR")
       ->required();
   add_stub_options(*parser, options->stub);
-  parser->get_option("--gravity-mps2")->required();
+  parser->get_option("--gravity-mps2")->required()->default_str("");
   add_force_flag(*parser, options->out);
   add_network_flag(*parser);
   add_output_flags(*parser, options->json, options->quiet);

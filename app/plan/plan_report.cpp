@@ -105,7 +105,9 @@ std::vector<std::string> lead_sentences(const PlanResult& result) {
     sentences.emplace_back("The search was interrupted: this is what it had found by then.");
   if (result.status == PlanStatus::kFeasible && !result.reason.empty())
     sentences.push_back(with_stop(result.reason));
-  if (result.certificate) sentences.push_back("Shown by: " + with_stop(*result.certificate));
+  if (result.certificate && *result.certificate != result.reason) {
+    sentences.push_back("Shown by: " + with_stop(*result.certificate));
+  }
   if (!result.candidates.empty()) sentences.push_back(soil_sentence(result.candidates.front()));
   if (std::string sentence = gap_sentence(result); !sentence.empty())
     sentences.push_back(std::move(sentence));

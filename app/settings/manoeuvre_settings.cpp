@@ -91,6 +91,23 @@ void read_shape(SettingsMapping& mapping, Manoeuvre& m) {
   }
 }
 
+/// What tells manoeuvres of one kind apart beside vehicle, soil, speed and slope; ends in ", ".
+std::string shape_text(const Manoeuvre& m) {
+  switch (m.kind) {
+    case ManoeuvreKind::kBrakingInATurn:
+    case ManoeuvreKind::kSteadyTurn:
+      return fmt::format("radius {} m, ", m.radius_m);
+    case ManoeuvreKind::kLaneChange:
+      return fmt::format("{} m in {} m, ", m.offset_m, m.length_m);
+    case ManoeuvreKind::kSlalom:
+      return fmt::format("{} m each {} m, ", m.amplitude_m, m.wavelength_m);
+    case ManoeuvreKind::kSlopeTraverse:
+    case ManoeuvreKind::kPointTurn:
+      return "";
+  }
+  return "";
+}
+
 std::vector<Manoeuvre> read_one(const SettingsNode& node, const PlanningProblem& problem,
                                 const std::filesystem::path& folder) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
@@ -137,8 +154,8 @@ std::vector<Manoeuvre> read_one(const SettingsNode& node, const PlanningProblem&
             one.slope_rad = slope * kDegree;
             (turns ? one.turn_rate_rad_s : one.speed_mps) = turns ? speed * kDegree : speed;
             if (one.braking_mps2 == 0) one.braking_mps2 = vehicle.acceleration_max_mps2;
-            one.name = fmt::format("{}: {}, {}, {} {}, {} deg", base_name, vehicle.name, soil.name,
-                                   speed, turns ? "deg/s" : "m/s", slope);
+            one.name = fmt::format("{}: {}{}, {}, {} {}, slope {} deg", base_name, shape_text(one),
+                                   vehicle.name, soil.name, speed, turns ? "deg/s" : "m/s", slope);
             all.push_back(std::move(one));
           }
         }

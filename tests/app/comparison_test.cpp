@@ -47,7 +47,7 @@ TEST(Comparison, OfAResultWithItselfSaysThatNothingDiffers) {
   EXPECT_TRUE(same.inputs.empty());
   EXPECT_EQ(changed(same, "candidate 1", "margin_p05"), 0);
   EXPECT_EQ(comparison_headline(a, a, same),
-            "Of 1 in both, B is better for 0, worse for 0, the same for 1 (margin, 5 % of soils). "
+            "Of 1 in both, B is the same for 1 (margin, 5 % of soils). "
             "The same was asked of both.");
 }
 
@@ -62,9 +62,7 @@ TEST(Comparison, HoldsEntriesOfOneNameAgainstEachOther) {
   EXPECT_EQ(comparison.pairs[1].b, nullptr);
   EXPECT_EQ(comparison.pairs[2].name, "candidate 3");
   EXPECT_EQ(comparison.pairs[2].a, nullptr);
-  EXPECT_NE(comparison_headline(a, b, comparison)
-                .find("Of 1 in both, B is better for 0, worse "
-                      "for 1"),
+  EXPECT_NE(comparison_headline(a, b, comparison).find("Of 1 in both, B is worse for 1 (margin"),
             std::string::npos);
 }
 

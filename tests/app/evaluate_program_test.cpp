@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"
@@ -135,6 +136,23 @@ TEST_F(Evaluate, ManoeuvresStandForEachCombination) {
   ASSERT_EQ(paths.size(), 3);
   EXPECT_FALSE(paths[2]["feasible"]);
   EXPECT_EQ(paths[2]["refusal"]["reason"], "cornering");
+}
+
+TEST_F(Evaluate, ManoeuvresThatDifferInShapeAloneHaveNamesOfTheirOwn) {
+  const ProgramRun run = evaluate(
+      "--manoeuvres " +
+      file("m.yaml",
+           "- {kind: steady_turn, radius_m: 12, angle_deg: 20, speed_mps: 1}\n"
+           "- {kind: steady_turn, radius_m: 15, angle_deg: 20, speed_mps: 1}\n"
+           "- {kind: lane_change, offset_m: 1, length_m: 12, speed_mps: 1}\n"
+           "- {kind: lane_change, offset_m: 1, length_m: 15, speed_mps: 1}\n"
+           "- {kind: slalom, amplitude_m: 0.5, wavelength_m: 15, waves: 1, speed_mps: 1}\n"));
+  ASSERT_EQ(run.status, 0) << run.errors;
+  std::set<std::string> names;
+  const nlohmann::json paths = result()["paths"];
+  for (const nlohmann::json& path : paths) names.insert(path["manoeuvre"].get<std::string>());
+  EXPECT_EQ(names.size(), 5U);
+  EXPECT_TRUE(names.contains("steady_turn: radius 12 m, lrv, mare, 1 m/s, slope 0 deg"));
 }
 
 TEST_F(Evaluate, ExtraColumnsAreNoticedOnce) {

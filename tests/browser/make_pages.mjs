@@ -61,6 +61,9 @@ vehicle: {wheels: {front_left: {steer_offset_deg: 12}}}
 regoplan(
     'drive', scenario('fast_corner'), join(folder, 'tight.csv'), '--sensors', 'B', '--truth',
     join(folder, 'truth.yaml'), '--out', join(folder, 'drive'));
+regoplan(
+    'diagnose', join(folder, 'drive/drive.csv'), '--scenario', scenario('fast_corner'), '--out',
+    join(folder, 'drives'));
 const recording = name => join(source, 'scenarios/diagnosis', name);
 regoplan(
     'diagnose', recording('recording.csv'), '--setup', recording('setup.yaml'), '--out',

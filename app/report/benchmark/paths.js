@@ -1,17 +1,5 @@
 // Verified paths of one experiment over its terrain, a picture for each planner, on one scale.
 
-/// The terrain of an experiment as a picture in the theme's light; nothing where it is not known.
-const shades = new Map();
-function shadeOf(experiment) {
-  if (!experiment.map) return null;
-  const key = `${experiment.name}|${isDark()}`;
-  if (!shades.has(key)) {
-    const terrain = readTerrain(experiment.map);
-    shades.set(key, hillshade(terrain, shadingStretch(terrain), isDark()).toDataURL());
-  }
-  return shades.get(key);
-}
-
 function paths(host) {
   const {experiment} = shown;
   const drivenBy = planner => verifiedRuns(planner).filter(r => r.path && r.path.length);
@@ -36,20 +24,8 @@ function pathFigure(experiment, planner, runs, xs, ys) {
     })
   };
   return figure(spec, (svg, width) => {
-           const around_m = 6, across_m = xs[1] - xs[0] + 2 * around_m,
-                 up_m = ys[1] - ys[0] + 2 * around_m;
-           const margin = {left: 44, right: 14, top: 20, bottom: 36};
-           const room = width - margin.left - margin.right;
-           const height =
-               Math.max(150, Math.min(420, room * up_m / across_m)) + margin.top + margin.bottom;
-           const box = chartBox(svg, width, height, margin);
-           const scale = Math.min(room / across_m, (box.bottom - box.top) / up_m);
-           const axis = ([low, high], from, to) => {
-             const half = Math.abs(to - from) / scale / 2, middle = (low + high) / 2;
-             return d3.scaleLinear().domain([middle - half, middle + half]).range([from, to]);
-           };
-           const x = axis(xs, box.left, box.right), y = axis(ys, box.bottom, box.top);
-           drawGround(svg, box, experiment, x, y);
+           const chart = mapChart(svg, width, xs, ys, {height_max: 420}), {box, x, y} = chart;
+           if (experiment.map) drawGround(svg, chart, experiment.map);
            drawAxes(
                svg, box, {scale: x, title: 'x, m'},
                {scale: y, title: 'y, m', grid: !experiment.map});
@@ -66,34 +42,6 @@ function pathFigure(experiment, planner, runs, xs, ys) {
                run => run.path.filter((_, i) => i % 4 === 0)
                           .map(p => ({x: x(p[0]), y: y(p[1]), text: said(run)})));
          }).node;
-}
-
-/// Hillshade and rocks below the paths, cut off at the axes.
-function drawGround(svg, box, experiment, x, y) {
-  const {map} = experiment, shade = shadeOf(experiment);
-  if (!shade) return;
-  const id = `ground-${experiment.name}-${box.width}`.replace(/[^\w-]/g, '_');
-  svg.append('clipPath')
-      .attr('id', id)
-      .append('rect')
-      .attr('x', box.left)
-      .attr('y', box.top)
-      .attr('width', box.right - box.left)
-      .attr('height', box.bottom - box.top);
-  const ground = svg.append('g').attr('clip-path', `url(#${id})`);
-  ground.append('image')
-      .attr('href', shade)
-      .attr('preserveAspectRatio', 'none')
-      .attr('x', x(map.west_m))
-      .attr('y', y(map.north_m))
-      .attr('width', x(map.west_m + map.raster.columns * map.raster.cell_width_m) - x(map.west_m))
-      .attr('height', y(map.north_m - map.raster.rows * map.raster.cell_height_m) - y(map.north_m));
-  for (const [x_m, y_m, radius_m] of map.rocks)
-    ground.append('circle')
-        .attr('class', 'rock')
-        .attr('cx', x(x_m))
-        .attr('cy', y(y_m))
-        .attr('r', Math.max(0.6, x(x_m + radius_m) - x(x_m)));
 }
 
 /// A circle where all paths start, a square where each ends.

@@ -1,10 +1,11 @@
 // Draws two results of one kind side by side.
 const SIDES = ['a', 'b'];
-const SERIES = ['--series-1', '--series-2', '--series-3', '--series-4'];
-const colourOf = index => cssVar(SERIES[index % SERIES.length]);
 const DASH = {a: null, b: '6 4'};
+/// What has no unit is a margin or a share: thousandths say enough.
 const withUnit = (value, unit) =>
-    (isKnown(value) ? significant(value) + (unit ? `\u00a0${unit}` : '') : UNKNOWN);
+    (!isKnown(value) ? UNKNOWN :
+         unit        ? `${significant(value)}\u00a0${unit}` :
+                       fixed(value, 3));
 
 /// A change with its sign, coloured by whether it is for the better.
 function changeNode(change, {unit, more_is_better}) {
@@ -43,7 +44,7 @@ const PATHS = REPORT.entries.flatMap(
 
 const pathKeys = () => PATHS.map(({name, side, index}) => ({
   name: `${name}, ${side.toUpperCase()}`,
-  colour: colourOf(index),
+  colour: seriesColour(index),
   dash: DASH[side]
 }));
 
@@ -51,7 +52,7 @@ function drawPath(svg, {index, side}, d) {
   svg.append('path')
       .attr('d', d)
       .attr('fill', 'none')
-      .attr('stroke', colourOf(index))
+      .attr('stroke', seriesColour(index))
       .attr('stroke-width', 2)
       .attr('stroke-dasharray', DASH[side]);
 }
@@ -59,15 +60,8 @@ function drawPath(svg, {index, side}, d) {
 /// North up, one scale on both axes.
 function drawMap(svg, width) {
   const points = PATHS.flatMap(path => path.points);
-  const [west, east] = d3.extent(points, p => p[0]);
-  const [south, north] = d3.extent(points, p => p[1]);
-  const span_m = Math.max(east - west, 1e-9), tall_m = Math.max(north - south, 1e-9);
-  const height = Math.min(560, Math.max(180, (width - 70) * tall_m / span_m + 54));
-  const box = chartBox(svg, width, height, {left: 60, right: 14, top: 20, bottom: 34});
-  const per_m = Math.min((box.right - box.left) / span_m, (box.bottom - box.top) / tall_m);
-  box.right = Math.min(box.right, box.left + Math.max(span_m * per_m, 160));
-  const x = d3.scaleLinear([west, west + (box.right - box.left) / per_m], [box.left, box.right]);
-  const y = d3.scaleLinear([south, south + (box.bottom - box.top) / per_m], [box.bottom, box.top]);
+  const extent = axis => d3.extent(points, p => p[axis]);
+  const {box, x, y} = mapChart(svg, width, extent(0), extent(1), {around_m: 2, tight: true});
   drawAxes(svg, box, {scale: x, title: 'x, m'}, {scale: y, title: 'y, m'});
   for (const path of PATHS) drawPath(svg, path, d3.line()(path.points.map(p => [x(p[0]), y(p[1])])));
   return [];

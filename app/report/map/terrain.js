@@ -128,12 +128,14 @@ function smoothed(terrain) {
 }
 
 /// Contour lines as {interval_m, fine, bold}, two Path2D in raster cells; every fifth line is bold.
+/// Lines closer than 5 cm would draw the roughness of ground that is level.
+const CONTOUR_LEAST_M = 0.05;
 function contourLines(terrain) {
   const {columns, rows} = terrain, heights = smoothed(terrain);
   const [low, high] = d3.extent(heights.filter(h => !Number.isNaN(h)));
   const paths = {interval_m: 0, fine: new Path2D(), bold: new Path2D()};
   if (!(high > low)) return paths;
-  paths.interval_m = d3.tickStep(low, high, 15);
+  paths.interval_m = Math.max(CONTOUR_LEAST_M, d3.tickStep(low, high, 15));
   const first = Math.ceil(low / paths.interval_m), last = Math.floor(high / paths.interval_m);
   const unknown = (x, y) => {
     for (const r of [Math.floor(y - 0.5), Math.ceil(y - 0.5)])

@@ -46,6 +46,7 @@ const UNIT_ENDINGS = [
   ['_1pms', '1/(m s)'],
   ['_1pm', '1/m'],
   ['_mps', 'm/s'],
+  ['_rad_s', 'rad/s'],
   ['_rad', 'rad'],
   ['_nm', 'N m'],
   ['_deg', '\u00b0'],

@@ -9,6 +9,9 @@ playback(byId('playback'));
 vehicleFigure(byId('vehicle'));
 layerPanel(byId('layers'), mapView(byId('map')));
 charts(byId('charts'));
-if (view.selected) setCursor(view.selected, worstIndex(view.selected));
+if (view.selected)
+  setCursor(view.selected, worstIndex(view.selected));
+else
+  byId('along-map').hidden = true;
 view.events.call('marks');
 document.documentElement.dataset.drawn = 'yes';
