@@ -19,4 +19,4 @@ endforeach()
 set_tests_properties(Browser.MakesThePages ${browser_names}
                      PROPERTIES LABELS browser TIMEOUT 300 SKIP_RETURN_CODE 77)
 # It holds in how long a page opens: beside other tests that would say how busy the machine is.
-set_tests_properties(Browser.every_report PROPERTIES RUN_SERIAL ON)
+set_tests_properties(Browser.opens_soon PROPERTIES RUN_SERIAL ON)

@@ -256,14 +256,14 @@ ElevationRaster read_elevation(const std::string& file, const HeightReading& rea
     known = true;
     return static_cast<float>(value);
   };
-  constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kNoHeight_m = std::numeric_limits<float>::quiet_NaN();
   // Through double only where float would lose digits or range before scale and nodata are seen.
   const bool float_holds_it = GDALGetDataTypeSizeBits(band.GetRasterDataType()) <= 16 ||
                               band.GetRasterDataType() == GDT_Float32;
   raster.height_m =
       float_holds_it
-          ? convert_cells<float, float>(band, GDT_Float32, file, reading, kUnknown, height)
-          : convert_cells<double, float>(band, GDT_Float64, file, reading, kUnknown, height);
+          ? convert_cells<float, float>(band, GDT_Float32, file, reading, kNoHeight_m, height)
+          : convert_cells<double, float>(band, GDT_Float64, file, reading, kNoHeight_m, height);
   if (!known) fail_raster(file, "no cell is known: every cell is nodata");
   check_for_undeclared_nodata(raster, reading.scale.value_or(band.GetScale()),
                               reading.offset_m.value_or(band.GetOffset()), file);

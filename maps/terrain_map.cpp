@@ -142,9 +142,9 @@ TerrainMap::TerrainMap(ElevationRaster elevation, std::optional<ClassRaster> cla
 
 double TerrainMap::max_height_m(double x_min_m, double x_max_m, double y_min_m,
                                 double y_max_m) const {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNotKnown_m = std::numeric_limits<double>::quiet_NaN();
   const GridFrame& frame = ground_->elevation.frame;
-  if (!covers(frame, x_min_m, y_min_m) || !covers(frame, x_max_m, y_max_m)) return kUnknown;
+  if (!covers(frame, x_min_m, y_min_m) || !covers(frame, x_max_m, y_max_m)) return kNotKnown_m;
   const auto column = [&](double x_m) {
     return std::clamp((x_m - frame.west_m) / frame.cell_width_m - 0.5, 0.0,
                       static_cast<double>(frame.columns - 1));
@@ -166,7 +166,7 @@ double TerrainMap::max_height_m(double x_min_m, double x_max_m, double y_min_m,
       highest = std::max(highest, cells[c]);
     }
   }
-  return unknown ? kUnknown : highest;
+  return unknown ? kNotKnown_m : highest;
 }
 
 TerrainMap TerrainMap::with_soils(std::vector<MapSoil> soils) const {

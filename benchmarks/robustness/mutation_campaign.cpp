@@ -81,7 +81,7 @@ void read_once(const Reader& reader, const std::string& input, Record& record) {
                        Record& record, Clock::time_point end) {
   const std::vector<std::string> seeds = seeds_of(reader, options.seeds);
   enter_scratch_folder();
-#ifndef __SANITIZE_ADDRESS__
+#ifndef REGOPLAN_SANITIZED
   const rlimit limit{kBytesARun, kBytesARun};
   setrlimit(RLIMIT_AS, &limit);
 #endif

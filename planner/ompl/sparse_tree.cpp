@@ -9,7 +9,8 @@ namespace regoplan {
 
 SparseTree::SparseTree(const PlanningProblem& problem) : problem_(problem) {
   const double radius_m = 1 / problem.vehicle.curvature_max_1pm;
-  witness_size_ = {.cell_m = radius_m / 2, .headings = 16, .speeds = 3};
+  witness_size_ = {
+      .cell_m = radius_m / 2, .headings = 16, .speeds = 3, .speed_max_mps = problem.speed_max_mps};
   bucket_m_ = 2 * radius_m;
   near_m_ = 2 * radius_m;
   const GridFrame& frame = problem.map.elevation().frame;

@@ -41,9 +41,9 @@ double curvature_reach_1pm(const World& world, double x_m, double y_m, double sp
 
 double drawn_speed_mps(const PlanningProblem& problem, ompl::RNG& random) {
   // Shares of the top speed; downhill the vehicle is faster than its rims, so they stay below it.
-  constexpr double kSlowest = 0.3, kCruise = 0.93;
+  constexpr double kLeastShare = 0.3, kCruiseShare = 0.93;
   const bool cruises = random.uniform01() < 0.5;
-  return problem.speed_max_mps * (cruises ? kCruise : random.uniformReal(kSlowest, 1));
+  return problem.speed_max_mps * (cruises ? kCruiseShare : random.uniformReal(kLeastShare, 1));
 }
 
 VehicleControl drawn_control(const World& world, const VehicleState& from, ompl::RNG& random) {

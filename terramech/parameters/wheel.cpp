@@ -7,10 +7,10 @@
 namespace regoplan {
 
 void validate(const Wheel& wheel) {
-  constexpr double kLongest_m = 100;
+  constexpr double kLargest_m = 100;
   for (const auto& [name, value] :
        {std::pair{"radius_m", wheel.radius_m}, std::pair{"width_m", wheel.width_m}}) {
-    if (!(value > 0 && value <= kLongest_m)) throw ValueError(name, value, "above 0 to 100");
+    if (!(value > 0 && value <= kLargest_m)) throw ValueError(name, value, "above 0 to 100");
   }
 }
 

@@ -117,18 +117,22 @@ TEST_F(EffectiveSettings, WhatIsFoundIsImprovedUnlessSomebodySaysNo) {
   std::string text = replaced(flat_scenario(), "goal: {x_m: 30, y_m: 20, radius_m: 3}",
                               "goal: {x_m: 22, y_m: 32, radius_m: 1.5}");
   text = replaced(text, "planner: {iterations: 200}",
-                  "planner: {name: RRT, iterations: 500, candidates: 1, soil_draws: 5, seed: 2}");
+                  "planner: {name: RRT, iterations: 500, candidates: 1, soil_draws: 5}");
   const std::string scenario = folder_.write("scenario.yaml", text);
-  const auto improved = [&](const std::string& flags) {
-    const ProgramRun run = run_program(
-        folder_, "plan '" + scenario + "' --out '" + folder_.path("out") + "' " + flags);
+  const auto improved = [&](int seed, const std::string& flags) {
+    const ProgramRun run =
+        run_program(folder_, fmt::format("plan '{}' --out '{}' --seed {} {}", scenario,
+                                         folder_.path("out"), seed, flags));
     EXPECT_EQ(run.status, 0) << run.errors;
     return Json::parse(folder_.read("out/plan.json")).at("candidates").at(0).at("improved");
   };
-  const Json by_default = improved("");
+  // Now and then a tree's first path is one that nothing betters.
+  int seed = 2;
+  Json by_default = improved(seed, "");
+  while (by_default.is_null() && seed < 6) by_default = improved(++seed, "");
   ASSERT_FALSE(by_default.is_null());
   EXPECT_LT(by_default.at("cost_after"), by_default.at("cost_before"));
-  EXPECT_TRUE(improved("--no-improve").is_null());
+  EXPECT_TRUE(improved(seed, "--no-improve").is_null());
 }
 
 /// What docs/scenario.md gives as the default of a key.

@@ -126,7 +126,7 @@ TEST_F(RasterSources, AreJudgedAgainstTheMemoryBeforeTheyAreRead) {
     large = replaced(large, size, replaced(size, "40", "30000"));
   }
   folder_.write("large.vrt", large);
-#ifdef __SANITIZE_ADDRESS__
+#ifdef REGOPLAN_SANITIZED
   GTEST_SKIP() << "the sanitizer takes more address space than the limit of this test";
 #endif
   expect_refusal(run_program(folder_, fmt::format("map info '{}'", folder_.path("large.vrt")),

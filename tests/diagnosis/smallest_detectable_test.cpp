@@ -33,8 +33,8 @@ TEST(SmallestDetectable, AnEffectOfTwiceThatSizeIsDetected) {
   const std::map<std::string, std::string> kForms{
       {"front_bulldozing", "eta"}, {"lateral_digging", "kappa"}, {"sidewall_shear", "eta"}};
   for (const auto& [id, parameter] : kForms) {
-    const auto smallest =
-        std::ranges::find_if(silent.smallest_detectable, [&](const auto& s) { return s.id == id; });
+    const auto smallest = std::ranges::find_if(silent.smallest_detectable,
+                                               [&id = id](const auto& s) { return s.id == id; });
     ASSERT_NE(smallest, silent.smallest_detectable.end()) << id;
     ASSERT_EQ(smallest->parameter, parameter);
     const Recording recording =

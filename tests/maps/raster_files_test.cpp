@@ -224,11 +224,16 @@ TEST(RasterFiles, FeetAreRefused) {
 
 TEST(RasterFiles, HeightsInAnotherUnitAreRefusedWithTheScaleThatMendsThem) {
   const TemporaryFolder folder;
-  for (const auto& [unit, scale] :
-       {std::pair{"ft", "--scale 0.3048"}, std::pair{"US survey foot", "--scale 0.3048006096"},
-        std::pair{"cm", "--scale 0.01"}, std::pair{"kilometre", "--scale 1000"},
-        std::pair{"furlong", "--scale METRES_A_UNIT"}}) {
-    EXPECT_TRUE(refuses([&] { read_elevation(write(folder, {.unit = unit})); }, {unit, scale}));
+  struct UnitAndScale {
+    const char *unit, *scale;
+  };
+  for (const UnitAndScale& in :
+       {UnitAndScale{"ft", "--scale 0.3048"},
+        UnitAndScale{"US survey foot", "--scale 0.3048006096"}, UnitAndScale{"cm", "--scale 0.01"},
+        UnitAndScale{"kilometre", "--scale 1000"},
+        UnitAndScale{"furlong", "--scale METRES_A_UNIT"}}) {
+    EXPECT_TRUE(
+        refuses([&] { read_elevation(write(folder, {.unit = in.unit})); }, {in.unit, in.scale}));
   }
   write(folder, {});
   const std::string virtual_raster = folder.write(
