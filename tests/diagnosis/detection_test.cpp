@@ -88,6 +88,34 @@ TEST(Detection, AlongAnEffectMoreIsSeenThanInTheWholeMisfit) {
   EXPECT_GT(along, whole);
 }
 
+/// Its residuals larger by the factor at which noise alone leaves as much with the probability `p`.
+Calibrated left_by_noise_with(double p, Calibrated made, std::uint64_t seed) {
+  const Eigen::VectorXd residual = made.remainder.residual;
+  double low = 0.1, high = 10;
+  for (int i = 0; i < 30; ++i) {
+    const double factor = std::sqrt(low * high);
+    made.remainder.residual = factor * residual;
+    (lack_of_fit(made.recording, made.remainder, seed).p_value > p ? low : high) = factor;
+  }
+  return made;
+}
+
+TEST(LackOfFit, IsFoundWhereNoiseDoesAsMuchOnceInFiveHundredTimesAndNotOnceInAHundred) {
+  const Calibrated made = calibrated({}, 4);
+  for (const double p : {0.04, 0.02, 0.01}) {
+    const Calibrated usual = left_by_noise_with(p, made, 9);
+    const LackOfFit found = lack_of_fit(usual.recording, usual.remainder, 9);
+    ASSERT_NEAR(found.p_value, p, 0.001);
+    EXPECT_LT(found.f, found.critical) << "as much once in " << 1 / p;
+  }
+  for (const double p : {0.003, 0.002}) {
+    const Calibrated rare = left_by_noise_with(p, made, 9);
+    const LackOfFit found = lack_of_fit(rare.recording, rare.remainder, 9);
+    ASSERT_NEAR(found.p_value, p, 0.001);
+    EXPECT_GT(found.f, found.critical) << "as much once in " << 1 / p;
+  }
+}
+
 TEST(LackOfFit, IsTheSameForTheSameSeed) {
   const Calibrated made = calibrated({}, 4);
   EXPECT_EQ(lack_of_fit(made.recording, made.remainder, 9).critical,
