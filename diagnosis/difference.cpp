@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -121,6 +122,20 @@ void pool_noise(std::vector<CondensedRecording*> recordings) {
   }
 }
 
+/// Noise that was lent is known as well as the lender's replicates tell it, not exactly.
+/// \param own noise that the test's setup itself states
+void lend_doubt(const std::vector<CondensedRecording>& references,
+                const std::map<Channel, double>& own, CondensedRecording& test) {
+  for (ChannelNoise& noise : test.noise) {
+    if (noise.source != NoiseSource::kSetup || own.contains(noise.channel)) continue;
+    for (const CondensedRecording& reference : references) {
+      const auto lender = std::ranges::find(reference.noise, noise.channel, &ChannelNoise::channel);
+      if (lender == reference.noise.end()) continue;
+      noise.degrees_of_freedom = std::max(noise.degrees_of_freedom, lender->degrees_of_freedom);
+    }
+  }
+}
+
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,
@@ -139,6 +154,7 @@ class Differing {
     std::vector<CondensedRecording*> all{&test_};
     for (CondensedRecording& reference : references_) all.push_back(&reference);
     pool_noise(all);
+    lend_doubt(references_, setup.noise_standard_deviation, test_);
     found_.notes = test.warnings;
     found_.notes.insert(found_.notes.end(), test_.notes.begin(), test_.notes.end());
     if (test.channels.size() > channels.size()) {
