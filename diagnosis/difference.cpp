@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <set>
 
 #include "diagnosis/checks/location.h"
 #include "diagnosis/checks/shared_shortcomings.h"
@@ -67,6 +69,26 @@ std::vector<Channel> common_channels(const Recording& test,
   return common;
 }
 
+/// Takes out the runs of passes that no reference drove, where the test drove a reference's pass
+/// too: what another pass changes within the test is no difference between the series. Where all of
+/// the test is of other passes, the pass is what differs, and it is compared as it stands.
+/// \returns how many runs
+int leave_foreign_passes_out(const std::vector<Reference>& references, Recording& test) {
+  std::set<int> driven;
+  for (const Reference& reference : references) {
+    for (const WheelRun& run : reference.recording.runs) driven.insert(run.conditions.pass);
+  }
+  const auto is_foreign = [&](const WheelRun& run) {
+    return !driven.contains(run.conditions.pass);
+  };
+  const auto foreign = static_cast<std::size_t>(std::ranges::count_if(test.runs, is_foreign));
+  if (foreign + kFewestToCompare > test.runs.size()) return 0;
+  for (WheelRun& run : test.runs) {
+    if (is_foreign(run)) run.measured.fill(WheelRun::kNotMeasured);
+  }
+  return static_cast<int>(foreign);
+}
+
 /// One run scatters alike on both: who has no replicates learns it from the other.
 void lend_noise(const CondensedRecording& from, DiagnosisSetup& to) {
   for (const ChannelNoise& noise : from.noise) {
@@ -100,6 +122,20 @@ void pool_noise(std::vector<CondensedRecording*> recordings) {
   }
 }
 
+/// Noise that was lent is known as well as the lender's replicates tell it, not exactly.
+/// \param own noise that the test's setup itself states
+void lend_doubt(const std::vector<CondensedRecording>& references,
+                const std::map<Channel, double>& own, CondensedRecording& test) {
+  for (ChannelNoise& noise : test.noise) {
+    if (noise.source != NoiseSource::kSetup || own.contains(noise.channel)) continue;
+    for (const CondensedRecording& reference : references) {
+      const auto lender = std::ranges::find(reference.noise, noise.channel, &ChannelNoise::channel);
+      if (lender == reference.noise.end()) continue;
+      noise.degrees_of_freedom = std::max(noise.degrees_of_freedom, lender->degrees_of_freedom);
+    }
+  }
+}
+
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,
@@ -107,6 +143,7 @@ class Differing {
       : options_(options) {
     const std::vector<Channel> channels = common_channels(test, references);
     test_recording_ = restricted(test, channels);
+    const int foreign = leave_foreign_passes_out(references, test_recording_);
     DiagnosisSetup test_setup = setup;
     for (const Reference& reference : references) {
       found_.references.push_back(reference.name);
@@ -117,10 +154,18 @@ class Differing {
     std::vector<CondensedRecording*> all{&test_};
     for (CondensedRecording& reference : references_) all.push_back(&reference);
     pool_noise(all);
+    lend_doubt(references_, setup.noise_standard_deviation, test_);
     found_.notes = test.warnings;
     found_.notes.insert(found_.notes.end(), test_.notes.begin(), test_.notes.end());
     if (test.channels.size() > channels.size()) {
       found_.notes.push_back("channels that the reference lacks are not compared");
+    }
+    if (foreign > 0) {
+      found_.notes.push_back(
+          fmt::format("{} runs are of a pass that no reference drove and are not compared: another "
+                      "pass is no difference between two series; alone against the reference it "
+                      "would be compared",
+                      foreign));
     }
     choose_effects(setup, references);
   }

@@ -128,6 +128,8 @@ bool is_good(const Scored& s) {
       return s.score.is_parameters;
     case Stratum::kUnlisted:
       return s.score.unexplained;
+    case Stratum::kDrift:
+      return s.truth->causes.front().accepted.empty() ? s.score.unexplained : s.score.right;
     default:
       return s.score.right;
   }
@@ -307,6 +309,10 @@ std::vector<Measure> measures(const std::vector<CaseResult>& results, const std:
   count(kRutHidden, "named, or a class that asks for rut depths", false, 0.9,
         [](const Scored& s) { return s.score.right && (s.score.exact || s.score.asks_for_ruts); });
   count(kRutShown, "named", false, 0.9, exact);
+  count(kDrift, "located in time, order or place", false, 0.9,
+        [](const Scored& s) { return s.score.located_in_course; });
+  count(kDrift, "named or class; `unexplained` where it has no name", false, 0.75, is_good);
+  count(kDrift, "`parameters`", true, 0, [](const Scored& s) { return s.score.is_parameters; });
   Measure worse{.stratum = "all", .what = "corrected worse than calibrated", .at_most = true};
   for (const Scored& s : all) {
     worse.trials += is_corrected(s);

@@ -18,14 +18,15 @@ struct NamedStratum {
   Stratum stratum;
   std::string_view name;
 };
-constexpr std::array<NamedStratum, 8> kNames{{{Stratum::kNulls, "nulls"},
+constexpr std::array<NamedStratum, 9> kNames{{{Stratum::kNulls, "nulls"},
                                               {Stratum::kParameters, "parameters"},
                                               {Stratum::kInstruments, "instruments"},
                                               {Stratum::kOneEffect, "one_effect"},
                                               {Stratum::kTwoEffects, "two_effects"},
                                               {Stratum::kUnlisted, "unlisted"},
                                               {Stratum::kRutHidden, "rut_hidden"},
-                                              {Stratum::kRutShown, "rut_shown"}}};
+                                              {Stratum::kRutShown, "rut_shown"},
+                                              {Stratum::kDrift, "drift"}}};
 
 /// Everything that makes a recording, before it is recorded.
 struct Plan {
@@ -209,6 +210,14 @@ std::optional<Plan> with_fault(Random& random, std::uint64_t turn) {
   return plan;
 }
 
+/// A gain that settles is an instrument's; what a bed remembers has no name.
+void accept_in_course(TrueCause& cause) {
+  if (cause.id == "bed_memory") cause.accepted = {};
+  if (cause.id != "warm_up") return;
+  cause.accepted = {"sensor_gain", "sensor_bias"};
+  cause.instrument = true;
+}
+
 /// One draw; nothing where it does not meet the stratum's terms.
 std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn) {
   switch (stratum) {
@@ -230,6 +239,11 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
       return with_two_effects(random, in_turn(listed_effects(), turn));
     case Stratum::kUnlisted:
       return with_effect(random, in_turn(unlisted_effects(), turn), kClearSigma, false);
+    case Stratum::kDrift: {
+      auto plan = with_effect(random, in_turn(drift_effects(), turn), kClearSigma, false);
+      if (plan) accept_in_course(plan->truth.causes.front());
+      return plan;
+    }
     case Stratum::kRutHidden:
     case Stratum::kRutShown: {
       static const std::vector<TruthEffect> kRuts = rut_effects();

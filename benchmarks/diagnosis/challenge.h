@@ -18,6 +18,7 @@ enum class Stratum {
   kUnlisted,     ///< one effect on no list, 8 sigma and more
   kRutHidden,    ///< rut asymmetry, 8 sigma and more, no rut depths recorded
   kRutShown,     ///< rut asymmetry with rut depths
+  kDrift,        ///< one effect that follows time, order or place, 8 sigma and more
 };
 
 const std::vector<Stratum>& strata();

@@ -38,6 +38,7 @@ Outcome outcome_of(const Diagnosis& diagnosis, std::size_t rows, double seconds)
         {std::string(name(fit.channel)), fit.noise_floor, fit.calibrated_rmse, fit.corrected_rmse});
   }
   for (const MismatchRegion& region : diagnosis.where) {
+    for (const auto& [column, range] : region.region) outcome.located_in.push_back(column);
     for (const char* column : {"slip_angle_deg", "abs_slip_angle_deg"}) {
       const auto angles = region.region.find(column);
       if (angles == region.region.end()) continue;
@@ -71,6 +72,7 @@ nlohmann::json outcome_json(const Outcome& o) {
           {"fit", fit},
           {"rows", o.rows},
           {"largest_angle_from_deg", o.largest_angle_from_deg},
+          {"located_in", o.located_in},
           {"further_sensors", o.further_sensors},
           {"share_explained", number(o.share_explained)},
           {"p_before", number(o.p_before)},
@@ -85,6 +87,7 @@ Outcome outcome_from(const nlohmann::json& json) {
             .verdict = json.at("verdict").get<std::string>(),
             .rows = json.at("rows").get<std::size_t>(),
             .largest_angle_from_deg = json.at("largest_angle_from_deg").get<double>(),
+            .located_in = json.at("located_in").get<std::vector<std::string>>(),
             .further_sensors = json.at("further_sensors").get<std::vector<std::string>>(),
             .share_explained = number_from(json.at("share_explained")),
             .p_before = number_from(json.at("p_before")),

@@ -25,7 +25,8 @@ struct Outcome {
   std::vector<OutcomeClaim> claims;
   std::vector<OutcomeFit> fit;
   std::size_t rows = 0;
-  double largest_angle_from_deg = 0;  ///< of the located regions: where the outermost one begins
+  double largest_angle_from_deg = 0;    ///< of the located regions: where the outermost one begins
+  std::vector<std::string> located_in;  ///< columns of the located regions
   std::vector<std::string> further_sensors;  ///< that the next experiments ask for
   double share_explained = 0;
   double p_before = 1, p_after = 1;

@@ -15,6 +15,12 @@ bool is_instrument(const std::string& id) {
   return id.starts_with("sensor_") || id == "slip_scale";
 }
 
+bool follows_course(const std::string& column) {
+  static const std::vector<std::string> columns{
+      "time_s", "day", "run_order", "warm_up", "position_m", "after_slip_ratio", "after_load_n"};
+  return std::ranges::count(columns, column) > 0;
+}
+
 }  // namespace
 
 Score score(const Truth& truth, const Outcome& outcome) {
@@ -39,6 +45,7 @@ Score score(const Truth& truth, const Outcome& outcome) {
   s.exact = s.right && single;
   constexpr double kLargeAngle_deg = 8;
   s.located = outcome.largest_angle_from_deg >= kLargeAngle_deg;
+  s.located_in_course = std::ranges::any_of(outcome.located_in, follows_course);
   s.asks_for_ruts = std::ranges::any_of(outcome.further_sensors, [](const std::string& sensor) {
     return sensor.starts_with("rut_");
   });

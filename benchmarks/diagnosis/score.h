@@ -25,8 +25,9 @@ struct Score {
   bool wrong_name = false;      ///< a claim without a cause
   bool called_physics = false;  ///< a claim of which no id is an instrument's or accepted
   std::vector<ScoredClaim> claims;
-  bool located = false;        ///< a region that begins at 8 deg of slip angle or beyond
-  bool asks_for_ruts = false;  ///< a next experiment with rut depths
+  bool located = false;            ///< a region that begins at 8 deg of slip angle or beyond
+  bool located_in_course = false;  ///< a region in time, order of the runs or place
+  bool asks_for_ruts = false;      ///< a next experiment with rut depths
   /// Held-out root mean square error over the noise floor, the worst channel; NaN where not given.
   double corrected_ratio = 0, calibrated_ratio = 0;
   /// In some channel the corrected model predicts held-out runs worse than the calibrated one by

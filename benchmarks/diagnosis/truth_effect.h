@@ -58,6 +58,9 @@ std::vector<TruthEffect> effects_on_carriage();
 /// Effects on no list: whoever gives them a name of the vocabulary is wrong.
 const std::vector<TruthEffect>& unlisted_effects();
 
+/// Effects that follow time, the order of the runs or the place, and nothing that is set.
+const std::vector<TruthEffect>& drift_effects();
+
 /// The wheel with the effects, one after the other.
 std::optional<TruthChannels> channels_with(const std::vector<DrawnEffect>& effects,
                                            const TruthPhysics& base);

@@ -63,6 +63,35 @@ TEST(Difference, ThatOneEffectMakesHasItsNameAndItsShare) {
   EXPECT_GE(claim.share.high, claim.share.explained);
 }
 
+TEST(Difference, AFurtherPassOfOneSeriesAloneIsNoDifferenceBetweenTwo) {
+  // In the rut of the first pass the wheel sinks half as deep: far beyond the noise, on passes that
+  // the reference happens not to have driven.
+  const DiagnosisSetup setup = simulant_setup();
+  std::mt19937_64 random(5);
+  const Soil soil = draw(setup.soil, random);
+  const BedPlan plan{
+      .slips = {0, 0.2, 0.4}, .angles_deg = {0, 8, 16}, .conditions = 20, .replicates = 2};
+  const Recording reference = record({}, setup, soil, plan, 6);
+  Recording test = record({}, setup, soil, plan, 7);
+  test.columns.pass = true;
+  const auto in_the_rut = [](WheelRun& run) {
+    run.conditions.pass = 2;
+    run.measured[static_cast<std::size_t>(Channel::kSinkage)] *= 0.5;
+  };
+  Recording all_in_the_rut = test;
+  std::for_each(test.runs.end() - 6, test.runs.end(), in_the_rut);
+  std::ranges::for_each(all_in_the_rut.runs, in_the_rut);
+
+  const Diagnosis some = diagnose_difference(test, setup, {{"reference", reference, setup}});
+  EXPECT_EQ(some.verdict, Verdict::kConsistent) << some.sentence;
+  EXPECT_TRUE(std::ranges::any_of(some.notes, [](const std::string& note) {
+    return note.starts_with("6 runs are of a pass that no reference drove");
+  }));
+  const Diagnosis all =
+      diagnose_difference(all_in_the_rut, setup, {{"reference", reference, setup}});
+  EXPECT_NE(all.verdict, Verdict::kConsistent) << all.sentence;
+}
+
 TEST(Difference, NeedsAChannelThatBothMeasured) {
   const DiagnosisSetup setup = simulant_setup();
   std::mt19937_64 random(1);

@@ -38,6 +38,15 @@ TEST(Challenge, KeepsTheTermsOfItsStratum) {
   }
 }
 
+TEST(Challenge, DriftIsClearAndWhatABedRemembersHasNoName) {
+  for (std::uint64_t index = 0; index < 4; ++index) {
+    const Truth truth = generate(Stratum::kDrift, 7, index).truth;
+    EXPECT_GE(truth.signal.after, 8);
+    ASSERT_EQ(truth.causes.size(), 1);
+    EXPECT_EQ(truth.causes[0].accepted.empty(), truth.causes[0].id == "bed_memory");
+  }
+}
+
 TEST(Challenge, TwoEffectsAreTwoNamesEachBeyondTheOther) {
   const Truth truth = generate(Stratum::kTwoEffects, 7, 1).truth;
   ASSERT_EQ(truth.causes.size(), 2);
