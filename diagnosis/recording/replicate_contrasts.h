@@ -15,7 +15,9 @@ class ReplicateContrasts {
   ReplicateContrasts(const Recording& recording, const std::vector<Condition>& conditions,
                      const std::vector<double>& adjusted, const ChannelNoise& plain);
 
-  /// Log likelihood that letting the runs follow a column adds. \param trend per run
+  /// Log likelihood that letting the runs follow a column adds, by what it would be among so many
+  /// replicates that their scatter is known: of few, chance follows any column far. \param trend
+  /// per run
   double gain(const std::vector<double>& trend) const;
 
  private:

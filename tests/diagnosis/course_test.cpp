@@ -30,6 +30,29 @@ TEST(Course, OfReplicatesThatOnlyScatterIsNone) {
   }
 }
 
+/// Twenty conditions in any order, four of them run twice.
+Recording with_few_replicates(std::uint64_t seed) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording =
+      record({}, setup, setup.soil.mean, {.conditions = 20, .replicates = 2, .day = 0}, seed);
+  recording.runs.resize(24);  // the second round ends with its fourth condition
+  std::mt19937_64 random(seed);
+  std::ranges::shuffle(recording.runs, random);
+  for (WheelRun& run : recording.runs) run.day = 0;
+  return recording;
+}
+
+TEST(Course, OfAFewReplicatesThatOnlyScatterIsNone) {
+  int followed = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    const CondensedRecording found = condense(with_few_replicates(seed), simulant_setup());
+    followed += found.course.has_value();
+    if (seed == 1)
+      std::printf("dof %d runs %zu\n", found.noise[0].degrees_of_freedom, found.condition.size());
+  }
+  EXPECT_LE(followed, 1);
+}
+
 TEST(Course, IsFoundAndDoesNotWidenTheNoise) {
   Recording shuffled = recorded(7, 0);
   // replicates far apart in the order, as on a bed that is tested round by round

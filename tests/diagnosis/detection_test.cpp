@@ -92,7 +92,7 @@ TEST(Detection, AlongAnEffectMoreIsSeenThanInTheWholeMisfit) {
 Calibrated left_by_noise_with(double p, Calibrated made, std::uint64_t seed) {
   const Eigen::VectorXd residual = made.remainder.residual;
   double low = 0.1, high = 10;
-  for (int i = 0; i < 30; ++i) {
+  for (int i = 0; i < 16; ++i) {
     const double factor = std::sqrt(low * high);
     made.remainder.residual = factor * residual;
     (lack_of_fit(made.recording, made.remainder, seed).p_value > p ? low : high) = factor;
