@@ -237,6 +237,11 @@ std::string course_note(const Course& course, const std::vector<ChannelNoise>& n
     }
     text += fmt::format("{} {} by {:.3g}", c == 0 ? ":" : ",", name(noise[c].channel), high - low);
   }
+  if (course.may_be_days) {
+    text +=
+        "; days that the recording does not tell, one for each round of replicates, would do as "
+        "well: a column `day` or `time_s` decides";
+  }
   return text;
 }
 

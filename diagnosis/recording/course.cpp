@@ -47,14 +47,13 @@ std::vector<Column> columns_of(const Recording& recording) {
   return columns;
 }
 
-}  // namespace
+using ChannelContrasts = std::vector<std::optional<ReplicateContrasts>>;
 
-std::optional<Course> course_of(const Recording& recording,
-                                const std::vector<Condition>& conditions,
-                                const std::vector<ChannelRuns>& channels,
-                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup,
-                                const std::stop_token& stop) {
-  std::vector<std::optional<ReplicateContrasts>> contrasts;
+/// What the replicates of each channel say, where they tell its noise.
+ChannelContrasts contrasts_of(const Recording& recording, const std::vector<Condition>& conditions,
+                              const std::vector<ChannelRuns>& channels, const DiagnosisSetup& setup,
+                              const std::stop_token& stop) {
+  ChannelContrasts contrasts;
   for (const ChannelRuns& c : channels) {
     const ChannelNoise plain = estimate_noise(recording, conditions, c, setup, {}, stop);
     auto& of_channel = contrasts.emplace_back();
@@ -62,28 +61,69 @@ std::optional<Course> course_of(const Recording& recording,
       of_channel.emplace(recording, conditions, c.adjusted, plain);
     }
   }
+  return contrasts;
+}
+
+/// What the replicates of all channels gain by following trends, each with a factor of its own.
+double gain_nats(const ChannelContrasts& contrasts, const std::vector<std::vector<double>>& trend) {
+  constexpr double kCost_nats = 0.5;  // a factor counts like another part of the noise model
+  double gain = 0;
+  for (std::size_t c = 0; c < contrasts.size(); ++c) {
+    if (contrasts[c]) gain += contrasts[c]->gain(trend[c]) - kCost_nats;
+  }
+  return gain;
+}
+
+/// The recording with a day for each round of its replicates; nothing where it tells days itself.
+std::optional<Recording> with_rounds_as_days(const Recording& recording,
+                                             const std::vector<Condition>& conditions) {
+  const std::vector<WheelRun>& runs = recording.runs;
+  const bool tells_days =
+      std::ranges::any_of(runs, [&](const WheelRun& run) { return run.day != runs.front().day; });
+  std::size_t most = 0;
+  for (const Condition& at : conditions) most = std::max(most, at.runs.size());
+  if (tells_days || most < 2) return std::nullopt;
+  Recording in_rounds = recording;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    in_rounds.runs[i].day = static_cast<double>(i * most / runs.size());
+  }
+  return in_rounds;
+}
+
+}  // namespace
+
+std::optional<Course> course_of(const Recording& recording,
+                                const std::vector<Condition>& conditions,
+                                const std::vector<ChannelRuns>& channels,
+                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup,
+                                const std::stop_token& stop) {
+  const ChannelContrasts contrasts = contrasts_of(recording, conditions, channels, setup, stop);
   std::optional<Course> best;
   for (const Column& column : columns_of(recording)) {
     for (const CourseKind& kind : kinds) {
+      throw_if_stopped(stop);
       Course course{.column = column.name,
                     .kind = kind.name,
                     .value = column.value,
                     .low = column.low,
                     .high = column.high};
       for (std::size_t c = 0; c < channels.size(); ++c) {
-        throw_if_stopped(stop);
         std::vector<double> trend(recording.runs.size(), 0.0);
         for (std::size_t i = 0; i < trend.size(); ++i) {
           const double size = kind.of_channel[c][i];
           trend[i] = std::isfinite(size) ? column.value[i] * size : 0;
         }
-        // the trend's factor counts like another part of the noise model
-        constexpr double kCost_nats = 0.5;
-        if (contrasts[c]) course.gain_nats += contrasts[c]->gain(trend) - kCost_nats;
         course.trend.push_back(std::move(trend));
       }
+      course.gain_nats = gain_nats(contrasts, course.trend);
       if (course.gain_nats > (best ? best->gain_nats : Thresholds::kCourse_nats)) best = course;
     }
+  }
+  // Time that is told leaves no days untold.
+  if (!best || !best->in_time() || best->column == "time_s") return best;
+  if (const auto in_rounds = with_rounds_as_days(recording, conditions)) {
+    const ChannelContrasts of_rounds = contrasts_of(*in_rounds, conditions, channels, setup, stop);
+    best->may_be_days = gain_nats(of_rounds, best->trend) < Thresholds::kCourse_nats;
   }
   return best;
 }

@@ -47,8 +47,6 @@ TEST(Course, OfAFewReplicatesThatOnlyScatterIsNone) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const CondensedRecording found = condense(with_few_replicates(seed), simulant_setup());
     followed += found.course.has_value();
-    if (seed == 1)
-      std::printf("dof %d runs %zu\n", found.noise[0].degrees_of_freedom, found.condition.size());
   }
   EXPECT_LE(followed, 1);
 }
@@ -62,6 +60,16 @@ TEST(Course, IsFoundAndDoesNotWidenTheNoise) {
   const auto n = static_cast<double>(shuffled.runs.size());
   for (std::size_t i = 0; i < shuffled.runs.size(); ++i) {
     shuffled.runs[i].measured[0] += 6 * static_cast<double>(i) / n;
+  }
+  // Told neither time nor day, three days would do as well; the drift is no scatter all the same.
+  const CondensedRecording untold = condense(shuffled, simulant_setup());
+  ASSERT_TRUE(untold.course.has_value());
+  EXPECT_TRUE(untold.course->may_be_days);
+  EXPECT_LT(untold.noise[0].constant, 1.25 * still);
+
+  shuffled.columns.time = true;
+  for (std::size_t i = 0; i < shuffled.runs.size(); ++i) {
+    shuffled.runs[i].conditions.time_s = 600 * static_cast<double>(i);
   }
   const CondensedRecording found = condense(shuffled, simulant_setup());
   ASSERT_TRUE(found.course.has_value());
