@@ -85,7 +85,8 @@ std::optional<Recording> with_rounds_as_days(const Recording& recording,
   if (tells_days || most < 2) return std::nullopt;
   Recording in_rounds = recording;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    in_rounds.runs[i].day = static_cast<double>(i * most / runs.size());
+    const std::size_t round = i * most / runs.size();
+    in_rounds.runs[i].day = static_cast<double>(round);
   }
   return in_rounds;
 }
