@@ -146,7 +146,15 @@ std::optional<CorneringLimit> cornering_limit(const World& world, const VehicleS
       .fold_n = end.fold_n};
 }
 
-/// The strains that the run had where the station lies.
+/// The energy of a run where it was `s_m` along, between two of its moments.
+double energy_at_j(const TrackingRun::Moment& before, const TrackingRun::Moment& after,
+                   double s_m) {
+  const double way_m = after.s_m - before.s_m;
+  const double share = way_m > 0 ? std::clamp((s_m - before.s_m) / way_m, 0.0, 1.0) : 0;
+  return before.energy_j + share * (after.energy_j - before.energy_j);
+}
+
+/// The strains and the energy that the run had where the station lies.
 void add_strains(std::vector<TrajectoryPoint>& points, const std::vector<double>& s_m,
                  const TrackingRun& run) {
   std::size_t k = 0;
@@ -157,6 +165,9 @@ void add_strains(std::vector<TrajectoryPoint>& points, const std::vector<double>
     points[i].slip_max = strain.slip;
     points[i].slip_angle_max_rad = strain.slip_angle_rad;
     points[i].sinkage_max_m = strain.sinkage_m;
+    points[i].torque_max_nm = strain.torque_max_nm;
+    points[i].energy_j = energy_at_j(
+        run.moments[k], k + 1 < run.moments.size() ? run.moments[k + 1] : run.last, s_m[i]);
     points[i].yaw_rate_rad_s = run.moments[k].state.motion.yaw_rate_rad_s;
   }
 }

@@ -27,6 +27,7 @@ struct TrackingRun {
     double offset_m = 0;
     VehicleState state;
     WheelStrain strain;
+    double energy_j = 0;  ///< that the drives have given since the start
   };
   TrackingEnd end = TrackingEnd::kArrived;
   std::optional<RejectedState> rejected;

@@ -30,6 +30,7 @@ std::optional<TrackingEnd> TrackedDrive::advance(const VehicleControl& control) 
   now_.state = step.state;
   now_.strain = step.strain;
   run_.energy_j += step.drive_energy_j;
+  now_.energy_j = run_.energy_j;
   return std::nullopt;
 }
 

@@ -32,7 +32,7 @@ struct TrajectoryPoint {
   double slip_angle_max_rad = 0;
   double sinkage_max_m = 0;
   double torque_max_nm = 0;  ///< of the wheels, by magnitude, signed, driving positive
-  /// That the drives have given since the start; NaN of a point that is no replay's.
+  /// That the drives have given since the start; NaN of a point that nobody has driven.
   double energy_j = std::numeric_limits<double>::quiet_NaN();
   int soil = -1;  ///< index in the map's soils, below the centre of gravity
   double demand_n = 0;

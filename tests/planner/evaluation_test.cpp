@@ -69,6 +69,20 @@ TEST(Evaluation, AStraightPathOnFirmGroundIsFeasibleAndTrackedClosely) {
   for (std::size_t i = 1; i < e.s_m.size(); ++i) EXPECT_LE(e.s_m[i] - e.s_m[i - 1], 0.5 + 1e-9);
 }
 
+TEST(Evaluation, AlongThePathStandWhatTheDriveTookOfTorqueAndEnergy) {
+  const PathEvaluation e = evaluated(flat_problem(), reference({{10, 25}, {45, 25}}, 2));
+  ASSERT_GT(e.points.size(), 10u);
+  for (std::size_t i = 1; i < e.points.size(); ++i) {
+    EXPECT_GE(e.points[i].energy_j, e.points[i - 1].energy_j);
+  }
+  EXPECT_NEAR(e.points.front().energy_j, 0, 1);
+  EXPECT_NEAR(e.points.back().energy_j, e.tracking.energy_j, 0.03 * e.tracking.energy_j);
+  // At a steady speed the torques of four like wheels are what drives it over its way.
+  const TrajectoryPoint &a = e.points[e.points.size() / 3], &b = e.points[e.points.size() * 2 / 3];
+  const double pull_n = (b.energy_j - a.energy_j) / (b.x_m - a.x_m);
+  EXPECT_NEAR(4 * a.torque_max_nm / flat_problem().vehicle.wheel.radius_m, pull_n, 0.2 * pull_n);
+}
+
 TEST(Evaluation, APathThatEndsAtSpeedMustLeaveRoomToStop) {
   // The path ends 5 m before a wall; from 2 m/s the vehicle stops in 6.7 m, from 0.5 m/s at once.
   PlanningProblem problem = flat_problem();

@@ -136,7 +136,10 @@ function stateAt(path, i) {
       over(p.sinkage_max_m[i], LIMITS.sinkage_max_m)
     ],
     ['Largest torque', fixed(p.torque_max_nm[i], 1, 'N m'), false],
-    ['Energy so far', fixed(p.energy_j[i] / 1000, 2, 'kJ'), false],
+    [
+      'Energy so far', fixed(isKnown(p.energy_j[i]) ? p.energy_j[i] / 1000 : null, 2, 'kJ'),
+      false
+    ],
     ['Steering', fixed(p.steer_deg[i], 1, '\u00b0'), false],
     ['Heading', fixed(p.yaw_deg[i], 1, '\u00b0'), false],
     ['Position', `${fixed(p.x_m[i], 1)}, ${fixed(p.y_m[i], 1, 'm')}`, false],
