@@ -14,8 +14,7 @@ class Driver {
   Driver(const World& world, const ReplaySteps& steps, bool with_margins)
       : world_(world), steps_(steps), with_margins_(with_margins), state_(world.start()) {
     record_.coarse.push_back(state_);
-    check(with_margins_);
-    if (with_margins_ && !record_.rejection) judge();
+    with_margins_ ? judge() : check();
   }
 
   bool goes_on() const { return !record_.rejection && !record_.reached_goal; }
@@ -46,9 +45,7 @@ class Driver {
       }
       const bool last = done + 1 == steps_.fine_per_coarse;
       record_.reached_goal = world_.at_goal(state_);
-      check(with_margins_ && ((last && judges) || record_.reached_goal));
-      if (!record_.rejection && with_margins_ && ((last && judges) || record_.reached_goal))
-        judge();
+      with_margins_ && ((last && judges) || record_.reached_goal) ? judge() : check();
       if (record_.reached_goal && !record_.rejection) check_stop();
     }
     if (done == steps_.fine_per_coarse) record_.coarse.push_back(state_);
@@ -56,18 +53,15 @@ class Driver {
 
   Replay take() {
     if (with_margins_ && goes_on()) {  // the controls end short of the goal
-      check(true);
-      if (!record_.rejection) judge();
+      judge();
     }
     record_.end = state_;
     return std::move(record_);
   }
 
  private:
-  void check(bool with_margins) {
-    const std::optional<double> margin_min =
-        with_margins ? std::optional(world_.problem().limits.margin_min) : std::nullopt;
-    if (const auto rejection = world_.rejected(state_, strain_, margin_min)) reject(*rejection);
+  void check() {
+    if (const auto rejection = world_.rejected(state_, strain_, std::nullopt)) reject(*rejection);
   }
   void reject(const RejectedState& rejection) {
     record_.rejection = rejection;
@@ -77,8 +71,11 @@ class Driver {
   void check_stop() {
     if (const auto refused = refused_stop(world_, state_, steps_)) reject(*refused);
   }
+  /// As `check`, margins included; what passes is a point of the record.
   void judge() {
-    record_.points.push_back(world_.describe(state_, strain_, record_.duration_s));
+    const Judgement judgement = world_.judge(state_, strain_, record_.duration_s);
+    if (judgement.rejected) return reject(*judgement.rejected);
+    record_.points.push_back(judgement.point);
     record_.points.back().energy_j = record_.energy_j;
     record_.judged.push_back({state_, strain_});
   }
