@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <memory>
-#include <set>
 
+#include "diagnosis/bed/compared_recordings.h"
 #include "diagnosis/checks/location.h"
 #include "diagnosis/checks/shared_shortcomings.h"
 #include "diagnosis/fit/unnamed_correction.h"
@@ -19,13 +17,11 @@
 #include "diagnosis/names/partial_claim.h"
 #include "diagnosis/recording/thresholds.h"
 #include "diagnosis/stages.h"
-#include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
 
-constexpr std::size_t kFewestToCompare = 3;
 constexpr int kWorlds = 79;  // nameless differences
 
 /// The test and what it is compared with, under one setting of the base model.
@@ -43,144 +39,13 @@ struct Treatment {
   }
 };
 
-/// Channels that test and references measure, nothing else.
-Recording restricted(Recording recording, const std::vector<Channel>& channels) {
-  for (WheelRun& run : recording.runs) {
-    for (const Channel channel : recording.channels) {
-      if (std::ranges::find(channels, channel) != channels.end()) continue;
-      run.measured[static_cast<std::size_t>(channel)] = WheelRun::kNotMeasured;
-    }
-  }
-  recording.channels = channels;
-  return recording;
-}
-
-std::vector<Channel> common_channels(const Recording& test,
-                                     const std::vector<Reference>& references) {
-  std::vector<Channel> common;
-  for (const Channel channel : test.channels) {
-    const bool everywhere = std::ranges::all_of(references, [&](const Reference& reference) {
-      return std::ranges::find(reference.recording.channels, channel) !=
-             reference.recording.channels.end();
-    });
-    if (everywhere) common.push_back(channel);
-  }
-  if (common.empty()) throw InputError("test and reference have no measured channel in common");
-  return common;
-}
-
-/// Takes out the runs of passes that no reference drove, where the test drove a reference's pass
-/// too: what another pass changes within the test is no difference between the series. Where all of
-/// the test is of other passes, the pass is what differs, and it is compared as it stands.
-/// \returns how many runs
-int leave_foreign_passes_out(const std::vector<Reference>& references, Recording& test) {
-  std::set<int> driven;
-  for (const Reference& reference : references) {
-    for (const WheelRun& run : reference.recording.runs) driven.insert(run.conditions.pass);
-  }
-  const auto is_foreign = [&](const WheelRun& run) {
-    return !driven.contains(run.conditions.pass);
-  };
-  const auto foreign = static_cast<std::size_t>(std::ranges::count_if(test.runs, is_foreign));
-  if (foreign + kFewestToCompare > test.runs.size()) return 0;
-  for (WheelRun& run : test.runs) {
-    if (is_foreign(run)) run.measured.fill(WheelRun::kNotMeasured);
-  }
-  return static_cast<int>(foreign);
-}
-
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  int count = 0;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    sum += value * value;
-    ++count;
-  }
-  return count == 0 ? 0 : std::sqrt(sum / count);
-}
-
-/// One run scatters alike on both: who has no replicates learns it from the other, as it is at the
-/// lender's usual signal where it grows with that.
-void lend_noise(const CondensedRecording& from, DiagnosisSetup& to) {
-  for (std::size_t c = 0; c < from.noise.size(); ++c) {
-    const ChannelNoise& noise = from.noise[c];
-    if (noise.source == NoiseSource::kNeighbours) continue;
-    to.noise_standard_deviation.try_emplace(
-        noise.channel, run_deviation(noise, root_mean_square(from.adjusted[c])));
-  }
-}
-
-/// The scatter of both together, where one of them by chance shows less.
-void pool_noise(std::vector<CondensedRecording*> recordings) {
-  for (std::size_t c = 0; c < recordings.front()->noise.size(); ++c) {
-    double sum = 0, degrees = 0;
-    for (const CondensedRecording* one : recordings) {
-      const ChannelNoise& noise = one->noise[c];
-      sum += noise.degrees_of_freedom * noise.constant * noise.constant;
-      degrees += noise.degrees_of_freedom;
-    }
-    if (degrees == 0) continue;
-    const double pooled = std::sqrt(sum / degrees);
-    for (CondensedRecording* one : recordings) {
-      ChannelNoise& noise = one->noise[c];
-      if (noise.constant >= pooled) continue;
-      const double factor = pooled / noise.constant;
-      noise.constant *= factor;
-      noise.proportional *= factor;
-      noise.day_offset *= factor;
-      noise.day_gain *= factor;
-      one->bed.channels[c].noise *= factor * factor;
-      one->bed.channels[c].scale *= factor;
-    }
-  }
-}
-
-/// Noise that was lent is known as well as the lender's replicates tell it, not exactly.
-/// \param own noise that the test's setup itself states
-void lend_doubt(const std::vector<CondensedRecording>& references,
-                const std::map<Channel, double>& own, CondensedRecording& test) {
-  for (ChannelNoise& noise : test.noise) {
-    if (noise.source != NoiseSource::kSetup || own.contains(noise.channel)) continue;
-    for (const CondensedRecording& reference : references) {
-      const auto lender = std::ranges::find(reference.noise, noise.channel, &ChannelNoise::channel);
-      if (lender == reference.noise.end()) continue;
-      noise.degrees_of_freedom = std::max(noise.degrees_of_freedom, lender->degrees_of_freedom);
-    }
-  }
-}
-
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,
             const std::vector<Reference>& references, const DiagnosisOptions& options)
-      : options_(options) {
-    const std::vector<Channel> channels = common_channels(test, references);
-    test_recording_ = restricted(test, channels);
-    const int foreign = leave_foreign_passes_out(references, test_recording_);
-    DiagnosisSetup test_setup = setup;
-    for (const Reference& reference : references) {
-      found_.references.push_back(reference.name);
-      condense_reference(restricted(reference.recording, channels), reference);
-      lend_noise(references_.back(), test_setup);
-    }
-    test_ = condense(test_recording_, test_setup, kFewestToCompare, options_.stop);
-    std::vector<CondensedRecording*> all{&test_};
-    for (CondensedRecording& reference : references_) all.push_back(&reference);
-    pool_noise(all);
-    lend_doubt(references_, setup.noise_standard_deviation, test_);
-    found_.notes = test.warnings;
-    found_.notes.insert(found_.notes.end(), test_.notes.begin(), test_.notes.end());
-    if (test.channels.size() > channels.size()) {
-      found_.notes.push_back("channels that the reference lacks are not compared");
-    }
-    if (foreign > 0) {
-      found_.notes.push_back(
-          fmt::format("{} runs are of a pass that no reference drove and are not compared: another "
-                      "pass is no difference between two series; alone against the reference it "
-                      "would be compared",
-                      foreign));
-    }
+      : options_(options), compared_(read_alike(test, setup, references, options.stop)) {
+    for (const Reference& reference : references) found_.references.push_back(reference.name);
+    found_.notes = compared_.notes;
     choose_effects(setup, references);
   }
 
@@ -227,22 +92,12 @@ class Differing {
   }
   Treatment& primary() { return treatments_[static_cast<std::size_t>(SharedBase::kCalibrated)]; }
 
-  void condense_reference(const Recording& recording, const Reference& reference) {
-    DiagnosisSetup setup = reference.setup;
-    for (const CondensedRecording& before : references_) lend_noise(before, setup);
-    try {
-      references_.push_back(condense(recording, setup, kFewestToCompare, options_.stop));
-    } catch (const InputError& bad) {
-      throw InputError(fmt::format("reference {}: {}", reference.name, bad.what()));
-    }
-  }
-
   /// What varies over both may be at work in either.
   void choose_effects(const DiagnosisSetup& setup, const std::vector<Reference>& references) {
-    TestBed both = test_.bed;
-    Recording columns = test_recording_;
+    TestBed both = compared_.test.bed;
+    Recording columns = compared_.recording;
     bool same_lugs = setup.lug_height_m.has_value();
-    for (const CondensedRecording& reference : references_) {
+    for (const CondensedRecording& reference : compared_.references) {
       both.conditions.insert(both.conditions.end(), reference.bed.conditions.begin(),
                              reference.bed.conditions.end());
     }
@@ -255,7 +110,7 @@ class Differing {
   }
 
   Treatment treat(SharedBase base) {
-    DifferenceBed bed = difference_bed(test_, references_, base);
+    DifferenceBed bed = difference_bed(compared_.test, compared_.references, base);
     Treatment treatment{.base = base,
                         .measured = std::move(bed.measured),
                         .shared = std::move(bed.shared),
@@ -455,9 +310,7 @@ class Differing {
   }
 
   const DiagnosisOptions& options_;
-  Recording test_recording_;
-  CondensedRecording test_;
-  std::vector<CondensedRecording> references_;
+  ComparedRecordings compared_;
   std::vector<Effect> effects_;
   std::vector<Treatment> treatments_;
   std::vector<ByChance> reached_;  // by names in nameless differences, the soil calibrated

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/recording/setup.h"
+
+namespace regoplan {
+
+/// A test and its references, read so that they differ in nothing but what was measured.
+struct ComparedRecordings {
+  Recording recording;  ///< the test, with what is compared of it alone
+  CondensedRecording test;
+  std::vector<CondensedRecording> references;  ///< in the order given
+  std::vector<std::string> notes;              ///< warnings of the test, and what was left out
+};
+
+/// Keeps the channels that test and references measure, and the passes that a reference drove where
+/// the test drove others too. One run is taken to scatter alike on all of them: a recording without
+/// replicates takes the scatter of those that have them, and is as sure of it as they are; none is
+/// given less scatter than all have together.
+/// \throws InputError where a recording has fewer than 3 conditions, or no channel is common;
+/// Interrupted
+ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup,
+                              const std::vector<Reference>& references,
+                              const std::stop_token& stop);
+
+}  // namespace regoplan
