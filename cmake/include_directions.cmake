@@ -33,6 +33,8 @@ room(planner/ompl terramech maps planner/runtime planner/problem planner/course 
 room(planner/search terramech maps planner/runtime planner/problem planner/ompl)
 room(planner/verdict terramech maps planner/runtime planner/problem planner/soils planner/driving
      planner/ompl planner/search)
+room(planner/stages terramech maps planner/runtime planner/problem planner/chart planner/certificate
+     planner/driving planner/search planner/verdict)
 room(planner/benchmark terramech maps planner/runtime planner/problem planner/driving planner/ompl
      planner/verdict)
 room(planner terramech maps planner)
