@@ -51,11 +51,15 @@ std::vector<WheelLaw> views_of(const std::vector<WheelModel>& models,
   return laws;
 }
 
+/// Half of a square in which ground must be known for the wheels to stand on known ground wherever
+/// a search's reserve moves them, the heights between cells included.
 double edge_reach_m(const PlanningProblem& problem) {
-  const BodyBox& body = problem.vehicle.body;
   const GridFrame& frame = problem.map.elevation().frame;
-  return std::hypot(std::max(body.x_max_m, -body.x_min_m), std::max(body.y_max_m, -body.y_min_m)) +
-         std::max(frame.cell_width_m, frame.cell_height_m) + World::kSearchClearance_m;
+  double wheels_m = 0;
+  for (const WheelMount& wheel : problem.vehicle.wheels) {
+    wheels_m = std::max(wheels_m, std::hypot(wheel.x_m, wheel.y_m));
+  }
+  return wheels_m + std::max(frame.cell_width_m, frame.cell_height_m) + World::kSearchClearance_m;
 }
 
 double largest_by_magnitude(const Vehicle& vehicle, double curvature_1pm) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <numbers>
 
@@ -15,24 +16,23 @@ inline UncertainSoil firm_regolith() {
   return {.mean = ::firm_regolith()};
 }
 
-/// A map of `size_m` by `size_m` metres in cells of half a metre, one soil everywhere.
+/// A map of `size_m` by `size_m` metres, one soil everywhere.
 inline TerrainMap one_soil_map(double size_m, const UncertainSoil& soil,
                                const std::function<double(double x_m, double y_m)>& height_m,
-                               std::vector<Rock> rocks = {}) {
-  constexpr double kCell_m = 0.5;
-  const int cells = static_cast<int>(size_m / kCell_m);
+                               std::vector<Rock> rocks = {}, double cell_m = 0.5) {
+  const int cells = static_cast<int>(std::lround(size_m / cell_m));
   ElevationRaster raster{.frame = {.columns = cells,
                                    .rows = cells,
                                    .west_m = 0,
                                    .north_m = size_m,
-                                   .cell_width_m = kCell_m,
-                                   .cell_height_m = kCell_m,
+                                   .cell_width_m = cell_m,
+                                   .cell_height_m = cell_m,
                                    .crs_wkt = {}},
                          .height_m = {}};
   for (int row = 0; row < cells; ++row) {
     for (int column = 0; column < cells; ++column) {
       raster.height_m.push_back(
-          static_cast<float>(height_m((column + 0.5) * kCell_m, size_m - (row + 0.5) * kCell_m)));
+          static_cast<float>(height_m((column + 0.5) * cell_m, size_m - (row + 0.5) * cell_m)));
     }
   }
   SoilCatalogue soils{.soils = {{.name = "regolith", .source = "test", .soil = soil}},

@@ -92,6 +92,28 @@ TEST(DifferentPaths, KeepTheWidestThenTheFastestAndNoneTwice) {
   EXPECT_EQ(names, "widest fast slow ");
 }
 
+TEST(DifferentPaths, APathThatMakesADetourDiffersFromTheOneThatItOtherwiseFollows) {
+  // Every point of the straight path lies on the other one, which strays by 10 m on its way.
+  VerifiedPath detour = path("detour", 0.2, 70);
+  detour.candidate.points.insert(detour.candidate.points.begin() + 2, {.x_m = 15, .y_m = 10});
+  for (const auto& paths : {std::vector{path("straight", 0.3, 50), detour},
+                            std::vector{detour, path("straight", 0.1, 50)}}) {
+    EXPECT_EQ(different_paths(paths, 2).size(), 2);
+  }
+}
+
+TEST(Doubt, GoesByTheShareOfDrawsAgainstWhatIsCountedOn) {
+  const auto with = [](const Probability& feasible) {
+    return drawn(path("a", 0.2, 50), 0.1, 0.11, feasible).candidate;
+  };
+  // 96 of 100 hold: more than are counted on, though the interval's lower end is not.
+  EXPECT_FALSE(is_doubtful(with({.share = 0.96, .low = 0.90, .high = 0.98}), {}));
+  EXPECT_TRUE(is_doubtful(with({.share = 0.94, .low = 0.88, .high = 0.97}), {}));
+  EXPECT_TRUE(
+      is_doubtful(with({.share = 0.96, .low = 0.90, .high = 0.98}), {.probability_min = 0.97}));
+  EXPECT_FALSE(is_doubtful(path("a", 0.2, 50).candidate, {}));  // nothing was drawn
+}
+
 TEST(ChanceConstraint, IsHeldAgainstTheLowerEndOfTheInterval) {
   const Limits limits{.probability_min = 0.9};
   const auto with = [](const Probability& feasible) {

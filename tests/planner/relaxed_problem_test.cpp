@@ -147,4 +147,38 @@ TEST(ClosedBoxes, RoughGroundThatLetsSomePoseLeanLessIsNotTooSteep) {
   EXPECT_EQ(allowed_even, 0);
 }
 
+TEST(ClosedBoxes, WavesAsLongAsTheTrackLetAVehicleAcrossTheSlopeLeanLess) {
+  // Bumps under one side and hollows under the other take most of what the bound of the turn allows
+  // off the slope: half of that bound would close poses that the verdict allows.
+  const Vehicle lrv = preset_vehicle("lrv");
+  const double half_track_m = lrv.wheels.front().y_m;
+  constexpr double kWave_m = 0.15, kSlope = 0.5;
+  const auto waves = [&](double x_m, double /*y_m*/) {
+    return kSlope * x_m - kWave_m * std::sin(std::numbers::pi / 2 * (x_m - 15) / half_track_m);
+  };
+  int allowed = 0;
+  for (const double limit_deg : {17.0, 18.0, 19.0, 20.0, 21.0, 22.0}) {
+    PlanningProblem problem = lrv_problem(one_soil_map(30, firm_regolith(), waves, {}, 0.25));
+    problem.limits.slope_max_rad = limit_deg * kTestDegree;
+    const ClosedBoxes boxes(problem);
+    const World verdict(problem, WorldUse::kVerdict, 1);
+    for (double y_m = 10; y_m < 20; y_m += 0.5) {
+      for (const double x_m : {14.9, 15.0, 15.1}) {
+        const PoseBox box{.x_m = x_m,
+                          .y_m = y_m,
+                          .heading_rad = std::numbers::pi / 2,
+                          .half_m = 0.02,
+                          .half_rad = 0.02};
+        const bool free = !verdict.rejected(
+            verdict.dynamics().rolling_state(box.x_m, box.y_m, box.heading_rad, 0), {},
+            std::nullopt);
+        allowed += free;
+        if (!boxes.too_steep(box)) continue;
+        EXPECT_FALSE(free) << limit_deg;
+      }
+    }
+  }
+  EXPECT_GT(allowed, 60);
+}
+
 }  // namespace regoplan

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "tests/planner/flat_problem.h"
 
@@ -24,6 +26,23 @@ PlanningProblem rolling_toward_the_goal(std::vector<Rock> rocks = {}) {
 }
 
 }  // namespace
+
+TEST(Replay, DeviateByTheLargestDistanceOnTheGroundAtEqualTimes) {
+  const auto through = [](std::initializer_list<std::array<double, 2>> places) {
+    Replay replay;
+    for (const auto& [x_m, y_m] : places) {
+      replay.coarse.emplace_back();
+      replay.coarse.back().x_m = x_m;
+      replay.coarse.back().y_m = y_m;
+    }
+    return replay;
+  };
+  const Replay straight = through({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
+  EXPECT_DOUBLE_EQ(deviation_max_m(straight, through({{0, 0}, {1, 0.5}, {2, 0.2}})), 0.5);
+  EXPECT_DOUBLE_EQ(deviation_max_m(straight, through({{0, 0}, {1.3, -0.4}, {2, 0.2}, {3, 0}})),
+                   0.5);
+  EXPECT_DOUBLE_EQ(deviation_max_m(straight, straight), 0);
+}
 
 TEST(Replay, CrossingTheGoalAtSpeedIsNotReachingIt) {
   const Replay crossed = driven(rolling_toward_the_goal(), 13, false);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "tests/planner/flat_problem.h"
@@ -102,6 +103,26 @@ TEST(World, ASearchKeepsAReserveToTheEdgeOfTheMap) {
   EXPECT_EQ(reason(verdict.rejected(at(lowest_m), {})), Rejection::kUnknownTerrain);
   EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.05), {})), Rejection::kUnknownTerrain);
   EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.15), {})), std::nullopt);
+}
+
+TEST(World, TheReserveToTheEdgeIsKeptForWheelsFarOutsideASmallBodyToo) {
+  for (const double cell_m : {0.5, 0.05}) {
+    PlanningProblem problem = lrv_problem(one_soil_map(8, firm_regolith(), flat, {}, cell_m));
+    problem.start = {.x_m = 4, .y_m = 4};
+    problem.goal = {.x_m = 4, .y_m = 4, .radius_m = 1, .heading_rad = {}};
+    problem.vehicle.body.x_min_m = problem.vehicle.body.y_min_m = -0.2;
+    problem.vehicle.body.x_max_m = problem.vehicle.body.y_max_m = 0.2;
+    const World world(problem, WorldUse::kSearch, 1), verdict(problem, WorldUse::kVerdict, 1);
+    const WheelMount& wheel = problem.vehicle.wheels.front();
+    // One wheel points straight at the edge.
+    const double yaw_rad = std::numbers::pi - std::atan2(wheel.y_m, wheel.x_m);
+    const auto at = [&](double x_m) { return world.dynamics().rolling_state(x_m, 4, yaw_rad, 1); };
+    double lowest_m = 4;  // that the verdict accepts
+    while (!verdict.rejected(at(lowest_m), {})) lowest_m -= 0.005;
+    EXPECT_NEAR(lowest_m, std::hypot(wheel.x_m, wheel.y_m), 0.01);
+    EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.09), {})), Rejection::kUnknownTerrain);
+    EXPECT_EQ(reason(world.rejected(at(lowest_m + 0.15), {})), std::nullopt);
+  }
 }
 
 TEST(World, ASearchKeepsTheSameReserveToUnknownGroundInsideTheMap) {
