@@ -8,6 +8,7 @@
 
 #include "planner/certificate/relaxed_problem.h"
 #include "planner/ompl/search_run.h"
+#include "planner/problem/changed_problem.h"
 #include "planner/runtime/child_processes.h"
 #include "planner/verdict/verified_path.h"
 #include "terramech/basics/angles.h"
@@ -65,42 +66,37 @@ std::optional<PlanningProblem> on_stronger_soils(const PlanningProblem& problem,
     stronger = stronger || std_rad > 0;
   }
   if (!stronger) return std::nullopt;
-  PlanningProblem changed = problem;
-  changed.map = problem.map.with_soils(std::move(soils));
-  return changed;
+  return with_soils(problem, std::move(soils));
 }
 
 std::vector<Relaxation> relaxations_of(const PlanningProblem& problem, const Step& step) {
   std::vector<Relaxation> relaxations;
-  PlanningProblem slower = problem;
-  slower.speed_max_mps *= step.speed_share;
-  if (std::max(slower.start.speed_mps, slower.goal.speed_max_mps) <= slower.speed_max_mps) {
+  const double slower_mps = step.speed_share * problem.speed_max_mps;
+  if (std::max(problem.start.speed_mps, problem.goal.speed_max_mps) <= slower_mps) {
     relaxations.push_back(
         {fmt::format("at {} the speed, {:.4g} m/s",
-                     step.speed_share == 0.5 ? "half" : "three quarters of", slower.speed_max_mps),
-         slower});
+                     step.speed_share == 0.5 ? "half" : "three quarters of", slower_mps),
+         with_speed_max(problem, slower_mps)});
   }
+  Limits limits = problem.limits;
+  limits.margin_min *= step.margin_share;
   if (problem.limits.margin_min > 0) {
-    PlanningProblem bolder = problem;
-    bolder.limits.margin_min *= step.margin_share;
     relaxations.push_back(
-        {fmt::format("with margin_min {:.4g}", bolder.limits.margin_min), bolder});
+        {fmt::format("with margin_min {:.4g}", limits.margin_min), with_limits(problem, limits)});
   }
+  limits = problem.limits;
+  limits.slope_max_rad += step.steeper_rad;
   constexpr double kSteepest_rad = 60 * kDegree;
-  PlanningProblem steeper = problem;
-  steeper.limits.slope_max_rad += step.steeper_rad;
-  if (steeper.limits.slope_max_rad <= kSteepest_rad) {
-    relaxations.push_back(
-        {fmt::format("with slope_max_deg {:.4g}", steeper.limits.slope_max_rad / kDegree),
-         steeper});
+  if (limits.slope_max_rad <= kSteepest_rad) {
+    relaxations.push_back({fmt::format("with slope_max_deg {:.4g}", limits.slope_max_rad / kDegree),
+                           with_limits(problem, limits)});
   }
-  PlanningProblem nearer = problem;
-  nearer.goal.radius_m *= step.goal_share;
+  const double radius_m = step.goal_share * problem.goal.radius_m;
   const double way_m =
       std::hypot(problem.goal.x_m - problem.start.x_m, problem.goal.y_m - problem.start.y_m);
-  if (nearer.goal.radius_m < way_m) {
-    relaxations.push_back(
-        {fmt::format("with a goal of radius_m {:.4g}", nearer.goal.radius_m), nearer});
+  if (radius_m < way_m) {
+    relaxations.push_back({fmt::format("with a goal of radius_m {:.4g}", radius_m),
+                           with_goal_radius(problem, radius_m)});
   }
   if (const auto stronger = on_stronger_soils(problem, step.stronger_std)) {
     relaxations.push_back(

@@ -17,6 +17,7 @@
 #include "app/settings/truth_settings.h"
 #include "planner/evaluation/evaluation.h"
 #include "planner/evaluation/manoeuvres.h"
+#include "planner/problem/changed_problem.h"
 
 namespace regoplan {
 namespace {
@@ -101,9 +102,8 @@ ExitStatus run(const Options& options) {
   require_writable_folder(options.folder.path);
   const Scenario scenario = read_scenario(options.scenario, options.overrides);
   const GivenPath given = read_path(options.path, scenario.problem, scenario.problem.speed_max_mps);
-  PlanningProblem problem = scenario.problem;
-  problem.speed_max_mps *=
-      kSpeedTolerance;  // a vehicle may roll a little faster than it is meant to
+  const PlanningProblem problem =
+      with_speed_max(scenario.problem, kSpeedTolerance * scenario.problem.speed_max_mps);
   const std::string truth_text = options.truth_file ? settings_text(*options.truth_file) : "";
   DriveRecord record{.scenario = options.scenario,
                      .path = options.path,

@@ -14,6 +14,7 @@
 #include "app/io/interrupt.h"
 #include "app/io/staged_files.h"
 #include "app/settings/manoeuvre_settings.h"
+#include "planner/problem/changed_problem.h"
 
 namespace regoplan {
 namespace {
@@ -47,12 +48,6 @@ std::string summary(const EvaluationResult& result) {
     }
   }
   return text;
-}
-
-/// A vehicle may roll a little faster than it is meant to.
-PlanningProblem with_tolerant_speed(PlanningProblem problem, double speed_max_mps) {
-  problem.speed_max_mps = kSpeedTolerance * speed_max_mps;
-  return problem;
 }
 
 double checked_speed_mps(const EvaluationRequest& request, const PlanningProblem& problem) {
@@ -126,7 +121,7 @@ void judge_all(const GivenCourses& given, const PlanningProblem& problem, bool q
     EvaluatedPath path = judged();
     if (!stop.stop_requested()) result.paths.push_back(std::move(path));
   };
-  const PlanningProblem tolerant = with_tolerant_speed(problem, given.speed_max_mps);
+  const PlanningProblem tolerant = with_speed_max(problem, kSpeedTolerance * given.speed_max_mps);
   const World world(tolerant, WorldUse::kVerdict, 1);
   for (const GivenPath& path : given.paths) {
     judge([&] {

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "planner/driving/margin_draws.h"
 #include "planner/driving/path_margins.h"
+#include "planner/problem/changed_problem.h"
 #include "planner/problem/margin_spread.h"
 
 namespace regoplan {
@@ -20,16 +22,7 @@ using MapPoint = std::array<double, 2>;  ///< x_m, y_m
 PlanningProblem on_weaker_soils(const PlanningProblem& problem, double factor) {
   std::vector<MapSoil> soils = problem.map.soils();
   for (MapSoil& soil : soils) soil.soil.mean = with_scaled_strength(soil.soil.mean, factor);
-  PlanningProblem weaker = problem;
-  weaker.map = problem.map.with_soils(std::move(soils));
-  return weaker;
-}
-
-/// At twice the speeds the speed limit is not the question.
-PlanningProblem without_speed_limit(const PlanningProblem& problem) {
-  PlanningProblem faster = problem;
-  faster.speed_max_mps = std::numeric_limits<double>::infinity();
-  return faster;
+  return with_soils(problem, std::move(soils));
 }
 
 /// Judges the margins of the same moments after a change to each.
@@ -166,7 +159,9 @@ Soil with_scaled_strength(Soil soil, double factor) {
 WhatIf what_if(Circumstance circumstance, const World& world, const Replay& verified,
                const std::vector<ControlSegment>& controls) {
   if (circumstance == Circumstance::kTwiceTheSpeed) {
-    const PlanningProblem problem = without_speed_limit(world.problem());
+    // At twice the speeds the speed limit is not the question.
+    const PlanningProblem problem =
+        with_speed_max(world.problem(), std::numeric_limits<double>::infinity());
     return same_path("the same path at twice its speeds", World(problem, WorldUse::kVerdict, 1),
                      verified, [](VehicleState state) {
                        state.motion.vx_mps *= 2;
