@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
+
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 
@@ -28,19 +31,48 @@ enum class Rejection {
   kGoalMissed,   ///< the vehicle stands too far from it
 };
 /// Those of states come first.
-inline constexpr int kRejectionCount = 11;
-
-/// As it stands in files: `bounds`, `speed`, `unknown_terrain`, ...
-std::string_view name(Rejection rejection);
+inline constexpr int kRejectionCount = static_cast<int>(Rejection::kSteering);
 
 /// What the number of a reason counts, and how it is shown.
 struct RejectedQuantity {
-  std::string_view words;   ///< `slope`, `cornering margin`; empty where there is no number
-  double si_per_shown = 1;  ///< radians in a degree, for angles
-  std::string_view unit;    ///< `deg`, `m`, `m/s`, `1/m`; empty of a ratio or a margin
-  bool at_least = false;    ///< the limit is a least, as of margins; else a most
-  bool either_way = false;  ///< signed, and the limit holds for both signs
+  std::string_view words = {};  ///< `slope`, `cornering margin`; empty where there is no number
+  double si_per_shown = 1;      ///< radians in a degree, for angles
+  std::string_view unit = {};   ///< `deg`, `m`, `m/s`, `1/m`; empty of a ratio or a margin
+  bool at_least = false;        ///< the limit is a least, as of margins; else a most
+  bool either_way = false;      ///< signed, and the limit holds for both signs
 };
+
+/// A reason in words.
+struct RejectionWords {
+  Rejection rejection;
+  std::string_view name;  ///< as it stands in files: `bounds`, `speed`, `unknown_terrain`, ...
+  RejectedQuantity quantity = {};
+};
+
+/// In the order of the enumeration.
+inline constexpr auto kRejectionWords = std::to_array<RejectionWords>({
+    {Rejection::kBounds, "bounds"},
+    {Rejection::kSpeed, "speed", {.words = "speed", .unit = "m/s"}},
+    {Rejection::kUnknownTerrain, "unknown_terrain"},
+    {Rejection::kObstacle, "obstacle"},
+    {Rejection::kSlope, "slope", {.words = "slope", .si_per_shown = kDegree, .unit = "deg"}},
+    {Rejection::kSinkage, "sinkage", {.words = "sinkage", .unit = "m"}},
+    {Rejection::kSlip, "slip", {.words = "slip", .either_way = true}},
+    {Rejection::kSlipAngle,
+     "slip_angle",
+     {.words = "slip angle", .si_per_shown = kDegree, .unit = "deg", .either_way = true}},
+    {Rejection::kTraction, "traction", {.words = "traction margin", .at_least = true}},
+    {Rejection::kTipOver, "tip_over", {.words = "tip over margin", .at_least = true}},
+    {Rejection::kCornering, "cornering", {.words = "cornering margin", .at_least = true}},
+    {Rejection::kSteering, "steering", {.words = "steering", .unit = "1/m", .either_way = true}},
+    {Rejection::kDeviation, "deviation", {.words = "deviation", .unit = "m"}},
+    {Rejection::kStalled, "stalled"},
+    {Rejection::kDynamics, "dynamics"},
+    {Rejection::kDoesNotStop, "does_not_stop", {.words = "speed at the end", .unit = "m/s"}},
+    {Rejection::kGoalMissed, "goal_missed", {.words = "distance from the goal", .unit = "m"}},
+});
+
+std::string_view name(Rejection rejection);
 const RejectedQuantity& quantity(Rejection rejection);
 
 /// Whether a reason is one of the three stability margins.
