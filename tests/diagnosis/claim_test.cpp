@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "account_of.h"
+#include "calibrated_bed.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
@@ -51,6 +53,20 @@ TEST(Claim, ASureEffectStandsAloneWhereItsPartnerIsNot) {
       scored({{"grousers", 0.5}, {"grousers+multi_pass", 0.3}, {"grousers+rear_contact", 0.2}}));
   ASSERT_EQ(claimed.size(), 1);
   EXPECT_EQ(claimed[0].ids, std::vector<std::string>{"grousers"});
+}
+
+TEST(Claim, IsNotBelievedWithASoilNumberFarFromItsTests) {
+  const DiagnosisSetup setup = simulant_setup();
+  const CalibratedBed bed(record({}, setup, setup.soil.mean, {}, 1), setup);
+  CandidateFit fit = bed.fit;
+  EXPECT_EQ(objection(bed.problem(), fit), "");
+  for (const double side : {-1.0, 1.0}) {
+    fit.x[0] = side * (Thresholds::kSoilBack - 0.1);
+    EXPECT_EQ(objection(bed.problem(), fit), "");
+    fit.x[0] = side * (Thresholds::kSoilBack + 0.1);
+    const std::string doubt = objection(bed.problem(), fit);
+    EXPECT_NE(doubt.find(bed.soil[0].coordinate.name + " would still lie"), doubt.npos) << doubt;
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "planner/driving/stopping.h"
 #include "tests/planner/flat_problem.h"
 
 namespace regoplan {
@@ -80,6 +81,23 @@ TEST(Replay, WhoCannotStopBehindTheGoalHasNotReachedIt) {
   EXPECT_EQ(crossed.rejection->reason, Rejection::kObstacle);
   EXPECT_TRUE(crossed.rejection->while_stopping);
   EXPECT_GT(crossed.rejection->x_m, 40);
+}
+
+TEST(RefusedStop, IsNoneWhereStraighteningTheWheelsLeadsPastWhatTheTurnWouldHit) {
+  const auto refusal = [](std::vector<Rock> rocks) {
+    const PlanningProblem problem =
+        lrv_problem(one_soil_map(60, firm_regolith(), flat, std::move(rocks)));
+    const World verdict(problem, WorldUse::kVerdict, 2);
+    const VehicleState turning = verdict.dynamics().rolling_state(25, 25, 0, 1.5, 0.2);
+    return refused_stop(verdict, turning, verification_steps(verdict));
+  };
+  const Rock inside_the_turn{29.6, 28.2, 0.8, 2}, ahead{31, 25.5, 0.8, 2};
+  EXPECT_FALSE(refusal({}));
+  EXPECT_FALSE(refusal({ahead}) || refusal({inside_the_turn}));  // each way out is enough
+  const auto refused = refusal({inside_the_turn, ahead});
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->reason, Rejection::kObstacle);
+  EXPECT_TRUE(refused->while_stopping);
 }
 
 }  // namespace regoplan

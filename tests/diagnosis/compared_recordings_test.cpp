@@ -1,0 +1,66 @@
+#include "diagnosis/bed/compared_recordings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "synthetic_bed.h"
+
+namespace regoplan {
+namespace {
+
+Recording sound(std::uint64_t seed, int replicates, double noise = 1) {
+  const DiagnosisSetup setup = simulant_setup();
+  const BedPlan plan{
+      .conditions = 24, .replicates = replicates, .noise = noise, .day = 0, .outliers = 0};
+  return record({}, setup, setup.soil.mean, plan, seed);
+}
+
+ComparedRecordings alike(const Recording& test, const Recording& reference) {
+  const DiagnosisSetup setup = simulant_setup();
+  return read_alike(test, setup, {{"reference", reference, setup}}, {});
+}
+
+TEST(ReadAlike, NeitherIsTakenToScatterLessThanBothTogether) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording quiet = sound(1, 3, 0.5), loud = sound(2, 3, 1.5);
+  const CondensedRecording quiet_alone = condense(quiet, setup), loud_alone = condense(loud, setup);
+  const ComparedRecordings compared = alike(quiet, loud);
+  for (std::size_t c = 0; c < compared.test.noise.size(); ++c) {
+    const ChannelNoise &a = quiet_alone.noise[c], &b = loud_alone.noise[c];
+    const double pooled = std::sqrt((a.degrees_of_freedom * a.constant * a.constant +
+                                     b.degrees_of_freedom * b.constant * b.constant) /
+                                    (a.degrees_of_freedom + b.degrees_of_freedom));
+    EXPECT_LT(a.constant, pooled);
+    EXPECT_NEAR(compared.test.noise[c].constant, pooled, 1e-9 * pooled);
+    EXPECT_NEAR(compared.references[0].noise[c].constant, b.constant, 1e-9 * pooled);
+  }
+}
+
+TEST(ReadAlike, WhoHasNoReplicatesTakesTheScatterOfThoseThatHaveThem) {
+  const ComparedRecordings compared = alike(sound(1, 1), sound(2, 4));
+  for (std::size_t c = 0; c < compared.test.noise.size(); ++c) {
+    const ChannelNoise &own = compared.test.noise[c], &lender = compared.references[0].noise[c];
+    EXPECT_EQ(own.source, NoiseSource::kSetup);
+    EXPECT_EQ(own.degrees_of_freedom, lender.degrees_of_freedom);  // as sure as the lender, no more
+    EXPECT_NEAR(own.constant, lender.constant, 0.5 * lender.constant);
+  }
+}
+
+TEST(ReadAlike, OnlyChannelsThatBothMeasuredAreCompared) {
+  Recording without_torque = sound(2, 3);
+  std::erase(without_torque.channels, Channel::kTorque);
+  for (WheelRun& run : without_torque.runs) {
+    run.measured[static_cast<std::size_t>(Channel::kTorque)] = WheelRun::kNotMeasured;
+  }
+  const ComparedRecordings compared = alike(sound(1, 3), without_torque);
+  for (const ChannelData& data : compared.test.bed.channels) {
+    EXPECT_NE(data.channel, Channel::kTorque);
+  }
+  EXPECT_TRUE(std::ranges::count(compared.notes,
+                                 "channels that the reference lacks are not compared") == 1);
+}
+
+}  // namespace
+}  // namespace regoplan
