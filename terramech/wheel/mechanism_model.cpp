@@ -30,9 +30,9 @@ Ground ground_of(const Effects& effects, double gravity_mps2) {
   const double height = effects.bulldoze_height;
   ground.bulldoze_cohesion_pa = height * (ground.bulldoze_cohesion_pa + d1 * effects.surcharge_pa);
   ground.bulldoze_weight *= height * height;
-  // shear at the rim is the smaller of what rim and soil bear; the soil beside keeps its own
-  ground.tan_phi = std::tan(std::min(effects.rim_friction_ratio, 1.0) * soil.friction_angle_rad);
-  ground.soil.cohesion_pa *= std::min(effects.rim_adhesion_share, 1.0);
+  // The rim bears no more shear than the soil (both at most 1); the soil beside keeps its own.
+  ground.tan_phi = std::tan(effects.rim_friction_ratio * soil.friction_angle_rad);
+  ground.soil.cohesion_pa *= effects.rim_adhesion_share;
   return ground;
 }
 

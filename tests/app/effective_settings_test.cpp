@@ -17,7 +17,7 @@
 namespace regoplan {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 class EffectiveSettings : public testing::Test {
  protected:
@@ -28,14 +28,14 @@ class EffectiveSettings : public testing::Test {
   }
 
   /// The settings as the scenario that they are meant to be.
-  static std::string as_scenario(const Json& settings) {
+  static std::string as_scenario(const OrderedJson& settings) {
     std::string text = std::string("map:\n  elevation: dem.tif\n  soils: ") + kOneSoil + "\n";
     for (const auto& [key, value] : settings.items()) text += key + ": " + value.dump() + "\n";
     return text;
   }
 
   /// On ground so steep that nothing is planned, so that the answer comes at once.
-  Json settings_of_a_run(const std::string& planner, const std::string& flags) const {
+  OrderedJson settings_of_a_run(const std::string& planner, const std::string& flags) const {
     ElevationRaster steep = flat_elevation();
     for (std::size_t i = 0; i < steep.height_m.size(); ++i) {
       steep.height_m[i] = static_cast<float>(i % 40);
@@ -47,7 +47,7 @@ class EffectiveSettings : public testing::Test {
         run_program(folder_, "plan '" + folder_.path("scenario.yaml") + "' --out '" +
                                  folder_.path("out") + "' " + flags);
     EXPECT_EQ(run.status, 2) << run.errors;
-    return Json::parse(folder_.read("out/plan.json")).at("settings");
+    return OrderedJson::parse(folder_.read("out/plan.json")).at("settings");
   }
 
   ScratchFolder folder_;
@@ -124,11 +124,11 @@ TEST_F(EffectiveSettings, WhatIsFoundIsImprovedUnlessSomebodySaysNo) {
         run_program(folder_, fmt::format("plan '{}' --out '{}' --seed {} {}", scenario,
                                          folder_.path("out"), seed, flags));
     EXPECT_EQ(run.status, 0) << run.errors;
-    return Json::parse(folder_.read("out/plan.json")).at("candidates").at(0).at("improved");
+    return OrderedJson::parse(folder_.read("out/plan.json")).at("candidates").at(0).at("improved");
   };
   // Now and then a tree's first path is one that nothing betters.
   int seed = 2;
-  Json by_default = improved(seed, "");
+  OrderedJson by_default = improved(seed, "");
   while (by_default.is_null() && seed < 6) by_default = improved(++seed, "");
   ASSERT_FALSE(by_default.is_null());
   EXPECT_LT(by_default.at("cost_after"), by_default.at("cost_before"));
@@ -148,8 +148,8 @@ std::string documented_default(const std::string& key) {
 }
 
 TEST_F(EffectiveSettings, AreWhatTheDocumentsGiveAsDefaults) {
-  const Json settings = settings_of_a_run("", "");
-  const Json& planner = settings.at("planner");
+  const OrderedJson settings = settings_of_a_run("", "");
+  const OrderedJson& planner = settings.at("planner");
   EXPECT_EQ(documented_default("planner: name"), planner.at("name").get<std::string>());
   EXPECT_EQ(documented_default("planner: improve"), planner.at("improve").dump());
   EXPECT_EQ(documented_default("planner: time_s"),
@@ -160,7 +160,8 @@ TEST_F(EffectiveSettings, AreWhatTheDocumentsGiveAsDefaults) {
   EXPECT_EQ(documented_default("planner: objective: {per_s, per_m, per_j, per_exposed_s, "
                                "exposed_below}"),
             "time");
-  EXPECT_EQ(planner.at("objective"), Json::parse(R"({"per_s": 1.0, "per_m": 0.0, "per_j": 0.0,
+  EXPECT_EQ(planner.at("objective"),
+            OrderedJson::parse(R"({"per_s": 1.0, "per_m": 0.0, "per_j": 0.0,
                                         "per_exposed_s": 0.0, "exposed_below": 0.2})"));
   EXPECT_EQ(documented_default("limits: margin_min"),
             settings.at("limits").at("margin_min").dump());
@@ -182,7 +183,7 @@ TEST_F(EffectiveSettings, AreWhatTheDocumentsGiveAsDefaults) {
 }
 
 TEST_F(EffectiveSettings, AreWhatTheHelpGivesAsDefaults) {
-  const Json planner = settings_of_a_run("", "").at("planner");
+  const OrderedJson planner = settings_of_a_run("", "").at("planner");
   const std::string help = run_program(folder_, "plan --help").output;
   const auto otherwise = [&help](const std::string& option) {
     const std::string_view lead = ", else ";
@@ -204,7 +205,7 @@ TEST_F(EffectiveSettings, APathIsFollowedAsTheHelpSaysUnlessAskedForOtherwise) {
                              folder_.path("path.csv"), folder_.path(command)));
     ASSERT_EQ(run.status, 0) << run.errors;
     const std::string file = command + (command == "drive" ? "/drive.json" : "/evaluation.json");
-    const std::string follower = Json::parse(folder_.read(file)).at("follower");
+    const std::string follower = OrderedJson::parse(folder_.read(file)).at("follower");
     EXPECT_EQ(follower, "compensated");
     const std::string help = run_program(folder_, command + " --help").output;
     EXPECT_NE(help.find(follower + " (default)"), std::string::npos) << help;

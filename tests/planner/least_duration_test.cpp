@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "planner/certificate/least_length.h"
 #include "planner/plan.h"
 #include "tests/planner/flat_problem.h"
 
@@ -20,6 +21,20 @@ TEST(FastestDrive, AtItsSpeedFromTheStartItLosesNothing) {
   const FastestDrive drive{
       .speed_max_mps = 2, .acceleration_mps2 = 1, .start_mps = 2, .end_mps = 2};
   EXPECT_NEAR(drive.duration_s(10), 5, 1e-12);
+}
+
+TEST(LeastDuration, AllowsForAVehicleThatRollsFasterThanItsRims) {
+  // Braked wheels may slip by slip_max: the vehicle then gains or loses speed faster than its rims.
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const double length_m = LeastLength(problem).to_goal_m(problem.start.x_m, problem.start.y_m);
+  for (const double slip_max : {0.0, 0.3, 0.6}) {
+    problem.limits.slip_max = slip_max;
+    const double faster = 1 / (1 - slip_max);
+    const FastestDrive drive{.speed_max_mps = 1.001 * problem.speed_max_mps,
+                             .acceleration_mps2 = faster * problem.vehicle.acceleration_max_mps2,
+                             .end_mps = faster * VehicleDynamics::kStandstillSpeed_mps};
+    EXPECT_NEAR(least_duration_s(problem), drive.duration_s(length_m), 1e-9) << slip_max;
+  }
 }
 
 TEST(LeastDuration, NoVerifiedPathIsFaster) {

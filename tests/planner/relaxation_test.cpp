@@ -82,6 +82,20 @@ TEST(Relaxation, EveryOneIsAProblemThatCanBeAsked) {
   }
 }
 
+TEST(Relaxation, NoLargerGoalHoldsTheStart) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.goal.x_m = problem.start.x_m + 10;
+  problem.goal.radius_m = 3;
+  std::vector<double> larger_m;
+  for (const auto& step : relaxations_of(problem)) {
+    for (const Relaxation& relaxation : step) {
+      const double radius_m = relaxation.problem.goal.radius_m;
+      if (radius_m != 3) larger_m.push_back(radius_m);
+    }
+  }
+  EXPECT_EQ(larger_m, std::vector<double>{6});  // 12 m would hold it
+}
+
 TEST(Relaxation, NamesNothingWhereNothingHelps) {
   const PlanningProblem problem =
       lrv_problem(one_soil_map(50, firm_regolith(), flat, ring_of_rocks(10, 25, 7)));
