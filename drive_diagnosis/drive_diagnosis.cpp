@@ -224,6 +224,18 @@ bool is_found(const DriveDiagnosis& result, std::string_view id) {
                              [id](const DriveFinding& finding) { return finding.id == id; });
 }
 
+/// Counts windows that the vehicle's model says nothing of.
+std::string why_nothing_is_compared(const DriveDiagnosis& result) {
+  std::string text =
+      "fewer than 12 windows drive with rim speeds, steering, heading and known ground";
+  if (!result.windows_used) return text;
+  for (std::size_t i = 0; i < kLeftOutReasons; ++i) {
+    const int count = result.windows_used->left_out.at(i);
+    if (count > 0) text += fmt::format(", {} {}", count, name(static_cast<LeftOut>(i)));
+  }
+  return text;
+}
+
 /// What nobody should expect these drives to show.
 void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                         DriveDiagnosis& result) {
@@ -238,7 +250,7 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
     result.silent.push_back(
         {{"soil_zone", "zone_border", "map_offset", "wheel_radius", "steering_offset", "payload",
           "tow_drag"},
-         "fewer than 12 windows have rim speeds, steering, heading and known ground",
+         why_nothing_is_compared(result),
          "a minute on the map with rim speed and steering of every wheel and the pose at 1 Hz"});
   }
   if (!any_has(drives, "torque_")) {
@@ -317,8 +329,11 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
                                       checks.current_sides_swapped, options.seed, options.stop);
   if (result.currents) claim_side_drag(result);
   if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
-    result.effects = find_vehicle_effects(drives, result.windows, setup.map, *setup.vehicle,
-                                          setup.gravity_mps2, options.seed, options.stop);
+    VehicleComparison comparison = find_vehicle_effects(
+        drives, result.windows, setup.map, *setup.vehicle, setup.gravity_mps2,
+        {.seed = options.seed, .threads = options.threads, .stop = options.stop});
+    result.windows_used = comparison.windows;
+    result.effects = std::move(comparison.effects);
   }
   if (result.effects) claim_effects(setup, drives, result);
   say_what_is_silent(setup, drives, result);

@@ -72,6 +72,8 @@ struct DriveDiagnosis {
   std::vector<DriveFinding> findings;
   std::vector<Mounting> mountings;
   std::optional<CurrentDiagnosis> currents;
+  std::optional<WindowsUsed>
+      windows_used;  ///< by the vehicle's model; nothing where it was not asked
   std::optional<VehicleEffects> effects;
   std::vector<SilentEffect> silent;
   std::vector<DriveWindow> windows;
@@ -81,6 +83,7 @@ struct DriveDiagnosis {
 
 struct DriveDiagnosisOptions {
   std::uint64_t seed = 1;
+  int threads = 2;  ///< changes no result
   /// A request ends the diagnosis within a second with what was found by then, marked interrupted.
   std::stop_token stop = {};
   std::function<void(std::string_view stage, double share)> progress = {};

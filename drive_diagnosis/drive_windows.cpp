@@ -19,13 +19,26 @@ struct Rows {
 /// A polynomial through samples, about the middle of the window.
 struct Smoothed {
   double value = kNotSampled, slope = kNotSampled, bend = 0;
-  double slope_std = kNotSampled, bend_std = kNotSampled;
+  double slope_std = kNotSampled;
   double scatter = kNotSampled;  ///< standard deviation of the samples about it
   int count = 0;
+  std::vector<double> time_s, slope_weights;  ///< the slope is the weights' sum over the samples
+
+  double at(double t_s) const {
+    return value + (std::isnan(slope) ? 0 : slope * t_s) + bend * t_s * t_s / 2;
+  }
+  /// How much of the slope is the mean slope from one time to another.
+  double share(double from_s, double to_s) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < slope_weights.size(); ++i) {
+      sum += slope_weights[i] * std::clamp(time_s[i], from_s, to_s);
+    }
+    return sum;
+  }
 };
 
 Smoothed smoothed(const std::vector<double>& time_s, const std::vector<double>& values) {
-  Smoothed result{.count = static_cast<int>(values.size())};
+  Smoothed result{.count = static_cast<int>(values.size()), .time_s = time_s, .slope_weights = {}};
   if (values.empty()) return result;
   const auto n = static_cast<Eigen::Index>(values.size());
   const Eigen::Index degree = n >= 5 ? 2 : n >= 3 ? 1 : 0;
@@ -42,6 +55,10 @@ Smoothed smoothed(const std::vector<double>& time_s, const std::vector<double>& 
   result.value = c[0];
   if (degree >= 1) result.slope = c[1];
   if (degree >= 2) result.bend = 2 * c[2];
+  if (degree >= 1) {
+    const Eigen::MatrixXd weights = solver.solve(design.transpose());
+    result.slope_weights.assign(weights.row(1).begin(), weights.row(1).end());
+  }
   if (n > degree + 1) {
     const double variance = (y - design * c).squaredNorm() / static_cast<double>(n - degree - 1);
     result.scatter = std::sqrt(variance);
@@ -49,7 +66,6 @@ Smoothed smoothed(const std::vector<double>& time_s, const std::vector<double>& 
       const Eigen::MatrixXd inverse =
           solver.solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1));
       result.slope_std = std::sqrt(variance * std::max(0.0, inverse(1, 1)));
-      if (degree >= 2) result.bend_std = 2 * std::sqrt(variance * std::max(0.0, inverse(2, 2)));
     }
   }
   return result;
@@ -88,6 +104,19 @@ double range_of(const std::vector<float>& values, const Rows& rows) {
   return high >= low ? high - low : 0;
 }
 
+/// Parts of the smoothed time, with their shares of the means.
+void divide(double from_s, double to_s, DriveWindow& window) {
+  const double part_s = (to_s - from_s) / DriveWindow::kParts;
+  for (std::size_t j = 0; j < DriveWindow::kParts; ++j) {
+    WindowPart& part = window.parts.at(j);
+    part.start_s = from_s + static_cast<double>(j) * part_s;
+    part.end_s = part.start_s + part_s;
+    const double within_s =
+        std::min(part.end_s, window.end_s) - std::max(part.start_s, window.start_s);
+    part.mean_share = std::max(0.0, within_s) / window.duration_s();
+  }
+}
+
 void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s,
                   DriveWindow& window) {
   std::vector<double> time_s, xs, ys;
@@ -110,6 +139,12 @@ void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s
   window.speed_std_mps = std::hypot(x.slope_std, y.slope_std) / std::numbers::sqrt2;
   window.acceleration_mps2 =
       window.speed_mps > 0 ? (x.slope * x.bend + y.slope * y.bend) / window.speed_mps : 0;
+  for (WindowPart& part : window.parts) {
+    const double t_s = (part.start_s + part.end_s) / 2 - middle_s;
+    part.x_m = x0 + x.at(t_s);
+    part.y_m = y0 + y.at(t_s);
+    part.track_share = x.share(part.start_s - middle_s, part.end_s - middle_s);
+  }
   const double c = std::cos(window.yaw_rad), s = std::sin(window.yaw_rad);
   window.forward_mps = c * x.slope + s * y.slope;
   window.left_mps = c * y.slope - s * x.slope;
@@ -134,6 +169,10 @@ void smooth_yaw(const DriveRecording& drive, const Rows& rows, double middle_s,
   window.yaw_rad = fit.value;
   window.yaw_rate_rad_s = fit.slope;
   window.yaw_rate_std_rad_s = fit.slope_std;
+  for (WindowPart& part : window.parts) {
+    part.yaw_rad = fit.at((part.start_s + part.end_s) / 2 - middle_s);
+    part.turn_share = fit.share(part.start_s - middle_s, part.end_s - middle_s);
+  }
 }
 
 /// The turning rate of each wheel.
@@ -159,38 +198,16 @@ double wheel_acceleration(const std::vector<Smoothed>& rates) {
   return rates.empty() ? kNotSampled : sum / static_cast<double>(rates.size());
 }
 
-/// How far the wheels' rates are from those of steady driving, over what is smoothed.
-void judge_steadiness(const std::vector<Smoothed>& rates, double duration_s, DriveWindow& window) {
-  double value = 0, slope = 0, bend = 0, slope_variance = 0, bend_variance = 0;
-  for (const Smoothed& rate : rates) {
-    if (std::isnan(rate.bend_std)) continue;
-    value += rate.value;
-    slope += rate.slope;
-    bend += rate.bend;
-    slope_variance += rate.slope_std * rate.slope_std;
-    bend_variance += rate.bend_std * rate.bend_std;
-  }
-  if (!(std::abs(value) > 0)) return;
-  const double half_s = duration_s / 2;
-  const auto beyond_scatter = [](double size, double variance) {
-    return std::max(0.0, std::abs(size) - 2 * std::sqrt(variance));
-  };
-  window.wheel_rate_bend =
-      beyond_scatter(bend, bend_variance) * half_s * half_s / 2 / std::abs(value);
-  window.wheel_rate_least = 1 - beyond_scatter(slope, slope_variance) * half_s / std::abs(value);
-}
-
 /// \param wide rows that position and heading are smoothed over
 DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows& rows,
                       const Rows& wide) {
   DriveWindow window{
       .drive = index, .start_s = drive.time_s[rows.from], .end_s = drive.time_s[rows.to - 1]};
   const double middle_s = (window.start_s + window.end_s) / 2;
+  divide(drive.time_s[wide.from], drive.time_s[wide.to - 1], window);
   smooth_yaw(drive, wide, middle_s, window);
   smooth_track(drive, wide, middle_s, window);
   window.wheel_acceleration_rad_s2 = wheel_acceleration(wheel_rates(drive, rows, middle_s));
-  judge_steadiness(wheel_rates(drive, wide, middle_s),
-                   drive.time_s[wide.to - 1] - drive.time_s[wide.from], window);
   window.pitch_rad = window.roll_rad = window.sensed_speed_mps = kNotSampled;
   window.steady = true;
   for (const DriveChannel& channel : drive.channels) {

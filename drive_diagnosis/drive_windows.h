@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -9,6 +10,17 @@ namespace regoplan {
 
 /// Slower, a drive is taken to stand: positions and rim speeds scatter by as much.
 inline constexpr double kMoving_mps = 0.1;
+
+/// A part of the time that a window is smoothed over. What is smoothed is a linear functional of
+/// what happened: the shares say how much of it is the mean of each part, so that a prediction can
+/// be made the same functional as the measurement.
+struct WindowPart {
+  double start_s = 0, end_s = 0;
+  double x_m = 0, y_m = 0, yaw_rad = 0;  ///< smoothed, in its middle
+  double track_share = 0;                ///< of the velocity over ground, `forward_mps`, `left_mps`
+  double turn_share = 0;                 ///< of the yaw rate
+  double mean_share = 0;                 ///< of the channels' means
+};
 
 /// What a drive did over a few seconds, from its fresh samples alone. NaN where the drive does not
 /// say.
@@ -24,16 +36,15 @@ struct DriveWindow {
   double left_mps = 0;
   double acceleration_mps2 = 0;          ///< along the track
   double wheel_acceleration_rad_s2 = 0;  ///< of the wheels' mean turning rate
-  /// By how much that rate departs from a straight line over what is smoothed, and how low it gets:
-  /// shares of its mean, beyond two standard deviations of its scatter.
-  double wheel_rate_bend = 0, wheel_rate_least = 1;
   double yaw_rate_rad_s = 0;
   double course_rad = 0;
   double speed_std_mps = 0;  ///< of the smoothing, from the scatter of the fixes
   double yaw_rate_std_rad_s = 0;
   int fixes = 0;
-  bool steady = false;           ///< no command changes within it
-  std::vector<double> channels;  ///< means, in the order of the drive's channels
+  bool steady = false;  ///< no command changes within it
+  static constexpr std::size_t kParts = 16;
+  std::array<WindowPart, kParts> parts{};  ///< evenly over what is smoothed; shares sum to 1
+  std::vector<double> channels;            ///< means, in the order of the drive's channels
 
   double duration_s() const { return end_s - start_s; }
 };

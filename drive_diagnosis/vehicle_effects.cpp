@@ -6,6 +6,7 @@
 #include "drive_diagnosis/effect_contest.h"
 #include "drive_diagnosis/residual_noise.h"
 #include "drive_diagnosis/rolling_resistance.h"
+#include "drive_diagnosis/vehicle_trials.h"
 #include "drive_diagnosis/window_comparison.h"
 #include "terramech/basics/interruption.h"
 
@@ -20,15 +21,15 @@ class EffectSearch {
  public:
   EffectSearch(const std::vector<DriveWindow>& windows, const TerrainMap& map,
                const Vehicle& vehicle, double gravity_mps2, WindowComparison& comparison,
-               std::uint64_t seed, const std::stop_token& stop)
+               const EffectSearchSettings& settings)
       : windows_(windows),
         map_(map),
         vehicle_(vehicle),
         gravity_mps2_(gravity_mps2),
         comparison_(comparison),
         trials_(vehicle_trials(vehicle, map, comparison.soils_driven())),
-        seed_(seed),
-        stop_(stop),
+        seed_(settings.seed),
+        stop_(settings.stop),
         fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials_.size()))} {
     shifts_ = Eigen::MatrixXd::Zero(comparison.measured().rows(),
                                     static_cast<Eigen::Index>(comparison.inputs()));
@@ -47,8 +48,6 @@ class EffectSearch {
 
   VehicleEffects run() {
     VehicleEffects result{.windows = static_cast<int>(comparison_.size()),
-                          .left_out = static_cast<int>(comparison_.left_out()),
-                          .unsteady = static_cast<int>(comparison_.unsteady()),
                           .channels = comparison_.channels(),
                           .has_torque = comparison_.has_torque()};
     const Eigen::MatrixXd nothing =
@@ -326,7 +325,7 @@ class EffectSearch {
   }
 
   int soil_at(std::size_t i) const {
-    const WindowInput::Place& middle = comparison_.input(i).places[WindowInput::kPlaces / 2];
+    const WindowPart& middle = comparison_.input(i).places[DriveWindow::kParts / 2].part;
     return map_.soil_index(middle.x_m, middle.y_m).value_or(0);
   }
 
@@ -435,14 +434,15 @@ class EffectSearch {
 
 }  // namespace
 
-std::optional<VehicleEffects> find_vehicle_effects(const std::vector<DriveRecording>& drives,
-                                                   const std::vector<DriveWindow>& windows,
-                                                   const TerrainMap& map, const Vehicle& vehicle,
-                                                   double gravity_mps2, std::uint64_t seed,
-                                                   const std::stop_token& stop) {
-  WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2);
-  if (comparison.size() < kWindowsLeast) return {};
-  return EffectSearch(windows, map, vehicle, gravity_mps2, comparison, seed, stop).run();
+VehicleComparison find_vehicle_effects(const std::vector<DriveRecording>& drives,
+                                       const std::vector<DriveWindow>& windows,
+                                       const TerrainMap& map, const Vehicle& vehicle,
+                                       double gravity_mps2, const EffectSearchSettings& settings) {
+  WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2, settings.threads);
+  VehicleComparison result{.windows = comparison.used(), .effects = {}};
+  if (comparison.size() < kWindowsLeast) return result;
+  result.effects = EffectSearch(windows, map, vehicle, gravity_mps2, comparison, settings).run();
+  return result;
 }
 
 }  // namespace regoplan

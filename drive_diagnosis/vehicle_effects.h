@@ -9,6 +9,7 @@
 
 #include "drive_diagnosis/drive_windows.h"
 #include "drive_diagnosis/mounting.h"
+#include "drive_diagnosis/window_comparison.h"
 #include "drive_diagnosis/window_prediction.h"
 
 namespace regoplan {
@@ -44,8 +45,6 @@ struct VehicleEffects {
   VehicleFinding strongest_left;  ///< what did not stand out
   std::vector<MapSoil> soils;  ///< of the map, with what is left of the spread of those driven on
   int windows = 0;             ///< that were compared
-  int left_out = 0;            ///< beyond the most that are compared
-  int unsteady = 0;            ///< starts, stops, changes of acceleration: not compared
   std::vector<std::string> channels;
   std::vector<double> noise;      ///< of each channel
   std::vector<double> rms;        ///< of the residuals, of what is said to be
@@ -53,14 +52,24 @@ struct VehicleEffects {
   bool has_torque = false;
 };
 
+/// What became of the windows, and what they say where there are at least 12 to be compared.
+struct VehicleComparison {
+  WindowsUsed windows;
+  std::optional<VehicleEffects> effects;
+};
+
+struct EffectSearchSettings {
+  std::uint64_t seed = 1;
+  int threads = 2;  ///< changes no result
+  std::stop_token stop = {};
+};
+
 /// Compares windows with the vehicle's model on the map: speed along and across, yaw rate,
 /// attitude, torque of each wheel. What a sound vehicle, its sensors and the map's soils may be off
-/// is estimated along. Nothing where fewer than 12 windows can be predicted: no rim speeds, no
-/// steering, off the map. \throws Interrupted
-std::optional<VehicleEffects> find_vehicle_effects(const std::vector<DriveRecording>& drives,
-                                                   const std::vector<DriveWindow>& windows,
-                                                   const TerrainMap& map, const Vehicle& vehicle,
-                                                   double gravity_mps2, std::uint64_t seed,
-                                                   const std::stop_token& stop);
+/// is estimated along. \throws Interrupted
+VehicleComparison find_vehicle_effects(const std::vector<DriveRecording>& drives,
+                                       const std::vector<DriveWindow>& windows,
+                                       const TerrainMap& map, const Vehicle& vehicle,
+                                       double gravity_mps2, const EffectSearchSettings& settings);
 
 }  // namespace regoplan

@@ -8,55 +8,114 @@
 #include "drive_diagnosis/robust_statistics.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/interruption.h"
+#include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {
 
-/// The rim speed of a wheel, its own or its side's.
-double rim_rad_s(const DriveRecording& drive, const DriveWindow& window, const WheelMount& mount) {
-  const double own = channel_mean(drive, window, fmt::format("wheel_speed_{}_rad_s", mount.name));
-  if (!std::isnan(own)) return own;
-  return channel_mean(drive, window,
-                      mount.y_m > 0 ? "wheel_speed_left_rad_s" : "wheel_speed_right_rad_s");
+/// The mean of a channel's samples in a part of a window; where it has none, the line between the
+/// samples before and after. NaN where the drive or what is smoothed has none.
+double value_in(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
+                const std::string& name) {
+  const DriveChannel* channel = drive.channel(name);
+  if (!channel) return kNotSampled;
+  const auto row_at = [&drive](double time_s) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(drive.time_s, time_s) -
+                                    drive.time_s.begin());
+  };
+  double sum = 0;
+  int count = 0;
+  std::optional<std::size_t> before, after;
+  for (std::size_t i = row_at(window.parts.front().start_s);
+       i < drive.size() && drive.time_s[i] <= window.parts.back().end_s && !after; ++i) {
+    if (std::isnan(channel->values[i])) continue;
+    if (drive.time_s[i] < part.start_s) {
+      before = i;
+    } else if (drive.time_s[i] >= part.end_s) {
+      after = i;
+    } else {
+      sum += static_cast<double>(channel->values[i]);
+      ++count;
+    }
+  }
+  if (count > 0) return sum / count;
+  if (!before && !after) return kNotSampled;
+  const std::size_t first = before ? *before : *after, last = after ? *after : *before;
+  const auto from = static_cast<double>(channel->values[first]);
+  if (first == last) return from;
+  const double share = ((part.start_s + part.end_s) / 2 - drive.time_s[first]) /
+                       (drive.time_s[last] - drive.time_s[first]);
+  return from + share * (static_cast<double>(channel->values[last]) - from);
 }
 
-double steer_of(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
-                const WheelMount& mount) {
-  if (!mount.steered) return 0;
-  const double own = channel_mean(drive, window, fmt::format("steer_{}_rad", mount.name));
+/// The rim speed of a wheel, its own or its side's.
+double rim_rad_s(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
+                 const WheelMount& mount) {
+  const double own = value_in(drive, window, part, fmt::format("wheel_speed_{}_rad_s", mount.name));
   if (!std::isnan(own)) return own;
-  return steer_angle_rad(vehicle, mount, channel_mean(drive, window, "curvature_1pm"));
+  return value_in(drive, window, part,
+                  mount.y_m > 0 ? "wheel_speed_left_rad_s" : "wheel_speed_right_rad_s");
+}
+
+double steer_of(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
+                const Vehicle& vehicle, const WheelMount& mount) {
+  if (!mount.steered) return 0;
+  const double own = value_in(drive, window, part, fmt::format("steer_{}_rad", mount.name));
+  if (!std::isnan(own)) return own;
+  return steer_angle_rad(vehicle, mount, value_in(drive, window, part, "curvature_1pm"));
+}
+
+/// What the wheels are set to in a part of a window.
+void set_wheels(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
+                WindowInput::Place& place) {
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const WheelMount& mount = vehicle.wheels[i];
+    place.rim_rad_s.at(i) = rim_rad_s(drive, window, place.part, mount);
+    place.steer_rad.at(i) = steer_of(drive, window, place.part, vehicle, mount);
+  }
+  place.start.motion = rolling_motion(vehicle, place.rim_rad_s, place.steer_rad);
+}
+
+/// Accelerations of a place: how the motion of rolling wheels changes from its part's start to its
+/// end. Wheels are sampled often, and without the scatter of fixes.
+void accelerate(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
+                WindowInput::Place& place) {
+  const double length_s = place.part.end_s - place.part.start_s;
+  const auto motion_about = [&](double time_s) {
+    WindowInput::Place there{
+        .part = {.start_s = time_s - length_s / 2, .end_s = time_s + length_s / 2}};
+    set_wheels(drive, window, vehicle, there);
+    return there.start.motion;
+  };
+  const BodyMotion from = motion_about(place.part.start_s), to = motion_about(place.part.end_s);
+  place.acceleration_mps2 = (to.vx_mps - from.vx_mps) / length_s;
+  place.yaw_acceleration_rps2 = (to.yaw_rate_rad_s - from.yaw_rate_rad_s) / length_s;
 }
 
 std::optional<WindowInput> input_of(const DriveRecording& drive, const DriveWindow& window,
                                     const Vehicle& vehicle) {
-  if (!(std::abs(window.forward_mps) > kMoving_mps / 2)) return {};
-  WindowInput input{.acceleration_mps2 = window.acceleration_mps2,
-                    .speed_mps = window.forward_mps,
-                    .yaw_rate_rad_s = window.yaw_rate_rad_s};
-  if (!std::isnan(window.wheel_acceleration_rad_s2)) {
-    input.acceleration_mps2 = window.wheel_acceleration_rad_s2 * vehicle.wheel.radius_m;
+  WindowInput input{.yaw_rad = window.yaw_rad};
+  double all = window.yaw_rad;
+  for (std::size_t j = 0; j < input.places.size(); ++j) {
+    WindowInput::Place& place = input.places.at(j);
+    place.part = window.parts.at(j);
+    set_wheels(drive, window, vehicle, place);
+    accelerate(drive, window, vehicle, place);
+    all += place.part.x_m + place.part.y_m + place.part.yaw_rad;
+    for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+      all += place.rim_rad_s.at(i) + place.steer_rad.at(i);
+    }
   }
-  const double c = std::cos(window.course_rad), s = std::sin(window.course_rad);
-  const double along =
-      std::copysign(input.acceleration_mps2, input.acceleration_mps2 * window.forward_mps);
-  for (std::size_t j = 0; j < WindowInput::kPlaces; ++j) {
-    const double t =
-        window.duration_s() * ((static_cast<double>(j) + 0.5) / WindowInput::kPlaces - 0.5);
-    const double way = window.speed_mps * t + along * t * t / 2;
-    const double aside = window.speed_mps * window.yaw_rate_rad_s * t * t / 2;
-    input.places.at(j) = {.x_m = window.x_m + c * way - s * aside,
-                          .y_m = window.y_m + s * way + c * aside,
-                          .yaw_rad = window.yaw_rad + window.yaw_rate_rad_s * t};
-  }
-  double all = window.x_m + window.y_m + window.yaw_rad + window.yaw_rate_rad_s;
-  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    input.rim_rad_s.at(i) = rim_rad_s(drive, window, vehicle.wheels[i]);
-    input.steer_rad.at(i) = steer_of(drive, window, vehicle, vehicle.wheels[i]);
-    all += input.rim_rad_s.at(i) + input.steer_rad.at(i);
-  }
-  if (!std::isfinite(all + input.acceleration_mps2)) return {};
+  if (!std::isfinite(all)) return {};
   return input;
+}
+
+/// Wheels that stand, or turn round, have no slip to speak of.
+bool stands(const WindowInput& input) {
+  const double way = std::copysign(1.0, input.places.front().start.motion.vx_mps);
+  return std::ranges::any_of(input.places, [way](const WindowInput::Place& place) {
+    return way * place.start.motion.vx_mps < kMoving_mps / 2;
+  });
 }
 
 /// How far a window's mean of a channel scatters, from neighbouring samples of the whole drive.
@@ -79,181 +138,42 @@ double mean_std(const DriveRecording& drive, const DriveWindow& window, const st
   return steps == 0 || within == 0 ? 0 : std::sqrt(squares / (2.0 * steps * within));
 }
 
-/// How far the side force that the steering asks for varies in a window: standard deviation, as a
-/// share of the weight.
-double side_force_std(const DriveRecording& drive, const DriveWindow& window,
-                      const Vehicle& vehicle, double gravity_mps2) {
-  double middle_m = 0, spread_m2 = 0;
-  for (const WheelMount& mount : vehicle.wheels) middle_m += mount.x_m;
-  middle_m /= static_cast<double>(vehicle.wheels.size());
-  std::vector<std::pair<const DriveChannel*, double>> levers;
-  for (const WheelMount& mount : vehicle.wheels) {
-    spread_m2 += (mount.x_m - middle_m) * (mount.x_m - middle_m);
-    const DriveChannel* steer = drive.channel(fmt::format("steer_{}_rad", mount.name));
-    if (mount.steered && steer) levers.emplace_back(steer, mount.x_m - middle_m);
+/// By how much an acceleration may be off: motion is taken for steady at each place, though slip
+/// and sinkage change with it.
+double acceleration_std(const WindowInput& input, double WindowInput::Place::*of, double least) {
+  constexpr double kUnsteady = 0.1;
+  double squares = 0;
+  for (const WindowInput::Place& place : input.places) {
+    squares += place.part.mean_share * (place.*of) * (place.*of);
   }
-  const DriveChannel* told = drive.channel("curvature_1pm");
-  double sum = 0, squares = 0;
-  int samples = 0;
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    if (drive.time_s[i] < window.start_s || drive.time_s[i] > window.end_s) continue;
-    double curvature_1pm = levers.empty() && told ? static_cast<double>(told->values[i]) : 0;
-    for (const auto& [steer, lever_m] : levers) {
-      curvature_1pm += lever_m * static_cast<double>(steer->values[i]) / spread_m2;
-    }
-    if (std::isnan(curvature_1pm)) continue;
-    sum += curvature_1pm;
-    squares += curvature_1pm * curvature_1pm;
-    ++samples;
-  }
-  if (samples < 2) return 0;
-  const double mean = sum / samples;
-  return std::sqrt(std::max(0.0, squares / samples - mean * mean)) * window.speed_mps *
-         window.speed_mps / gravity_mps2;
-}
-
-/// The model is one of steady driving: windows in which a vehicle starts, stops or changes its
-/// acceleration, or the side force that it asks for, say nothing of the ground.
-bool is_steady(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
-               double gravity_mps2) {
-  constexpr double kBendMost = 0.05, kRateLeast = 0.4, kSideForceMost = 0.04;
-  return window.wheel_rate_bend <= kBendMost && window.wheel_rate_least >= kRateLeast &&
-         side_force_std(drive, window, vehicle, gravity_mps2) <= kSideForceMost;
-}
-
-/// Collects trials; a trial's size is what a sound vehicle is off.
-class Trials {
- public:
-  template <class Set>
-  void add(std::string id, std::string parameter, double unit, const Set& set) {
-    VehicleTrial trial{std::move(id), std::move(parameter), unit, {}};
-    set(trial.deviation, unit);
-    trials.push_back(std::move(trial));
-  }
-  void add(std::string id, std::string parameter, double unit, double VehicleDeviation::*of) {
-    add(std::move(id), std::move(parameter), unit,
-        [of](VehicleDeviation& d, double size) { d.*of = size; });
-  }
-  std::vector<VehicleTrial> trials;
-};
-
-constexpr double kSoundDrag_nm = 0.2, kSoundSteer_deg = 0.1, kSoundMotor = 0.01;
-
-void add_wheels(const Vehicle& vehicle, Trials& trials) {
-  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    const WheelMount& mount = vehicle.wheels[i];
-    trials.add("wheel_drag", "drag_" + mount.name + "_nm", kSoundDrag_nm,
-               [i](VehicleDeviation& d, double size) { d.wheel_drag_nm.at(i) = size; });
-    trials.add("motor_constant", "torque_" + mount.name + "_share", kSoundMotor,
-               [i](VehicleDeviation& d, double size) { d.motor_share.at(i) = size; });
-    if (!mount.steered) continue;
-    trials.add(
-        "steering_offset", "steer_" + mount.name + "_deg", kSoundSteer_deg,
-        [i](VehicleDeviation& d, double size) { d.steering_offset_rad.at(i) = size * kDegree; });
-  }
-}
-
-void add_pairs(const Vehicle& vehicle, Trials& trials) {
-  const auto [rear, front] = std::ranges::minmax(vehicle.wheels, {}, &WheelMount::x_m);
-  for (const auto& [name, x_m] : {std::pair{"front", front.x_m}, {"rear", rear.x_m}}) {
-    std::vector<std::size_t> pair;
-    for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-      const bool there = std::abs(vehicle.wheels[i].x_m - x_m) < 0.1;
-      if (there && vehicle.wheels[i].steered) pair.push_back(i);
-    }
-    if (pair.size() < 2) continue;
-    trials.add("steering_offset", fmt::format("steer_{}_deg", name), kSoundSteer_deg,
-               [&pair](VehicleDeviation& d, double size) {
-                 for (const std::size_t i : pair) d.steering_offset_rad.at(i) = size * kDegree;
-               });
-  }
-  for (const bool left : {true, false}) {
-    trials.add("side_drag", left ? "drag_left_nm" : "drag_right_nm", kSoundDrag_nm,
-               [&](VehicleDeviation& d, double size) {
-                 for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-                   if ((vehicle.wheels[i].y_m > 0) == left) d.wheel_drag_nm.at(i) = size;
-                 }
-               });
-  }
+  return std::hypot(least, kUnsteady * std::sqrt(squares));
 }
 
 }  // namespace
 
-std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMap& map,
-                                         const std::vector<bool>& soils) {
-  Trials trials;
-  add_wheels(vehicle, trials);
-  add_pairs(vehicle, trials);
-  trials.add("motor_constant", "torque_share", kSoundMotor,
-             [](VehicleDeviation& d, double size) { d.motor_share.fill(size); });
-  trials.add("wheel_radius", "radius_share", 0.003, &VehicleDeviation::radius_share);
-  trials.add("payload", "mass_share", 0.015, &VehicleDeviation::payload_share);
-  trials.add("cg_offset", "forward_m", 0.015, &VehicleDeviation::cg_forward_m);
-  trials.add("cg_offset", "left_m", 0.015, &VehicleDeviation::cg_left_m);
-  trials.add("cg_offset", "up_m", 0.025, &VehicleDeviation::cg_up_m);
-  trials.add("tow_drag", "drag_n", 3, &VehicleDeviation::tow_drag_n);
-  trials.add("map_offset", "east_m", 0.3, &VehicleDeviation::map_east_m);
-  trials.add("map_offset", "north_m", 0.3, &VehicleDeviation::map_north_m);
-  if (std::ranges::count(soils, true) > 1) {
-    trials.add("zone_border", "east_m", 0.5, &VehicleDeviation::soil_east_m);
-    trials.add("zone_border", "north_m", 0.5, &VehicleDeviation::soil_north_m);
-  }
-  // How the sensors sit is estimated, and judged elsewhere.
-  trials.add("", "pitch_rad", 0.05, &VehicleDeviation::mounting_pitch_rad);
-  trials.add("", "roll_rad", 0.05, &VehicleDeviation::mounting_roll_rad);
-  trials.add("", "yaw_rad", 0.005, &VehicleDeviation::mounting_yaw_rad);
-  for (std::size_t soil = 0; soil < map.soils().size(); ++soil) {
-    if (!soils[soil]) continue;
-    const SoilNumbers spread = soil_spread(map.soils()[soil].soil);
-    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-      if (!(spread.at(k) > 0)) continue;
-      trials.add("", map.soils()[soil].name + "." + std::string(soil_parameters().at(k).name), 1,
-                 [&](VehicleDeviation& d, double size) {
-                   d.soils.resize(map.soils().size());
-                   d.soils[soil].at(k) = size;
-                 });
-    }
-  }
-  return trials.trials;
+std::string_view name(LeftOut reason) {
+  constexpr std::array<std::string_view, kLeftOutReasons> kNames{
+      "no_input", "standing", "off_map", "no_balance", "no_channel", "too_many"};
+  return kNames.at(static_cast<std::size_t>(reason));
 }
 
 WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
                                    const std::vector<DriveWindow>& windows, const TerrainMap& map,
-                                   const Vehicle& vehicle, double gravity_mps2)
+                                   const Vehicle& vehicle, double gravity_mps2, int threads)
     : drives_(drives),
       windows_(windows),
       map_(map),
       vehicle_(vehicle),
       model_(map, vehicle, gravity_mps2),
+      threads_(threads),
       soils_driven_(map.soils().size(), false) {
   choose_channels();
-  constexpr std::size_t kWindowsMost = 150;  // the contest stays within seconds
   std::vector<Eigen::VectorXd> rows;
   for (std::size_t i = 0; i < windows_.size(); ++i) {
-    const auto input = input_of(drives_[windows_[i].drive], windows_[i], vehicle_);
-    if (!input || !model_.predict(*input, {})) continue;
-    if (!is_steady(drives_[windows_[i].drive], windows_[i], vehicle_, gravity_mps2)) {
-      ++unsteady_;
-      continue;
-    }
-    auto measured = measured_in(i);
-    if (!measured) continue;
-    if (rows.size() == kWindowsMost) {
-      ++left_out_;
-      continue;
-    }
-    windows_of_.push_back(i);
-    inputs_.push_back(*input);
-    rim_std_rad_s_.emplace_back();
-    for (std::size_t k = 0; k < vehicle_.wheels.size(); ++k) {
-      rim_std_rad_s_.back().at(k) =
-          mean_std(drives_[windows_[i].drive], windows_[i],
-                   fmt::format("wheel_speed_{}_rad_s", vehicle_.wheels[k].name));
-    }
-    rows.push_back(std::move(*measured));
-    for (const WindowInput::Place& place : input->places) {
-      const auto soil = map_.soil_index(place.x_m, place.y_m);
-      if (soil) soils_driven_[static_cast<std::size_t>(*soil)] = true;
+    if (const auto reason = add(i, rows)) {
+      ++used_.left_out.at(static_cast<std::size_t>(*reason));
+    } else {
+      ++used_.compared;
     }
   }
   measured_.resize(static_cast<Eigen::Index>(rows.size()),
@@ -262,6 +182,37 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
     measured_.row(static_cast<Eigen::Index>(i)) = rows[i];
   }
   estimate_sampled_std();
+}
+
+/// Takes a window in, or says why not.
+std::optional<LeftOut> WindowComparison::add(std::size_t window,
+                                             std::vector<Eigen::VectorXd>& rows) {
+  constexpr std::size_t kWindowsMost = 150;  // the contest stays within seconds
+  const DriveRecording& drive = drives_[windows_[window].drive];
+  auto input = input_of(drive, windows_[window], vehicle_);
+  if (!input) return LeftOut::kNoInput;
+  if (stands(*input)) return LeftOut::kStanding;
+  if (!model_.knows_ground(*input)) return LeftOut::kOffMap;
+  const auto prediction = model_.predict(*input, {});
+  if (!prediction) return LeftOut::kNoBalance;
+  auto measured = measured_in(window);
+  if (!measured) return LeftOut::kNoChannel;
+  if (rows.size() == kWindowsMost) return LeftOut::kTooMany;
+  for (std::size_t j = 0; j < input->places.size(); ++j) {
+    input->places.at(j).start = prediction->found.at(j);
+    const WindowPart& part = input->places.at(j).part;
+    const auto soil = map_.soil_index(part.x_m, part.y_m);
+    if (soil) soils_driven_[static_cast<std::size_t>(*soil)] = true;
+  }
+  windows_of_.push_back(window);
+  inputs_.push_back(*input);
+  rows.push_back(std::move(*measured));
+  rim_std_rad_s_.emplace_back();
+  for (std::size_t k = 0; k < vehicle_.wheels.size(); ++k) {
+    rim_std_rad_s_.back().at(k) = mean_std(
+        drive, windows_[window], fmt::format("wheel_speed_{}_rad_s", vehicle_.wheels[k].name));
+  }
+  return {};
 }
 
 void WindowComparison::estimate_sampled_std() {
@@ -333,18 +284,23 @@ bool WindowComparison::consecutive(std::size_t i) const {
          windows_[windows_of_[i]].drive == windows_[windows_of_[i - 1]].drive;
 }
 
-/// No window is steady: what its mean acceleration leaves out.
-double WindowComparison::acceleration_std_mps2(const WindowInput& input) {
-  constexpr double kUnsteady = 0.1, kLeast_mps2 = 0.002;
-  return std::hypot(kLeast_mps2, kUnsteady * input.acceleration_mps2);
-}
-
 void WindowComparison::shift(WindowInput& input, std::size_t window, std::size_t which,
                              double deviations) const {
-  if (which < vehicle_.wheels.size()) {
-    input.rim_rad_s.at(which) += deviations * rim_std_rad_s_[window].at(which);
-  } else {
-    input.acceleration_mps2 += deviations * acceleration_std_mps2(inputs_[window]);
+  constexpr double kLeast_mps2 = 0.002, kLeast_rps2 = 0.002;
+  const std::size_t wheels = vehicle_.wheels.size();
+  const WindowInput& measured = inputs_[window];
+  for (WindowInput::Place& place : input.places) {
+    if (which < wheels) {
+      place.rim_rad_s.at(which) += deviations * rim_std_rad_s_[window].at(which);
+    } else if (which == wheels) {
+      place.more_mps2 +=
+          deviations *
+          acceleration_std(measured, &WindowInput::Place::acceleration_mps2, kLeast_mps2);
+    } else {
+      place.more_rps2 +=
+          deviations *
+          acceleration_std(measured, &WindowInput::Place::yaw_acceleration_rps2, kLeast_rps2);
+    }
   }
 }
 
@@ -361,9 +317,9 @@ Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
                                             const std::vector<WindowZone>& zones,
                                             const Eigen::MatrixXd& otherwise,
                                             const std::stop_token& stop) const {
-  throw_if_stopped(stop);
   Eigen::MatrixXd result = otherwise;
-  for (std::size_t i = 0; i < size(); ++i) {
+  parallel_for(size(), threads_, [&](std::size_t i) {
+    throw_if_stopped(stop);
     const auto row = static_cast<Eigen::Index>(i);
     SoilNumbers numbers{};
     double share = 0;
@@ -375,34 +331,32 @@ Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
     const WindowInput input = shifted(i);
     const auto plain = share < 1 ? model_.predict(input, deviation) : std::nullopt;
     const auto zoned = share > 0 ? model_.predict(input, deviation, numbers) : std::nullopt;
-    if ((share < 1 && !plain) || (share > 0 && !zoned)) continue;
+    if ((share < 1 && !plain) || (share > 0 && !zoned)) return;
     Eigen::VectorXd values = Eigen::VectorXd::Zero(result.cols());
     if (plain) values += (1 - share) * vector_of(*plain);
     if (zoned) values += share * vector_of(*zoned);
     result.row(row) = values;
-  }
+  });
   return result;
 }
 
 std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const VehicleDeviation& deviation,
                                                          const Eigen::MatrixXd& base,
                                                          const std::stop_token& stop) const {
-  std::vector<Eigen::MatrixXd> result;
-  for (std::size_t k = 0; k < inputs(); ++k) {
+  std::vector<Eigen::MatrixXd> result(inputs(), Eigen::MatrixXd::Zero(base.rows(), base.cols()));
+  parallel_for(size(), threads_, [&](std::size_t i) {
     throw_if_stopped(stop);
-    Eigen::MatrixXd change = Eigen::MatrixXd::Zero(base.rows(), base.cols());
-    for (std::size_t i = 0; i < size(); ++i) {
-      const WindowInput input = shifted(i);
+    const WindowInput input = shifted(i);
+    const auto here = model_.predict(input, deviation);
+    if (!here) return;
+    for (std::size_t k = 0; k < inputs(); ++k) {
       WindowInput further = input;
       shift(further, i, k, 1);
       const auto there = model_.predict(further, deviation);
-      const auto here = model_.predict(input, deviation);
-      if (there && here) {
-        change.row(static_cast<Eigen::Index>(i)) = vector_of(*there) - vector_of(*here);
-      }
+      if (!there) continue;
+      result[k].row(static_cast<Eigen::Index>(i)) = vector_of(*there) - vector_of(*here);
     }
-    result.push_back(std::move(change));
-  }
+  });
   return result;
 }
 

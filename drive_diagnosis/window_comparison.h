@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drive_diagnosis/drive_windows.h"
@@ -11,18 +13,25 @@
 
 namespace regoplan {
 
-/// Something of vehicle, sensors or soil that may be otherwise, by one number.
-struct VehicleTrial {
-  std::string id;         ///< of the effect, `steering_offset`; empty: a parameter, never claimed
-  std::string parameter;  ///< what it is told in, `steer_front_deg`
-  double unit = 1;        ///< of the parameter: what a sound vehicle is off, one standard deviation
-  VehicleDeviation deviation;  ///< of that size
+/// Why a window is not compared.
+enum class LeftOut {
+  kNoInput,    ///< it has no pose, rim speeds or steering
+  kStanding,   ///< wheels stand or turn round: how they slip says nothing
+  kOffMap,     ///< its ground is not known
+  kNoBalance,  ///< the model has no motion in which the forces balance
+  kNoChannel,  ///< what is compared was not measured
+  kTooMany,    ///< beyond the most that are compared
 };
+inline constexpr std::size_t kLeftOutReasons = 6;
 
-/// Everything that may be otherwise all along: faults, and numbers of the map's soils.
-/// \param soils that were driven on, by index
-std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMap& map,
-                                         const std::vector<bool>& soils);
+/// `no_input`, `standing`, ...
+std::string_view name(LeftOut reason);
+
+/// How many windows are compared, and how many are not for each reason.
+struct WindowsUsed {
+  int compared = 0;
+  std::array<int, kLeftOutReasons> left_out{};
+};
 
 /// Soil of its own in some windows, by how much of each lies in it.
 struct WindowZone {
@@ -33,10 +42,10 @@ struct WindowZone {
 /// Windows that the model can be asked of, with what was measured in them.
 class WindowComparison {
  public:
-  /// All must outlive it.
+  /// All must outlive it. \param threads that windows are asked on; changes no result
   WindowComparison(const std::vector<DriveRecording>& drives,
                    const std::vector<DriveWindow>& windows, const TerrainMap& map,
-                   const Vehicle& vehicle, double gravity_mps2);
+                   const Vehicle& vehicle, double gravity_mps2, int threads);
 
   std::size_t size() const { return windows_of_.size(); }
   /// Index of the window that comparison `i` is of.
@@ -45,14 +54,13 @@ class WindowComparison {
   bool consecutive(std::size_t i) const;
   const std::vector<std::string>& channels() const { return channels_; }
   const std::vector<bool>& soils_driven() const { return soils_driven_; }
-  std::size_t left_out() const { return left_out_; }  ///< windows beyond what is compared
-  std::size_t unsteady() const { return unsteady_; }  ///< windows of starts and stops
+  const WindowsUsed& used() const { return used_; }
   bool has_torque() const { return !torque_wheels_.empty(); }
   const WindowInput& input(std::size_t i) const { return inputs_[i]; }
   /// From now on windows are asked at inputs off the measured ones: of each window so many standard
-  /// deviations of each wheel's turning, and of the acceleration.
+  /// deviations of each wheel's turning, of the acceleration and of that of turning.
   void shift_inputs(const Eigen::MatrixXd& shifts) { shifts_ = shifts; }
-  std::size_t inputs() const { return vehicle_.wheels.size() + 1; }
+  std::size_t inputs() const { return vehicle_.wheels.size() + 2; }
 
   /// By window and channel.
   const Eigen::MatrixXd& measured() const { return measured_; }
@@ -60,7 +68,7 @@ class WindowComparison {
   /// \throws Interrupted
   Eigen::MatrixXd predicted(const VehicleDeviation& deviation, const std::vector<WindowZone>& zones,
                             const Eigen::MatrixXd& otherwise, const std::stop_token& stop) const;
-  /// What the scatter of each wheel's measured turning changes, and that of the acceleration, by
+  /// What the scatter of each wheel's measured turning changes, and that of the accelerations, by
   /// one standard deviation.
   std::vector<Eigen::MatrixXd> of_inputs(const VehicleDeviation& deviation,
                                          const Eigen::MatrixXd& base,
@@ -71,8 +79,8 @@ class WindowComparison {
   bool scales(std::size_t channel) const { return channels_[channel].starts_with("torque"); }
 
  private:
+  std::optional<LeftOut> add(std::size_t window, std::vector<Eigen::VectorXd>& rows);
   WindowInput shifted(std::size_t i) const;
-  static double acceleration_std_mps2(const WindowInput& input);
   void shift(WindowInput& input, std::size_t window, std::size_t which, double deviations) const;
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;
@@ -84,6 +92,7 @@ class WindowComparison {
   const TerrainMap& map_;
   const Vehicle& vehicle_;
   WindowModel model_;
+  int threads_;
   std::vector<std::string> channels_;
   std::vector<std::size_t> torque_wheels_;
   bool has_attitude_ = false;
@@ -93,7 +102,7 @@ class WindowComparison {
   std::vector<bool> soils_driven_;
   std::vector<double> sampled_std_;
   Eigen::MatrixXd measured_, shifts_;
-  std::size_t left_out_ = 0, unsteady_ = 0;
+  WindowsUsed used_;
 };
 
 }  // namespace regoplan

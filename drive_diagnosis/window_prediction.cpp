@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "terramech/basics/input_error.h"
 #include "terramech/vehicle/steered_wheel.h"
@@ -14,19 +15,18 @@ namespace {
 
 using Soils = std::array<std::int16_t, kMaxWheels>;
 
-/// The ground of a window: the mean of its places, and which soils its wheels stand on, how often.
-struct WindowGround {
-  GroundPatch mean;
-  std::vector<std::pair<Soils, double>> soils;  ///< with their shares
-};
-
-/// A vehicle in a window, with its deviation worked in.
+/// A vehicle at a place, with its deviation worked in.
 struct Scene {
-  Vehicle vehicle;
-  LoadSharing sharing;
+  const Vehicle& vehicle;
+  const LoadSharing& sharing;
+  const WindowInput::Place& input;
+  const BodyMotion* before = nullptr;       ///< at the place before; null at the first
+  const BodyMotion* long_before = nullptr;  ///< before that; null at the first two
+  double step_s = 0;                        ///< from place to place
+  double tow_drag_n = 0;
   PatchAxes axes;
   double hollow_1pm = 0;
-  std::vector<WheelModel> models;  ///< of each wheel
+  std::array<const WheelModel*, kMaxWheels> models{};
   std::array<SteeredWheel, kMaxWheels> wheels{};
   std::array<double, kMaxWheels> rim_mps{};
 };
@@ -41,7 +41,7 @@ Vehicle deviating(Vehicle vehicle, const VehicleDeviation& deviation) {
   return vehicle;
 }
 
-Soils soils_under(const TerrainMap& map, const Vehicle& vehicle, const WindowInput::Place& place,
+Soils soils_under(const TerrainMap& map, const Vehicle& vehicle, const WindowPart& place,
                   const Soils& otherwise) {
   Soils soils = otherwise;
   const double c = std::cos(place.yaw_rad), s = std::sin(place.yaw_rad);
@@ -54,35 +54,20 @@ Soils soils_under(const TerrainMap& map, const Vehicle& vehicle, const WindowInp
   return soils;
 }
 
-std::optional<WindowGround> ground_of(const GroundFinder& finder, const TerrainMap& map,
-                                      const Vehicle& vehicle, const WindowInput& input,
-                                      const VehicleDeviation& deviation) {
-  WindowGround ground;
+/// The ground below a place, shifted as the map is said to lie off.
+GroundPatch ground_of(const GroundFinder& finder, const TerrainMap& map, const Vehicle& vehicle,
+                      WindowPart place, const VehicleDeviation& deviation) {
+  place.x_m -= deviation.map_east_m;
+  place.y_m -= deviation.map_north_m;
+  place.yaw_rad -= deviation.mounting_yaw_rad;
+  GroundPatch patch = finder.at(place.x_m, place.y_m, place.yaw_rad);
   const bool borders_lie_off = deviation.soil_east_m != 0 || deviation.soil_north_m != 0;
-  constexpr double kShare = 1.0 / WindowInput::kPlaces;
-  for (WindowInput::Place place : input.places) {
-    place.x_m -= deviation.map_east_m;
-    place.y_m -= deviation.map_north_m;
-    place.yaw_rad -= deviation.mounting_yaw_rad;
-    GroundPatch patch = finder.at(place.x_m, place.y_m, place.yaw_rad);
-    if (!patch.known) return {};
-    if (borders_lie_off) {
-      place.x_m -= deviation.soil_east_m;
-      place.y_m -= deviation.soil_north_m;
-      patch.soil = soils_under(map, vehicle, place, patch.soil);
-    }
-    ground.mean.slope_forward += kShare * patch.slope_forward;
-    ground.mean.slope_left += kShare * patch.slope_left;
-    ground.mean.curvature_1pm += kShare * patch.curvature_1pm;
-    const auto same =
-        std::ranges::find(ground.soils, patch.soil, [](const auto& s) { return s.first; });
-    if (same == ground.soils.end()) {
-      ground.soils.emplace_back(patch.soil, kShare);
-    } else {
-      same->second += kShare;
-    }
+  if (patch.known && borders_lie_off) {
+    place.x_m -= deviation.soil_east_m;
+    place.y_m -= deviation.soil_north_m;
+    patch.soil = soils_under(map, vehicle, place, patch.soil);
   }
-  return ground;
+  return patch;
 }
 
 SoilNumbers numbers_at(const VehicleDeviation& deviation, std::size_t soil,
@@ -109,7 +94,7 @@ Sums sums_at(const Scene& scene, const BodyMotion& motion, const GroundReaction&
       continue;
     }
     const WheelMount& mount = scene.vehicle.wheels[i];
-    const WheelForces forces = scene.models[i].forces(
+    const WheelForces forces = scene.models.at(i)->forces(
         load_n, wheel_motion(mount, scene.wheels.at(i), motion, scene.rim_mps.at(i)));
     if (!has_forces(forces.status)) sums.carried = false;
     sums.force.add(mount, scene.wheels.at(i), forces);
@@ -124,48 +109,119 @@ BodyMotion motion_of(const Vector& v) {
   return {.vx_mps = v[0], .vy_mps = v[1], .yaw_rate_rad_s = v[2]};
 }
 
-GroundReaction reaction_at(const Scene& scene, const WindowInput& input, const Vector& v) {
+Vector vector_of(const BodyMotion& motion) {
+  return {motion.vx_mps, motion.vy_mps, motion.yaw_rate_rad_s};
+}
+
+/// Rates of change of the velocities along and across, and of the yaw rate.
+Vector accelerations_at(const Scene& scene, const Vector& v) {
+  const WindowInput::Place& input = scene.input;
+  const Vector more{input.more_mps2, 0, input.more_rps2};
+  if (!scene.before) {
+    return more + Vector{input.acceleration_mps2, 0, input.yaw_acceleration_rps2};
+  }
+  const Vector before = vector_of(*scene.before);
+  if (!scene.long_before) return more + (v - before) / scene.step_s;
+  return more + (1.5 * v - 2 * before + 0.5 * vector_of(*scene.long_before)) / scene.step_s;
+}
+
+GroundReaction reaction_at(const Scene& scene, const Vector& v) {
   const double m = scene.vehicle.mass_kg;
-  return {
-      .normal_n = m * (scene.axes.gravity_normal_mps2 + v[0] * v[0] * scene.hollow_1pm),
-      .forward_n = m * (input.acceleration_mps2 - v[1] * v[2] - scene.axes.gravity_forward_mps2),
-      .left_n = m * (v[0] * v[2] - scene.axes.gravity_left_mps2)};
+  const Vector rate = accelerations_at(scene, v);
+  return {.normal_n = m * (scene.axes.gravity_normal_mps2 + v[0] * v[0] * scene.hollow_1pm),
+          .forward_n = m * (rate[0] - v[1] * v[2] - scene.axes.gravity_forward_mps2),
+          .left_n = m * (rate[1] + v[0] * v[2] - scene.axes.gravity_left_mps2)};
 }
 
 /// What is left over of forces and moment at a motion, in units of the weight.
-Vector imbalance(const Scene& scene, const WindowInput& input, double tow_drag_n, const Vector& v) {
-  const GroundReaction needed = reaction_at(scene, input, v);
+Vector imbalance(const Scene& scene, const Vector& v) {
+  const GroundReaction needed = reaction_at(scene, v);
   const BodyForce force = sums_at(scene, motion_of(v), needed).force;
   const double weight_n = scene.vehicle.mass_kg * scene.axes.gravity_normal_mps2;
-  const double turning = scene.vehicle.yaw_inertia_kgm2 * input.yaw_acceleration_rps2;
-  return Vector{force.forward_n - tow_drag_n - needed.forward_n, force.left_n - needed.left_n,
+  const double turning = scene.vehicle.yaw_inertia_kgm2 * accelerations_at(scene, v)[2];
+  return Vector{force.forward_n - scene.tow_drag_n - needed.forward_n, force.left_n - needed.left_n,
                 force.yaw_nm - turning} /
          weight_n;
 }
 
-/// Newton's method with slopes by differences, its steps kept short.
-std::optional<Vector> balanced(const Scene& scene, const WindowInput& input, double tow_drag_n) {
-  Vector v{input.speed_mps, 0, input.yaw_rate_rad_s};
+Eigen::Matrix3d response_at(const Scene& scene, const Vector& v, const Vector& here) {
+  Eigen::Matrix3d slopes;
+  const double h = 1e-5 * std::max(std::abs(v[0]), 0.05);
+  for (int k = 0; k < 3; ++k) {
+    Vector moved = v;
+    moved[k] += h;
+    slopes.col(k) = (imbalance(scene, moved) - here) / h;
+  }
+  return slopes.fullPivLu().inverse();
+}
+
+/// Newton's method with slopes by differences, taken anew where the last ones serve badly; its
+/// steps are kept short.
+std::optional<MotionStart> balanced(const Scene& scene) {
+  const auto& [motion, known] = scene.input.start;
+  Vector v = vector_of(motion);
+  Eigen::Matrix3d response = known;
+  bool is_slow = known.isZero();
+  double last = std::numeric_limits<double>::infinity();
   constexpr int kSteps = 25;
   for (int step = 0; step < kSteps; ++step) {
-    const Vector here = imbalance(scene, input, tow_drag_n, v);
-    Eigen::Matrix3d slopes;
-    const double h = 1e-5 * std::max(std::abs(v[0]), 0.05);
-    for (int k = 0; k < 3; ++k) {
-      Vector moved = v;
-      moved[k] += h;
-      slopes.col(k) = (imbalance(scene, input, tow_drag_n, moved) - here) / h;
-    }
-    Vector change = -slopes.fullPivLu().solve(here);
+    const Vector here = imbalance(scene, v);
+    if (is_slow) response = response_at(scene, v, here);
+    Vector change = -response * here;
     const double reach = 0.2 * std::max(std::abs(v[0]), 0.05);
     const double largest = change.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) return {};
     if (largest > reach) change *= reach / largest;
     v += change;
-    constexpr double kClose = 1e-6;
-    if (largest < kClose) return v;
+    constexpr double kClose = 1e-6, kSlow = 0.2;
+    if (largest < kClose) return MotionStart{motion_of(v), response};
+    is_slow = largest > kSlow * last;
+    last = largest;
   }
   return {};
+}
+
+/// What the model finds at a place.
+struct PlaceFound {
+  const Scene& scene;
+  const GroundPatch& patch;
+  double window_yaw_rad = 0;
+  const VehicleDeviation& deviation;
+  const Vector& v;
+  const Sums& sums;
+};
+
+/// Adds a place to what is said of its window, by its shares.
+void add_place(const PlaceFound& found, WindowPrediction& prediction) {
+  const auto& [scene, patch, window_yaw_rad, deviation, v, sums] = found;
+  const WindowPart& part = scene.input.part;
+  // Told at the point that is taken to be below the centre of gravity.
+  const double vx = v[0] + v[2] * deviation.cg_left_m;
+  const double vy = v[1] - v[2] * deviation.cg_forward_m;
+  const PatchAxes& axes = scene.axes;
+  const double forward = axes.forward_per_vx * vx + axes.forward_per_vy * vy;
+  const double left = axes.left_per_vy * vy;
+  const double turned = part.yaw_rad - window_yaw_rad;
+  const double c = std::cos(turned), s = std::sin(turned);
+  prediction.forward_mps += part.track_share * (c * forward - s * left);
+  prediction.left_mps += part.track_share * (s * forward + c * left);
+  prediction.yaw_rate_rad_s += part.turn_share * axes.yaw_per_turn * v[2];
+  prediction.pitch_rad += part.mean_share * std::atan(patch.slope_forward);
+  prediction.roll_rad +=
+      part.mean_share * std::atan(patch.slope_left / std::hypot(1, patch.slope_forward));
+  for (std::size_t i = 0; i < scene.vehicle.wheels.size(); ++i) {
+    prediction.torque_nm.at(i) += part.mean_share *
+                                  (sums.torque_nm.at(i) + deviation.wheel_drag_nm.at(i)) *
+                                  (1 + deviation.motor_share.at(i));
+  }
+}
+
+/// The same by a sensor of heading that does not look along the vehicle.
+WindowPrediction told_by_sensors(WindowPrediction prediction, const VehicleDeviation& deviation) {
+  const double forward = prediction.forward_mps, left = prediction.left_mps;
+  prediction.forward_mps += deviation.mounting_yaw_rad * left;
+  prediction.left_mps -= deviation.mounting_yaw_rad * forward;
+  return prediction;
 }
 
 bool is_valid(const Soil& soil) {
@@ -266,56 +322,75 @@ void VehicleDeviation::add(const VehicleDeviation& other, double times) {
 WindowModel::WindowModel(const TerrainMap& map, const Vehicle& vehicle, double gravity_mps2)
     : map_(map), vehicle_(vehicle), ground_(map, vehicle), gravity_mps2_(gravity_mps2) {}
 
+bool WindowModel::knows_ground(const WindowInput& input) const {
+  return std::ranges::all_of(input.places, [this](const WindowInput::Place& place) {
+    return ground_.at(place.part.x_m, place.part.y_m, place.part.yaw_rad).known;
+  });
+}
+
+BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxWheels>& rim_rad_s,
+                          const std::array<double, kMaxWheels>& steer_rad) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Vector sum = Vector::Zero();
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const WheelMount& mount = vehicle.wheels[i];
+    const double rim_mps = rim_rad_s.at(i) * vehicle.wheel.radius_m;
+    const Vector forward{1, 0, -mount.y_m}, left{0, 1, mount.x_m};
+    normal += forward * forward.transpose() + left * left.transpose();
+    sum += rim_mps * (std::cos(steer_rad.at(i)) * forward + std::sin(steer_rad.at(i)) * left);
+  }
+  return motion_of(normal.ldlt().solve(sum));
+}
+
 std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
                                                      const VehicleDeviation& deviation,
                                                      const SoilNumbers& zone) const {
-  const auto ground = ground_of(ground_, map_, vehicle_, input, deviation);
-  if (!ground) return {};
   const Vehicle changed = deviating(vehicle_, deviation);
-  Scene scene{.vehicle = changed,
-              .sharing = LoadSharing(changed),
-              .axes = PatchAxes(ground->mean, gravity_mps2_),
-              .hollow_1pm = ground->mean.curvature_1pm,
-              .models = {}};
-  for (std::size_t i = 0; i < changed.wheels.size(); ++i) {
-    const double steer = input.steer_rad.at(i) + deviation.steering_offset_rad.at(i);
-    scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
-    scene.rim_mps.at(i) =
-        input.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
-  }
-  WindowPrediction prediction{
-      .pitch_rad = std::atan(ground->mean.slope_forward) + deviation.mounting_pitch_rad,
-      .roll_rad = std::atan(ground->mean.slope_left / std::hypot(1, ground->mean.slope_forward)) +
-                  deviation.mounting_roll_rad};
-  for (const auto& [soils, share] : ground->soils) {
-    scene.models.clear();
+  const LoadSharing sharing(changed);
+  std::vector<std::optional<WheelModel>> models(map_.soils().size());
+  const auto model_of = [&](std::int16_t index) {
+    const auto soil = static_cast<std::size_t>(index);
+    if (!models[soil]) {
+      models[soil].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
+                                          .soil = deviating(map_.soils()[soil].soil,
+                                                            numbers_at(deviation, soil, zone)),
+                                          .gravity_mps2 = gravity_mps2_},
+                           WheelAccuracy::kFast);
+    }
+    return &*models[soil];
+  };
+  WindowPrediction prediction{.pitch_rad = deviation.mounting_pitch_rad,
+                              .roll_rad = deviation.mounting_roll_rad};
+  for (std::size_t j = 0; j < input.places.size(); ++j) {
+    const WindowInput::Place& place = input.places.at(j);
+    const GroundPatch patch = ground_of(ground_, map_, vehicle_, place.part, deviation);
+    if (!patch.known) return {};
+    Scene scene{.vehicle = changed,
+                .sharing = sharing,
+                .input = place,
+                .before = j > 0 ? &prediction.found.at(j - 1).motion : nullptr,
+                .long_before = j > 1 ? &prediction.found.at(j - 2).motion : nullptr,
+                .step_s = place.part.end_s - place.part.start_s,
+                .tow_drag_n = deviation.tow_drag_n,
+                .axes = PatchAxes(patch, gravity_mps2_),
+                .hollow_1pm = patch.curvature_1pm};
     for (std::size_t i = 0; i < changed.wheels.size(); ++i) {
-      const auto soil = static_cast<std::size_t>(soils.at(i));
-      scene.models.emplace_back(WheelModelSpec{.wheel = vehicle_.wheel,
-                                               .soil = deviating(map_.soils()[soil].soil,
-                                                                 numbers_at(deviation, soil, zone)),
-                                               .gravity_mps2 = gravity_mps2_},
-                                WheelAccuracy::kFast);
+      const double steer = place.steer_rad.at(i) + deviation.steering_offset_rad.at(i);
+      scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
+      scene.rim_mps.at(i) =
+          place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
+      scene.models.at(i) = model_of(patch.soil.at(i));
     }
-    const auto v = balanced(scene, input, deviation.tow_drag_n);
-    if (!v) return {};
-    const Sums sums = sums_at(scene, motion_of(*v), reaction_at(scene, input, *v));
+    const auto found = balanced(scene);
+    if (!found) return {};
+    const BodyMotion& motion = found->motion;
+    const Vector v = vector_of(motion);
+    const Sums sums = sums_at(scene, motion, reaction_at(scene, v));
     if (!sums.carried) return {};
-    // Told at the point that is taken to be below the centre of gravity.
-    const double vx = (*v)[0] + (*v)[2] * deviation.cg_left_m;
-    const double vy = (*v)[1] - (*v)[2] * deviation.cg_forward_m;
-    const PatchAxes& axes = scene.axes;
-    const double forward = axes.forward_per_vx * vx + axes.forward_per_vy * vy;
-    const double left = axes.left_per_vy * vy;
-    prediction.forward_mps += share * (forward - deviation.mounting_yaw_rad * -left);
-    prediction.left_mps += share * (left - deviation.mounting_yaw_rad * forward);
-    prediction.yaw_rate_rad_s += share * axes.yaw_per_turn * (*v)[2];
-    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
-      prediction.torque_nm.at(i) += share * (sums.torque_nm.at(i) + deviation.wheel_drag_nm.at(i)) *
-                                    (1 + deviation.motor_share.at(i));
-    }
+    prediction.found.at(j) = *found;
+    add_place({scene, patch, input.yaw_rad, deviation, v, sums}, prediction);
   }
-  return prediction;
+  return told_by_sensors(prediction, deviation);
 }
 
 }  // namespace regoplan

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <vector>
 
+#include "drive_diagnosis/drive_windows.h"
 #include "maps/ground_finder.h"
 #include "maps/terrain_map.h"
 #include "terramech/parameters/vehicle.h"
+#include "terramech/vehicle/steered_wheel.h"
 
 namespace regoplan {
 
@@ -30,20 +33,29 @@ SoilNumbers deviations_between(const UncertainSoil& soil, const Soil& other);
 SoilNumbers weaker_by(double deviations);
 Soil weaker(const UncertainSoil& soil, double deviations);
 
-/// What a window gives the model: where the vehicle is, and what its wheels are set to.
+/// Where the search for a motion starts.
+struct MotionStart {
+  BodyMotion motion;
+  /// By how much the motion changes against what is out of balance; 0 where it is not known.
+  Eigen::Matrix3d response = Eigen::Matrix3d::Zero();
+};
+
+/// What a window gives the model: where the vehicle is while it is smoothed, and what its wheels
+/// are set to there.
 struct WindowInput {
-  /// Places along the window, evenly in time.
-  static constexpr std::size_t kPlaces = 5;
   struct Place {
-    double x_m = 0, y_m = 0, yaw_rad = 0;
+    WindowPart part;
+    double acceleration_mps2 =
+        0;  ///< measured, of wheels that roll: of the speed along the heading
+    double yaw_acceleration_rps2 = 0;
+    /// What the model is to take for more than its own accelerations.
+    double more_mps2 = 0, more_rps2 = 0;
+    MotionStart start;
+    std::array<double, kMaxWheels> rim_rad_s{};
+    std::array<double, kMaxWheels> steer_rad{};
   };
-  std::array<Place, kPlaces> places{};
-  double acceleration_mps2 = 0;      ///< measured, along the heading
-  double yaw_acceleration_rps2 = 0;  ///< of what is commanded
-  double speed_mps = 0;              ///< measured, along the heading: where the search starts
-  double yaw_rate_rad_s = 0;         ///< measured likewise
-  std::array<double, kMaxWheels> rim_rad_s{};
-  std::array<double, kMaxWheels> steer_rad{};
+  std::array<Place, DriveWindow::kParts> places{};
+  double yaw_rad = 0;  ///< what velocities are told along
 };
 
 /// What the model says of a window; velocities are horizontal, angles those of the ground.
@@ -51,6 +63,7 @@ struct WindowPrediction {
   double forward_mps = 0, left_mps = 0, yaw_rate_rad_s = 0;
   double pitch_rad = 0, roll_rad = 0;
   std::array<double, kMaxWheels> torque_nm{};
+  std::array<MotionStart, DriveWindow::kParts> found{};  ///< motions of the body at each place
 };
 
 /// What may be otherwise with the vehicle or the ground than it is said to be; all 0 is as said.
@@ -71,13 +84,22 @@ struct VehicleDeviation {
   void add(const VehicleDeviation& other, double times);
 };
 
-/// Steady motion of a vehicle whose wheels turn and steer as measured: the body's velocities at
-/// which the wheels' forces, gravity and the measured acceleration balance.
+/// The motion of a vehicle whose wheels rolled without slip, as nearly as they can (least squares).
+BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxWheels>& rim_rad_s,
+                          const std::array<double, kMaxWheels>& steer_rad);
+
+/// Motion of a vehicle whose wheels turn and steer as measured: the body's velocities at the places
+/// of a window, one after the other, at which the wheels' forces and gravity give what the body
+/// accelerates from the two places before (backward differences, BDF2); at the first, what rolling
+/// wheels accelerate. Slip thus lags behind the wheels as it does. What it says of a window is what
+/// the smoothing makes of these motions.
 class WindowModel {
  public:
   /// All must outlive it.
   WindowModel(const TerrainMap& map, const Vehicle& vehicle, double gravity_mps2);
 
+  /// Whether the ground is known at each of its places.
+  bool knows_ground(const WindowInput& input) const;
   /// Nothing where the ground is not known or no motion balances.
   /// \param zone deviations of whatever soil lies there, on top of those of the soils
   std::optional<WindowPrediction> predict(const WindowInput& input,

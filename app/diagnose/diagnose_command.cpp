@@ -70,6 +70,7 @@ ExitStatus run_drives(const Options& options) {
                                 .columns = options.columns,
                                 .folder = options.folder,
                                 .seed = options.seed,
+                                .threads = overridden({}, {.threads = options.threads}).threads,
                                 .json = options.json,
                                 .quiet = options.quiet};
   if (!options.setup.empty()) command.setup = options.setup;

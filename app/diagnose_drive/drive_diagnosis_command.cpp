@@ -61,6 +61,7 @@ ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
   run.diagnosis = diagnose_drives(
       std::move(drives), run.setup.setup,
       {.seed = command.seed,
+       .threads = command.threads,
        .stop = stop,
        .progress = [&line](std::string_view stage, double share) { line.show(stage, share); }});
   line.show("writing", 1);

@@ -17,6 +17,7 @@ struct DriveDiagnosisCommand {
   std::optional<std::string> columns;
   ResultFolder folder;
   std::uint64_t seed = 1;
+  int threads = 2;
   bool json = false;
   bool quiet = false;
 };

@@ -144,6 +144,14 @@ Json fit_json(const DriveDiagnosis& diagnosis) {
   return fit;
 }
 
+Json windows_used_json(const WindowsUsed& used) {
+  Json left_out = Json::object();
+  for (std::size_t i = 0; i < kLeftOutReasons; ++i) {
+    left_out[std::string(name(static_cast<LeftOut>(i)))] = used.left_out.at(i);
+  }
+  return {{"compared", used.compared}, {"left_out", left_out}};
+}
+
 template <class Items, class ToJson>
 Json list_json(const Items& items, ToJson to_json) {
   Json list = Json::array();
@@ -180,6 +188,7 @@ Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
     return Json{{"ids", silent.ids}, {"why", silent.why}, {"next_drive", silent.drive}};
   });
   json["windows"] = diagnosis.windows.size();
+  if (diagnosis.windows_used) json["windows_used"] = windows_used_json(*diagnosis.windows_used);
   json["share_on_map"] = diagnosis.share_on_map;
   json["seed"] = run.seed;
   return json;

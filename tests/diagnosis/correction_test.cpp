@@ -26,8 +26,7 @@ TEST(Correction, SoilNumbersThatPredictAChannelWorseThanThePriorMeansAreNotHande
   EXPECT_NE(correction.refused.find("the soil stays at its prior means"), std::string::npos)
       << correction.refused;
   EXPECT_EQ(correction.soil.mean.cohesion_pa, simulant_setup().soil.mean.cohesion_pa);
-  EXPECT_EQ(correction.soil.mean.friction_angle_rad,
-            simulant_setup().soil.mean.friction_angle_rad);
+  EXPECT_EQ(correction.soil.mean.friction_angle_rad, simulant_setup().soil.mean.friction_angle_rad);
 }
 
 }  // namespace

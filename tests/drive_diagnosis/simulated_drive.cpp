@@ -83,22 +83,24 @@ DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {
   DriveRecording recording{.drive_id = "simulated", .file = "simulated.csv"};
   VehicleState state = dynamics.rolling_state(6, 30, 0, 1.2);
   std::array<double, kMaxWheels> ground{};
+  const double noise = drive.sensor_noise;
   constexpr double kStep_s = 0.1, kEnd_m = 308;
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (int step = 0; step < 5000 && state.x_m < kEnd_m; ++step) {
     const double back = -0.01 * (state.y_m - 30) - 0.2 * state.yaw_rad;
-    const double weave = 0.06 * std::sin(state.x_m / 9);
+    const double time_s = step * kStep_s;
     state = dynamics
                 .step(state,
-                      {.speed_target_mps = 1.2 + 0.3 * std::sin(state.x_m / 23),
-                       .curvature_target_1pm = std::clamp(back + weave, -0.15, 0.15)},
+                      {.speed_target_mps = drive.speed_mps(time_s, state.x_m),
+                       .curvature_target_1pm =
+                           std::clamp(back + drive.weave_1pm(time_s, state.x_m), -0.15, 0.15)},
                       kStep_s)
                 .state;
-    const bool fix = step % 10 == 0;
-    recording.time_s.push_back(step * kStep_s);
-    recording.x_m.push_back(fix ? state.x_m + 0.02 * normal(random) : kNaN);
-    recording.y_m.push_back(fix ? state.y_m + 0.02 * normal(random) : kNaN);
-    add(recording, "yaw_rad", fix ? state.yaw_rad + kDegree * normal(random) : kNaN);
+    const bool fix = step % std::lround(drive.fixes_s / kStep_s) == 0;
+    recording.time_s.push_back(time_s);
+    recording.x_m.push_back(fix ? state.x_m + noise * 0.02 * normal(random) : kNaN);
+    recording.y_m.push_back(fix ? state.y_m + noise * 0.02 * normal(random) : kNaN);
+    add(recording, "yaw_rad", fix ? state.yaw_rad + noise * kDegree * normal(random) : kNaN);
     const GroundPatch patch = dynamics.ground(state.x_m, state.y_m, state.yaw_rad);
     const PatchAxes axes(patch, kGravity_mps2);
     const GroundReaction reaction{vehicle.mass_kg * axes.gravity_normal_mps2,
@@ -115,7 +117,7 @@ DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {
       ground.at(i) = kHold * ground.at(i) +
                      std::sqrt(1 - kHold * kHold) * drive.torque_scatter * normal(random);
       add(recording, "wheel_speed_" + mount.name + "_rad_s",
-          rim_mps / vehicle.wheel.radius_m * (1 + 0.01 * normal(random)));
+          rim_mps / vehicle.wheel.radius_m * (1 + noise * 0.01 * normal(random)));
       if (mount.steered) {
         add(recording, "steer_" + mount.name + "_rad",
             set.at(i).steer_rad() - drive.deviation.steering_offset_rad.at(i));

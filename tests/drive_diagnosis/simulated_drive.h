@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 
@@ -16,6 +17,15 @@ struct SimulatedDrive {
   std::function<double(double x_m)> weakness = [](double) { return 0.0; };
   VehicleDeviation deviation{};  ///< drags, motors and offsets of steering; nothing else
   double torque_scatter = 0.03;  ///< share, of a metre of ground
+  double sensor_noise = 1;       ///< times that of `record`
+  double fixes_s = 1;            ///< from pose to pose
+  /// What is commanded, over time and way; curvature besides what holds the way.
+  std::function<double(double time_s, double x_m)> speed_mps = [](double, double x_m) {
+    return 1.2 + 0.3 * std::sin(x_m / 23);
+  };
+  std::function<double(double time_s, double x_m)> weave_1pm = [](double, double x_m) {
+    return 0.06 * std::sin(x_m / 9);
+  };
   std::uint64_t seed = 1;
 };
 

@@ -17,8 +17,9 @@ Diagnosed diagnosed(const SimulatedDrive& drive) {
   static const TerrainMap kMap = rolling_map();
   Diagnosed result{.drives = {record(drive, kMap)}, .windows = {}, .effects = {}};
   result.windows = drive_windows(result.drives[0], 0, 5, 0.3);
-  result.effects =
-      find_vehicle_effects(result.drives, result.windows, kMap, preset_vehicle("lrv"), 1.62, 7, {});
+  result.effects = find_vehicle_effects(result.drives, result.windows, kMap, preset_vehicle("lrv"),
+                                        1.62, {.seed = 7})
+                       .effects;
   return result;
 }
 

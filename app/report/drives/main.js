@@ -93,6 +93,16 @@ byId('fit').append(
                                                     number(fit.corrected_rmse),
                                                     fit.held_out || 'nothing'])) :
                   'Nothing was fitted.');
+if (REPORT.windows_used) {
+  const {compared, left_out} = REPORT.windows_used;
+  const reasons = Object.entries(left_out)
+                      .filter(([, count]) => count)
+                      .map(([reason, count]) => `${count} ${words(reason)}`);
+  byId('fit').append(element(
+      'p', {},
+      `${compared} of ${REPORT.windows} windows are compared with the vehicle's model` +
+          (reasons.length ? `; left out: ${reasons.join(', ')}.` : '.')));
+}
 byId('findings').append(
     ...(REPORT.findings.length ?
             REPORT.findings.map(({drive, text}) => element('li', {}, drive ? `${drive}: ${text}` : text)) :

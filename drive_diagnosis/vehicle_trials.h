@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drive_diagnosis/window_prediction.h"
+
+namespace regoplan {
+
+/// Something of vehicle, sensors or soil that may be otherwise, by one number.
+struct VehicleTrial {
+  std::string id;         ///< of the effect, `steering_offset`; empty: a parameter, never claimed
+  std::string parameter;  ///< what it is told in, `steer_front_deg`
+  double unit = 1;        ///< of the parameter: what a sound vehicle is off, one standard deviation
+  VehicleDeviation deviation;  ///< of that size
+};
+
+/// Everything that may be otherwise all along: faults, and numbers of the map's soils.
+/// \param soils that were driven on, by index
+std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMap& map,
+                                         const std::vector<bool>& soils);
+
+}  // namespace regoplan

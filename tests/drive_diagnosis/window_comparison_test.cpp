@@ -1,0 +1,112 @@
+#include "drive_diagnosis/window_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/drive_diagnosis/simulated_drive.h"
+
+namespace regoplan {
+namespace {
+
+/// Windows of a drive without scatter, compared.
+struct Compared {
+  explicit Compared(SimulatedDrive drive) : map(rolling_map()), vehicle(preset_vehicle("lrv")) {
+    drive.sensor_noise = drive.torque_scatter = 0;
+    drives = {record(drive, map)};
+    windows = drive_windows(drives[0], 0, 5, 0.3);
+    comparison.emplace(drives, windows, map, vehicle, 1.62, 2);
+  }
+
+  /// Root mean square of measured - predicted, by channel.
+  std::vector<double> rms() const {
+    const Eigen::MatrixXd& measured = comparison->measured();
+    const Eigen::MatrixXd off =
+        measured -
+        comparison->predicted({}, {}, Eigen::MatrixXd::Zero(measured.rows(), measured.cols()), {});
+    std::vector<double> result;
+    for (Eigen::Index k = 0; k < off.cols(); ++k) {
+      result.push_back(std::sqrt(off.col(k).squaredNorm() / static_cast<double>(off.rows())));
+    }
+    return result;
+  }
+
+  TerrainMap map;
+  Vehicle vehicle;
+  std::vector<DriveRecording> drives;
+  std::vector<DriveWindow> windows;
+  std::optional<WindowComparison> comparison;
+};
+
+void expect_agreement(const Compared& compared) {
+  const std::vector<double> rms = compared.rms();
+  const std::vector<std::string>& channels = compared.comparison->channels();
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    // Below what the sensors of `record` scatter in a window; the heading is smoothed to a
+    // parabola.
+    const double bound = channels[k] == "yaw_rate_rad_s"      ? 0.002
+                         : channels[k].starts_with("torque_") ? 0.8
+                         : channels[k] == "left_mps"          ? 0.02
+                                                              : 0.01;
+    EXPECT_LT(rms[k], bound) << channels[k];
+  }
+}
+
+TEST(DriveWindows, SmoothedVelocitiesAreTheSharesOfWhatWasDrivenInEachPart) {
+  DriveRecording drive{.drive_id = "steps", .file = "steps.csv"};
+  DriveChannel yaw{.name = "yaw_rad", .values = {}};
+  const auto speed_mps = [](int part) { return 1 + 0.3 * (part * part % 5); };
+  double x_m = 0;
+  for (int step = 0; step <= 80; ++step) {
+    drive.time_s.push_back(0.1 * step);
+    drive.x_m.push_back(x_m);
+    drive.y_m.push_back(0);
+    yaw.values.push_back(0);
+    x_m += 0.1 * speed_mps(step / 5);
+  }
+  drive.channels.push_back(yaw);
+  const auto windows = drive_windows(drive, 0, 8.05, 0);
+  ASSERT_EQ(windows.size(), 1u);
+  double expected_mps = 0, track = 0, turn = 0, mean = 0;
+  for (std::size_t j = 0; j < DriveWindow::kParts; ++j) {
+    const WindowPart& part = windows[0].parts.at(j);
+    expected_mps += part.track_share * speed_mps(static_cast<int>(j));
+    track += part.track_share;
+    turn += part.turn_share;
+    mean += part.mean_share;
+  }
+  EXPECT_NEAR(windows[0].forward_mps, expected_mps, 1e-9);
+  EXPECT_NEAR(track, 1, 1e-9);
+  EXPECT_NEAR(turn, 1, 1e-9);
+  EXPECT_NEAR(mean, 1, 1e-9);
+}
+
+TEST(WindowComparison, PredictsADriveOfConstantCommands) {
+  SimulatedDrive drive;
+  drive.speed_mps = [](double, double) { return 1.2; };
+  drive.weave_1pm = [](double, double) { return 0.0; };
+  expect_agreement(Compared(drive));
+}
+
+TEST(WindowComparison, PredictsADriveWhoseSpeedAndSteeringChangeAllTheTime) {
+  SimulatedDrive drive;
+  drive.speed_mps = [](double time_s, double) { return std::fmod(time_s, 9) < 4 ? 0.8 : 1.8; };
+  drive.weave_1pm = [](double time_s, double) { return std::fmod(time_s, 7) < 3.5 ? 0.1 : -0.1; };
+  const Compared compared(drive);
+  EXPECT_GE(compared.comparison->size() + 1, compared.windows.size());
+  expect_agreement(compared);
+}
+
+TEST(WindowComparison, WindowsThatAreNotComparedAreCountedByReason) {
+  SimulatedDrive drive;
+  drive.speed_mps = [](double time_s, double) { return time_s > 40 && time_s < 60 ? 0.0 : 1.2; };
+  const Compared compared(drive);
+  const WindowsUsed& used = compared.comparison->used();
+  int all = used.compared;
+  for (const int count : used.left_out) all += count;
+  EXPECT_EQ(all, static_cast<int>(compared.windows.size()));
+  EXPECT_GE(used.left_out.at(static_cast<std::size_t>(LeftOut::kStanding)), 3);
+}
+
+}  // namespace
+}  // namespace regoplan
