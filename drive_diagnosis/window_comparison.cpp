@@ -138,8 +138,8 @@ double mean_std(const DriveRecording& drive, const DriveWindow& window, const st
   return steps == 0 || within == 0 ? 0 : std::sqrt(squares / (2.0 * steps * within));
 }
 
-/// By how much an acceleration may be off: motion is taken for steady at each place, though slip
-/// and sinkage change with it.
+/// By how much an acceleration may be off: sinkage is that of steady motion at each place, and
+/// samples do not tell what happens between them.
 double acceleration_std(const WindowInput& input, double WindowInput::Place::*of, double least) {
   constexpr double kUnsteady = 0.1;
   double squares = 0;
@@ -188,6 +188,7 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
 std::optional<LeftOut> WindowComparison::add(std::size_t window,
                                              std::vector<Eigen::VectorXd>& rows) {
   constexpr std::size_t kWindowsMost = 150;  // the contest stays within seconds
+  if (rows.size() == kWindowsMost) return LeftOut::kTooMany;
   const DriveRecording& drive = drives_[windows_[window].drive];
   auto input = input_of(drive, windows_[window], vehicle_);
   if (!input) return LeftOut::kNoInput;
@@ -197,7 +198,6 @@ std::optional<LeftOut> WindowComparison::add(std::size_t window,
   if (!prediction) return LeftOut::kNoBalance;
   auto measured = measured_in(window);
   if (!measured) return LeftOut::kNoChannel;
-  if (rows.size() == kWindowsMost) return LeftOut::kTooMany;
   for (std::size_t j = 0; j < input->places.size(); ++j) {
     input->places.at(j).start = prediction->found.at(j);
     const WindowPart& part = input->places.at(j).part;
