@@ -28,7 +28,9 @@ DriveEstimate added_resistance(const Vehicle& vehicle, double gravity_mps2, cons
   constexpr int kDraws = 60;
   double squares = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const double off = rolling_resistance(vehicle, gravity_mps2, draw(there, random)) - mean;
+    const double off =
+        rolling_resistance(vehicle, gravity_mps2, draw(there, vehicle.wheel.width_m, random)) -
+        mean;
     squares += off * off;
   }
   return {mean - rolling_resistance(vehicle, gravity_mps2, said), std::sqrt(squares / kDraws)};

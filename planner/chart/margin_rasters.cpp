@@ -155,7 +155,7 @@ std::vector<float> straight_on_probability(const PlanningProblem& problem) {
   const std::size_t count = std::ranges::any_of(problem.map.soils(), is_uncertain) ? kDraws : 1;
   std::vector<ChartSettings> draws(count, chart_settings(problem));
   for (std::size_t k = 0; k < count; ++k) {
-    const SoilDraw draw = soil_draw(problem.map.soils(), problem.search.seed, static_cast<int>(k));
+    const SoilDraw draw = soil_draw(problem, problem.search.seed, static_cast<int>(k));
     for (std::size_t soil = 0; soil < soils; ++soil) draws[k].soils[soil].soil.mean = draw[soil];
   }
   std::vector<std::optional<double>> limits_rad(count * soils);

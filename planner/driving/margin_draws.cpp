@@ -53,7 +53,7 @@ std::vector<double> smallest_margins(const PlanningProblem& problem, const Repla
   const std::vector<VehicleState> states = decisive_states(verified);
   std::vector<double> smallest(static_cast<std::size_t>(draws.count));
   parallel_for(smallest.size(), threads, [&](std::size_t i) {
-    const SoilDraw soils = soil_draw(problem.map.soils(), seed, draws.first + static_cast<int>(i));
+    const SoilDraw soils = soil_draw(problem, seed, draws.first + static_cast<int>(i));
     smallest[i] = smallest_of(margins_on(problem, states, soils)).smallest();
   });
   return smallest;

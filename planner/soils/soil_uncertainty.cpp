@@ -119,11 +119,13 @@ PathMargins margins_at(const TrajectoryPoint& point) {
           .traction = or_else(point.traction_margin, std::min(cornering, 0.0))};
 }
 
-SoilDraw soil_draw(const std::vector<MapSoil>& soils, std::uint64_t seed, int number) {
+SoilDraw soil_draw(const PlanningProblem& problem, std::uint64_t seed, int number) {
   std::seed_seq sequence{seed, static_cast<std::uint64_t>(number)};
   std::mt19937_64 random(sequence);
   SoilDraw drawn;
-  for (const MapSoil& soil : soils) drawn.push_back(draw(soil.soil, random));
+  for (const MapSoil& soil : problem.map.soils()) {
+    drawn.push_back(draw(soil.soil, problem.vehicle.wheel.width_m, random));
+  }
   return drawn;
 }
 
@@ -168,7 +170,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   }
 
   std::vector<SoilDraw> soils;
-  for (int i = 0; i < draws; ++i) soils.push_back(soil_draw(problem.map.soils(), settings.seed, i));
+  for (int i = 0; i < draws; ++i) soils.push_back(soil_draw(problem, settings.seed, i));
   const Eigen::MatrixXd deviations = standard_deviations(problem.map.soils(), numbers, soils);
 
   // The first draws by the wheel model: those the surrogate is made from, and those that check it.

@@ -16,7 +16,7 @@ namespace regoplan {
 using SoilDraw = std::vector<Soil>;
 
 /// Draw k depends on the soils, the seed and k alone: the same for every path that is compared.
-SoilDraw soil_draw(const std::vector<MapSoil>& soils, std::uint64_t seed, int number);
+SoilDraw soil_draw(const PlanningProblem& problem, std::uint64_t seed, int number);
 
 /// The smallest margins along a path, each for itself. What is missing counts as -1; traction that
 /// is missing because the lateral demand is beyond the supply, as the cornering margin or 0.

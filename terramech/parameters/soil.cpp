@@ -55,7 +55,11 @@ void validate(const Soil& soil) {
   }
 }
 
-Soil draw(const UncertainSoil& soil, std::mt19937_64& random) {
+bool resists_sinkage(const Soil& soil, double wheel_width_m) {
+  return soil.kc / wheel_width_m + soil.kphi > 0;
+}
+
+Soil draw(const UncertainSoil& soil, double wheel_width_m, std::mt19937_64& random) {
   Soil drawn = soil.mean;
   for (int attempt = 0; attempt < 1000; ++attempt) {
     for (const SoilParameter& parameter : soil_parameters()) {
@@ -70,12 +74,14 @@ Soil draw(const UncertainSoil& soil, std::mt19937_64& random) {
         if (in_range(parameter, value / parameter.file_unit)) break;
       }
     }
-    if (maximum_stress_angle_stays_inside(drawn)) {
+    if (maximum_stress_angle_stays_inside(drawn) && resists_sinkage(drawn, wheel_width_m)) {
       validate(drawn);
       return drawn;
     }
   }
-  throw InputError("a0, a1: 1000 draws of the soil all leave 0 < a0 + a1 s < 1");
+  throw InputError(
+      "a0, a1, kc, kphi: 1000 draws of the soil all leave 0 < a0 + a1 s < 1 or kc/width_m + kphi "
+      "above 0");
 }
 
 }  // namespace regoplan

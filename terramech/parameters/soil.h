@@ -49,8 +49,12 @@ struct UncertainSoil {
   Soil standard_deviation{.n = 0, .a0 = 0, .a1 = 0};
 };
 
-/// A soil drawn from independent normal distributions truncated to the valid ranges.
-/// \throws InputError when 1000 draws of one number in a row are all invalid
-Soil draw(const UncertainSoil& soil, std::mt19937_64& random);
+/// Whether the pressure below a plate as wide as the wheel grows with its depth: Bekker's modulus
+/// kc/b + kphi is above 0.
+bool resists_sinkage(const Soil& soil, double wheel_width_m);
+
+/// A soil drawn from independent normal distributions truncated to the valid ranges, that resists
+/// the sinkage of such a wheel. \throws InputError when 1000 draws in a row are all invalid
+Soil draw(const UncertainSoil& soil, double wheel_width_m, std::mt19937_64& random);
 
 }  // namespace regoplan

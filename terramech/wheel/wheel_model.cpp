@@ -71,7 +71,7 @@ const WheelModelSpec& checked(const WheelModelSpec& spec) {
   if (!(spec.gravity_mps2 > 0 && spec.gravity_mps2 <= 100)) {
     throw ValueError("gravity_mps2", spec.gravity_mps2, "above 0 to 100");
   }
-  if (!(spec.soil.kc / spec.wheel.width_m + spec.soil.kphi > 0)) {
+  if (!resists_sinkage(spec.soil, spec.wheel.width_m)) {
     throw ValueError("kc", spec.soil.kc,
                      fmt::format("kc/width_m + kphi above 0, with kphi {}", spec.soil.kphi));
   }

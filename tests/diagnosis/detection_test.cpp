@@ -17,7 +17,10 @@ struct Calibrated {
 Calibrated calibrated(const TrueWheel& truth, std::uint64_t seed, const BedPlan& plan = {}) {
   const DiagnosisSetup setup = simulant_setup();
   std::mt19937_64 random(seed);
-  Calibrated made{condense(record(truth, setup, draw(setup.soil, random), plan, seed), setup), {}};
+  Calibrated made{
+      condense(record(truth, setup, draw(setup.soil, setup.wheel.width_m, random), plan, seed),
+               setup),
+      {}};
   const Calibration found = calibrate(made.recording.bed, soil_coordinates(setup.soil));
   made.remainder = {.residual = made.recording.bed.measured() - found.prediction,
                     .x = found.x,

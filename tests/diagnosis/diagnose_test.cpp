@@ -29,7 +29,8 @@ Diagnosis diagnosed(const TrueWheel& truth, std::uint64_t seed, BedPlan plan = {
                     const DiagnosisOptions& options = {}) {
   const DiagnosisSetup setup = simulant_setup();
   std::mt19937_64 random(seed);
-  return diagnose(record(truth, setup, draw(setup.soil, random), plan, seed), setup, options);
+  return diagnose(record(truth, setup, draw(setup.soil, setup.wheel.width_m, random), plan, seed),
+                  setup, options);
 }
 
 TEST(Diagnose, OtherSoilNumbersWithinTheirPriorsAreNoMissingPhysics) {

@@ -25,7 +25,7 @@ TrueWheel shared_shortcoming() {
 Diagnosis compared(const TrueWheel& test, const TrueWheel& reference, std::uint64_t seed) {
   const DiagnosisSetup setup = simulant_setup();
   std::mt19937_64 random(seed);
-  const Soil soil = draw(setup.soil, random);
+  const Soil soil = draw(setup.soil, setup.wheel.width_m, random);
   const BedPlan plan{.slips = {-0.3, 0, 0.2, 0.4, 0.7},
                      .angles_deg = {0, 8, 16},
                      .loads_n = {45, 64.7},
@@ -68,7 +68,7 @@ TEST(Difference, AFurtherPassOfOneSeriesAloneIsNoDifferenceBetweenTwo) {
   // the reference happens not to have driven.
   const DiagnosisSetup setup = simulant_setup();
   std::mt19937_64 random(5);
-  const Soil soil = draw(setup.soil, random);
+  const Soil soil = draw(setup.soil, setup.wheel.width_m, random);
   const BedPlan plan{
       .slips = {0, 0.2, 0.4}, .angles_deg = {0, 8, 16}, .conditions = 20, .replicates = 2};
   const Recording reference = record({}, setup, soil, plan, 6);
@@ -95,7 +95,7 @@ TEST(Difference, AFurtherPassOfOneSeriesAloneIsNoDifferenceBetweenTwo) {
 TEST(Difference, NeedsAChannelThatBothMeasured) {
   const DiagnosisSetup setup = simulant_setup();
   std::mt19937_64 random(1);
-  const Soil soil = draw(setup.soil, random);
+  const Soil soil = draw(setup.soil, setup.wheel.width_m, random);
   Recording test = record({}, setup, soil, {.conditions = 12}, 1);
   Recording reference = test;
   test.channels = {Channel::kTorque};

@@ -44,10 +44,10 @@ Judged judged(const UncertainSoil& soil) {
 }
 
 TEST(SoilUncertainty, DrawsDependOnSoilsSeedAndNumberAlone) {
-  const std::vector<MapSoil> soils{{.name = "a", .source = "", .soil = uncertain_regolith()}};
-  EXPECT_EQ(soil_draw(soils, 7, 3)[0].cohesion_pa, soil_draw(soils, 7, 3)[0].cohesion_pa);
-  EXPECT_NE(soil_draw(soils, 7, 3)[0].cohesion_pa, soil_draw(soils, 7, 4)[0].cohesion_pa);
-  EXPECT_NE(soil_draw(soils, 7, 3)[0].cohesion_pa, soil_draw(soils, 8, 3)[0].cohesion_pa);
+  const PlanningProblem problem = judged(uncertain_regolith()).problem;
+  EXPECT_EQ(soil_draw(problem, 7, 3)[0].cohesion_pa, soil_draw(problem, 7, 3)[0].cohesion_pa);
+  EXPECT_NE(soil_draw(problem, 7, 3)[0].cohesion_pa, soil_draw(problem, 7, 4)[0].cohesion_pa);
+  EXPECT_NE(soil_draw(problem, 7, 3)[0].cohesion_pa, soil_draw(problem, 8, 3)[0].cohesion_pa);
 }
 
 TEST(SoilUncertainty, AMarginIsKeptOnlyWithinTheLimitsOfSlipSlipAngleAndSinkage) {
@@ -62,7 +62,7 @@ TEST(SoilUncertainty, AMarginIsKeptOnlyWithinTheLimitsOfSlipSlipAngleAndSinkage)
       j.problem.limits.*limit *= share;
       kept.push_back(0);
       for (int draw = 0; draw < 10; ++draw) {
-        const SoilDraw soils = soil_draw(j.problem.map.soils(), 3, draw);
+        const SoilDraw soils = soil_draw(j.problem, 3, draw);
         kept.back() += smallest_of(margins_on(j.problem, j.states, soils)).smallest() >= 0;
       }
     }
@@ -101,8 +101,7 @@ TEST(SoilUncertainty, TheSurrogateIsOnTheSafeSideOfTheWheelModel) {
   std::vector<double> direct;
   for (int i = 0; i < kDraws; ++i) {
     double smallest = 1;
-    for (const PathMargins& one :
-         margins_on(j.problem, j.states, soil_draw(j.problem.map.soils(), 1, i))) {
+    for (const PathMargins& one : margins_on(j.problem, j.states, soil_draw(j.problem, 1, i))) {
       smallest = std::min(smallest, one.smallest());
     }
     direct.push_back(smallest);

@@ -12,6 +12,8 @@
 namespace regoplan {
 namespace {
 
+constexpr double kWidth_m = 0.23;
+
 /// The field that `validate` complains of; empty where it is content.
 std::string rejected_field(const Soil& soil) {
   try {
@@ -70,7 +72,7 @@ TEST(Soil, TheStressPeaksWithinTheContactAtEverySlip) {
 TEST(SoilDraw, ANumberWithoutUncertaintyIsKnown) {
   UncertainSoil soil{.mean = firm_regolith()};
   std::mt19937_64 random(1);
-  const Soil drawn = draw(soil, random);
+  const Soil drawn = draw(soil, kWidth_m, random);
   for (const SoilParameter& parameter : soil_parameters()) {
     EXPECT_EQ(drawn.*parameter.member, soil.mean.*parameter.member) << parameter.name;
   }
@@ -81,7 +83,8 @@ TEST(SoilDraw, TheSameSeedDrawsTheSameSoil) {
   soil.standard_deviation.cohesion_pa = 50;
   soil.standard_deviation.kphi = 2e5;
   std::mt19937_64 one(7), other(7), third(8);
-  const Soil drawn = draw(soil, one), same = draw(soil, other), different = draw(soil, third);
+  const Soil drawn = draw(soil, kWidth_m, one), same = draw(soil, kWidth_m, other),
+             different = draw(soil, kWidth_m, third);
   EXPECT_EQ(drawn.cohesion_pa, same.cohesion_pa);
   EXPECT_EQ(drawn.kphi, same.kphi);
   EXPECT_NE(drawn.cohesion_pa, different.cohesion_pa);
@@ -94,7 +97,8 @@ TEST(SoilDraw, MeanAndDeviationAreThoseOfTheTests) {
   constexpr int kDraws = 10000;
   double sum = 0, squares = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const double off = draw(soil, random).friction_angle_rad - soil.mean.friction_angle_rad;
+    const double off =
+        draw(soil, kWidth_m, random).friction_angle_rad - soil.mean.friction_angle_rad;
     sum += off;
     squares += off * off;
   }
@@ -109,7 +113,19 @@ TEST(SoilDraw, EveryDrawIsValid) {
     soil.standard_deviation.*parameter.member = soil.mean.*parameter.member;  // often below 0
   }
   std::mt19937_64 random(3);
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(rejected_field(draw(soil, random)), "");
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(rejected_field(draw(soil, kWidth_m, random)), "");
+}
+
+TEST(SoilDraw, EveryDrawResistsTheSinkageOfTheWheel) {
+  UncertainSoil soil{.mean = firm_regolith()};
+  soil.mean.kc = 280;
+  soil.mean.kphi = 2000;
+  soil.standard_deviation.kc = 700;
+  soil.standard_deviation.kphi = 2000;
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_TRUE(resists_sinkage(draw(soil, kWidth_m, random), kWidth_m));
+  }
 }
 
 TEST(SoilDraw, NumbersThatAreNeverValidAreAnError) {
@@ -117,7 +133,7 @@ TEST(SoilDraw, NumbersThatAreNeverValidAreAnError) {
   soil.mean.density_kgpm3 = -1e6;
   soil.standard_deviation.density_kgpm3 = 1;
   std::mt19937_64 random(1);
-  EXPECT_THROW(draw(soil, random), InputError);
+  EXPECT_THROW(draw(soil, kWidth_m, random), InputError);
 }
 
 }  // namespace
