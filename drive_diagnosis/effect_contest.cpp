@@ -12,10 +12,21 @@ namespace {
 
 constexpr double kFault = 8;     ///< a fault's deviation, in those of a sound vehicle
 constexpr double kZone = 3;      ///< another soil's numbers, in standard deviations of this one's
+constexpr double kCommon = 6;    ///< and in the direction in which they go together
 constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
 constexpr double kToSpare = 12;  ///< twice nats beyond chance, for what residuals have of tails
 constexpr std::size_t kShortest = 2;
+
+/// What deviations of 1 stand for in a known zone: each number varies by itself, and all along the
+/// direction in which they go together.
+Eigen::MatrixXd zone_factor(const EffectContest& contest) {
+  const auto q = static_cast<Eigen::Index>(contest.soil_numbers);
+  const Eigen::VectorXd common = kCommon * contest.common_direction;
+  const Eigen::MatrixXd covariance =
+      kZone * kZone * Eigen::MatrixXd::Identity(q, q) + common * common.transpose();
+  return covariance.llt().matrixL();
+}
 
 /// All that varies without a name, as columns of deviation 1.
 Eigen::MatrixXd free_columns(const EffectContest& contest) {
@@ -27,12 +38,14 @@ Eigen::MatrixXd free_columns(const EffectContest& contest) {
   for (const std::size_t fault : contest.faults_known) {
     columns.col(static_cast<Eigen::Index>(fault)) *= kFault;
   }
+  if (zones == 0) return columns;
+  const Eigen::MatrixXd factor = zone_factor(contest);
   for (Eigen::Index z = 0; z < zones; ++z) {
     const Eigen::VectorXd& share = contest.zones_known[static_cast<std::size_t>(z)];
     for (Eigen::Index w = 0; w < share.size(); ++w) {
       if (share[w] == 0) continue;
       columns.middleCols(parameters + z * q, q) +=
-          kZone * share[w] * contest.soil.middleCols(w * q, q);
+          share[w] * contest.soil.middleCols(w * q, q) * factor;
     }
   }
   return columns;
@@ -363,12 +376,30 @@ ContestFit fit_contest(const EffectContest& contest) {
     fit.parameters_std[static_cast<Eigen::Index>(fault)] *= kFault;
   }
   const auto q = static_cast<Eigen::Index>(contest.soil_numbers);
+  if (contest.zones_known.empty()) return fit;
+  const Eigen::MatrixXd factor = zone_factor(contest);
   for (std::size_t z = 0; z < contest.zones_known.size(); ++z) {
     const Eigen::Index at = parameters + static_cast<Eigen::Index>(z) * q;
-    fit.zones.emplace_back(kZone * x.segment(at, q));
-    fit.zones_std.emplace_back(kZone * std.segment(at, q));
+    fit.zones.emplace_back(factor * x.segment(at, q));
+    const Eigen::MatrixXd spread = factor * covariance.block(at, at, q, q) * factor.transpose();
+    fit.zones_std.emplace_back(spread.diagonal().cwiseMax(0).cwiseSqrt());
   }
   return fit;
+}
+
+double prior_nats(const EffectContest& contest, const ContestFit& fit) {
+  Eigen::VectorXd parameters = fit.parameters;
+  for (const std::size_t fault : contest.faults_known) {
+    parameters[static_cast<Eigen::Index>(fault)] /= kFault;
+  }
+  double squares = parameters.squaredNorm();
+  if (!fit.zones.empty()) {
+    const Eigen::MatrixXd factor = zone_factor(contest);
+    for (const Eigen::VectorXd& zone : fit.zones) {
+      squares += factor.triangularView<Eigen::Lower>().solve(zone).squaredNorm();
+    }
+  }
+  return squares / 2;
 }
 
 }  // namespace regoplan

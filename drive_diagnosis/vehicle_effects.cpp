@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "drive_diagnosis/effect_contest.h"
+#include "drive_diagnosis/likely_soils.h"
 #include "drive_diagnosis/residual_noise.h"
 #include "drive_diagnosis/rolling_resistance.h"
 #include "drive_diagnosis/vehicle_trials.h"
@@ -28,6 +30,7 @@ class EffectSearch {
         gravity_mps2_(gravity_mps2),
         comparison_(comparison),
         trials_(vehicle_trials(vehicle, map, comparison.soils_driven())),
+        likely_(likely_soils(map, comparison.soils_driven())),
         seed_(settings.seed),
         stop_(settings.stop),
         fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials_.size()))} {
@@ -43,7 +46,12 @@ class EffectSearch {
     }
     for (const VehicleTrial& trial : trials_) contest_.claimable.push_back(!trial.id.empty());
     contest_.soil_numbers = numbers_.size();
-    add_likely_soils();
+    contest_.common_direction = values_of(weaker_by(1));
+    for (const LikelySoil& likely : likely_) {
+      constexpr double kFarthest = 6;
+      contest_.likely_soils.push_back(
+          values_of(likely.numbers).cwiseMax(-kFarthest).cwiseMin(kFarthest));
+    }
   }
 
   VehicleEffects run() {
@@ -109,35 +117,13 @@ class EffectSearch {
     return numbers;
   }
 
-  /// A soil of the map where it says another.
-  struct Likely {
-    int here = 0, there = 0;
-  };
-
-  /// Soils of the map, where another is said to be that was driven on; and one that is weaker or
-  /// stronger in all that carries and holds.
-  void add_likely_soils() {
-    const auto add = [this](const SoilNumbers& numbers, std::optional<Likely> what) {
-      likely_.push_back(what);
-      Eigen::VectorXd likely(static_cast<Eigen::Index>(numbers_.size()));
-      for (std::size_t k = 0; k < numbers_.size(); ++k) {
-        constexpr double kFarthest = 6;
-        likely[static_cast<Eigen::Index>(k)] =
-            std::clamp(numbers.at(numbers_[k]), -kFarthest, kFarthest);
-      }
-      contest_.likely_soils.push_back(std::move(likely));
-    };
-    const std::vector<MapSoil>& soils = map_.soils();
-    for (std::size_t here = 0; here < soils.size(); ++here) {
-      if (!comparison_.soils_driven()[here]) continue;
-      for (std::size_t there = 0; there < soils.size(); ++there) {
-        if (here == there) continue;
-        add(deviations_between(soils[here].soil, soils[there].soil.mean),
-            Likely{.here = static_cast<int>(here), .there = static_cast<int>(there)});
-      }
+  /// Of the numbers that vary.
+  Eigen::VectorXd values_of(const SoilNumbers& numbers) const {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(numbers_.size()));
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      values[static_cast<Eigen::Index>(k)] = numbers.at(numbers_[k]);
     }
-    constexpr double kWeaker = 3;
-    add(weaker_by(kWeaker), {});
+    return values;
   }
 
   std::vector<WindowZone> zones() const {
@@ -273,25 +259,64 @@ class EffectSearch {
   }
 
   /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
-  /// their means change what everything else does. Steps that are long are shortened.
+  /// their means change what everything else does. Steps that are long are shortened. Soils far off
+  /// are no longer linear, so that steps may lead away again: the best of where they led counts.
   void settle() {
-    constexpr int kRounds = 6;
-    constexpr double kSettled = 0.05, kLongest = 1.5, kFarthest = 6;  // deviations
-    for (int round = 0; round < kRounds; ++round) {
-      linearise();
-      ContestFit next = fit_contest(contest_);
-      const Eigen::VectorXd step = next.parameters - fit_.parameters;
-      double longest = 0;
-      for (std::size_t k = 0; k < trials_.size(); ++k) {
-        const bool known =
-            std::ranges::find(contest_.faults_known, k) != contest_.faults_known.end();
-        if (!known) longest = std::max(longest, std::abs(step[static_cast<Eigen::Index>(k)]));
+    constexpr double kSettled = 0.05, kLongest = 1.5;  // deviations
+    constexpr double kZoneLongest = 3, kZoneFarthest = 12;
+    const int rounds = fit_.zones.empty() ? 6 : 10;
+    ContestFit best;
+    Eigen::MatrixXd best_shifts;
+    double least = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < rounds; ++round) {
+      const Eigen::MatrixXd shifts = shifts_;
+      const Linearised here = linearise();
+      const double misfit_here = misfit(comparison_.measured() - here.base);
+      if (misfit_here < least) {
+        least = misfit_here;
+        best = fit_;
+        best_shifts = shifts;
       }
-      if (longest > kLongest) next.parameters = fit_.parameters + kLongest / longest * step;
-      for (Eigen::VectorXd& zone : next.zones) zone = zone.cwiseMax(-kFarthest).cwiseMin(kFarthest);
+      ContestFit next = fit_contest(contest_);
+      const double longest = longest_of_sound(next.parameters - fit_.parameters);
+      if (longest > kLongest) {
+        next.parameters =
+            fit_.parameters + kLongest / longest * (next.parameters - fit_.parameters);
+      }
+      for (std::size_t z = 0; z < next.zones.size(); ++z) {
+        const Eigen::VectorXd step = next.zones[z] - fit_.zones[z];
+        const double length = step.cwiseAbs().maxCoeff();
+        if (length > kZoneLongest) next.zones[z] = fit_.zones[z] + kZoneLongest / length * step;
+        next.zones[z] = next.zones[z].cwiseMax(-kZoneFarthest).cwiseMin(kZoneFarthest);
+      }
       fit_ = std::move(next);
-      if (longest < kSettled && contest_.zones_known.empty()) break;
+      if (longest < kSettled && fit_.zones.empty()) break;
     }
+    if (fit_.zones.empty()) return;
+    fit_ = std::move(best);
+    shifts_ = std::move(best_shifts);
+    comparison_.shift_inputs(shifts_);
+  }
+
+  /// Nats by which residuals and what they ask of parameters are unlikely, with scatter of whatever
+  /// size in each channel.
+  double misfit(const Eigen::MatrixXd& residuals) const {
+    double nats = prior_nats(contest_, fit_);
+    for (const double one : rms(residuals)) {
+      nats += static_cast<double>(residuals.rows()) * std::log(one);
+    }
+    return nats;
+  }
+
+  /// Of a step, how far it takes whatever a sound vehicle and its soils may be off.
+  double longest_of_sound(const Eigen::VectorXd& step) const {
+    double longest = 0;
+    for (std::size_t k = 0; k < trials_.size(); ++k) {
+      const auto& known = contest_.faults_known;
+      if (std::ranges::find(known, k) != known.end()) continue;
+      longest = std::max(longest, std::abs(step[static_cast<Eigen::Index>(k)]));
+    }
+    return longest;
   }
 
   VehicleFinding told(const EffectFound& effect) const {
@@ -354,11 +379,11 @@ class EffectSearch {
     zone.at_border = (first > 0 && soil_at(first - 1) != soil_at(first)) ||
                      (last + 1 < comparison_.size() && soil_at(last + 1) != soil_at(last));
     estimate(index, zone);
-    const std::optional<Likely> likely = effect.like ? likely_[*effect.like] : std::nullopt;
+    if (!effect.like) return zone;
+    const LikelySoil& likely = likely_[*effect.like];
     constexpr double kWithin = 2;  // deviations
-    if (likely && likely->here == zone.soil &&
-        std::abs(effect.like_size - 1) < kWithin * effect.like_std) {
-      zone.like = likely->there;
+    if (likely.here == zone.soil && std::abs(effect.like_size - 1) < kWithin * effect.like_std) {
+      zone.like = likely.there;
     }
     return zone;
   }
@@ -381,23 +406,9 @@ class EffectSearch {
     }
     for (std::size_t i = 0; i < soils.size(); ++i) {
       if (comparison_.soils_driven()[i])
-        soils[i].soil = soil_of(soils[i].soil, numbers[i], stds[i]);
+        soils[i].soil = estimated_soil(soils[i].soil, numbers[i], stds[i]);
     }
     return soils;
-  }
-
-  /// A soil whose numbers are so many standard deviations off, and known to so many of them.
-  static UncertainSoil soil_of(const UncertainSoil& said, const SoilNumbers& numbers,
-                               const SoilNumbers& stds) {
-    UncertainSoil soil{.mean = deviating(said, numbers)};
-    const SoilNumbers spread = soil_spread(said);
-    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-      double Soil::*const member = soil_parameters().at(k).member;
-      const double before = said.mean.*member;
-      const double std = stds.at(k) * spread.at(k);  // of its logarithm, where it is positive
-      soil.standard_deviation.*member = before > 0 ? std * (soil.mean.*member) / before : std;
-    }
-    return soil;
   }
 
   /// The zone's soil: its map soil as it is estimated all along, with the zone's numbers on top.
@@ -411,7 +422,7 @@ class EffectSearch {
       if (!all_along.empty()) numbers.at(k) += all_along[soil].at(k);
     }
     const UncertainSoil& said = map_.soils()[soil].soil;
-    zone.estimate = soil_of(said, numbers, stds);
+    zone.estimate = estimated_soil(said, numbers, stds);
     const Soil before = all_along.empty() ? said.mean : deviating(said, all_along[soil]);
     zone.resistance = added_resistance(vehicle_, gravity_mps2_, before, zone.estimate, seed_);
   }
@@ -423,12 +434,12 @@ class EffectSearch {
   WindowComparison& comparison_;
   Eigen::MatrixXd shifts_;  ///< of the inputs that were linearised about
   std::vector<VehicleTrial> trials_;
+  std::vector<LikelySoil> likely_;  ///< what the contest's likely soils are
   std::uint64_t seed_;
   const std::stop_token& stop_;
   std::vector<std::size_t> numbers_;  ///< of soil, that vary
   EffectContest contest_;
   ContestFit fit_;
-  std::vector<std::optional<Likely>> likely_;  ///< what the contest's likely soils are
   std::vector<double> noise_;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kGravity_mps2 = 1.62;
 
-constexpr int kWeaknesses = 5;  ///< soils in steps of one standard deviation
+constexpr int kWeaknesses = 10;  ///< soils in steps of one standard deviation
 
 UncertainSoil tested_soil() {
   UncertainSoil soil{.mean = named_soils::firm_regolith()};

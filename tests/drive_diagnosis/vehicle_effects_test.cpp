@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/drive_diagnosis/simulated_drive.h"
 
 namespace regoplan {
@@ -68,6 +70,23 @@ TEST(VehicleEffects, AWeakZoneOfThirtyMetresIsFoundWhereItLies) {
     EXPECT_NEAR(weak.windows[zone.last].x_m, 170, window_m) << said(*weak.effects);
     EXPECT_GT(zone.resistance.value, 0);
   }
+}
+
+TEST(VehicleEffects, ASoilFarWeakerThanTheMapSaysIsEstimatedToBearAndToHoldLess) {
+  constexpr double kWeakness = 9;  // deviations, beyond what the zone's numbers vary one by one
+  const Diagnosed weak =
+      diagnosed({.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? kWeakness : 0.0; },
+                 .seed = 14});
+  ASSERT_TRUE(weak.effects);
+  ASSERT_EQ(weak.effects->found.size(), 1u) << said(*weak.effects);
+  ASSERT_TRUE(weak.effects->found[0].zone) << said(*weak.effects);
+  const SoilZoneFound& zone = *weak.effects->found[0].zone;
+  const UncertainSoil said_there = rolling_map().soils()[0].soil;
+  const Soil true_there = weaker(said_there, kWeakness);
+  EXPECT_NEAR(std::log(zone.estimate.mean.kphi / true_there.kphi), 0, std::log(2));
+  const double halfway_rad =
+      (said_there.mean.friction_angle_rad + true_there.friction_angle_rad) / 2;
+  EXPECT_LT(zone.estimate.mean.friction_angle_rad, halfway_rad);
 }
 
 TEST(VehicleEffects, AWheelThatDragsIsNamed) {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "drive_diagnosis/window_prediction.h"
+#include "maps/terrain_map.h"
+
+namespace regoplan {
+
+/// A soil that may well lie where the map says another.
+struct LikelySoil {
+  SoilNumbers numbers{};     ///< by which it differs from the map's
+  std::optional<int> here;   ///< the map's soil; nothing: any
+  std::optional<int> there;  ///< the soil of the map that lies there; nothing: none of them
+};
+
+/// Soils of the map, where another is said to be that was driven on; and one that is weaker or
+/// stronger in all that carries and holds.
+/// \param driven_on of each soil of the map
+std::vector<LikelySoil> likely_soils(const TerrainMap& map, const std::vector<bool>& driven_on);
+
+/// A soil whose numbers are so many standard deviations off, and known to so many of them.
+UncertainSoil estimated_soil(const UncertainSoil& said, const SoilNumbers& numbers,
+                             const SoilNumbers& stds);
+
+}  // namespace regoplan
