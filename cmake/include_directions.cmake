@@ -63,6 +63,9 @@ list(APPEND app/diagnose_may app/diagnose_drive)
 # A drive keeps to a path as `evaluate` reads it.
 room(app/drive terramech maps planner driving diagnosis benchmarking app/io app/settings
      app/command app/page app/evaluate)
+# The demo is the commands one after the other.
+room(app/demo terramech maps planner driving diagnosis benchmarking drive_diagnosis app/io app/settings
+     app/command app/page app/plan app/drive app/evaluate app/diagnose_drive)
 room(python/shared terramech app/io app/settings)
 room(python/physics terramech planner/chart planner/problem app/settings python/shared)
 room(python/benchmark terramech app/settings)

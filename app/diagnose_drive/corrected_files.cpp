@@ -2,11 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/settings/map_files.h"
 #include "app/settings/settings_json.h"
-#include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "drive_diagnosis/corrected_world.h"
-#include "maps/raster_files.h"
 
 namespace regoplan {
 namespace {
@@ -25,12 +24,18 @@ std::string scenario_text(const DriveDiagnosisRun& run, bool with_rocks) {
 
 }  // namespace
 
+ResultFolder corrected_folder(const ResultFolder& results) {
+  return {results.path / "corrected-map", results.force};
+}
+
 bool has_corrected_map(const DriveDiagnosisRun& run) {
   return run.diagnosis.effects.has_value() && !run.diagnosis.interrupted;
 }
 
 std::vector<std::string> corrected_file_names() {
-  return {"dem.tif", "classes.tif", "rocks.csv", "soils.yaml", "vehicle.yaml", "scenario.yaml"};
+  std::vector<std::string> names = map_file_names();
+  names.insert(names.end(), {"vehicle.yaml", "scenario.yaml"});
+  return names;
 }
 
 void write_corrected_map(const DriveDiagnosisRun& run, const ResultFolder& folder) {
@@ -38,14 +43,7 @@ void write_corrected_map(const DriveDiagnosisRun& run, const ResultFolder& folde
   const DriveSetup& setup = run.setup.setup;
   const TerrainMap map = corrected_map(setup.map, effects, run.diagnosis.windows);
   StagedFiles files(folder);
-  write_elevation(map.elevation(), files.path("dem.tif"));
-  write_classes(*map.classes(), files.path("classes.tif"));
-  if (map.rocks().empty()) {
-    files.remove("rocks.csv");
-  } else {
-    write_rocks(map.rocks(), files.path("rocks.csv"));
-  }
-  files.write({"soils.yaml", soil_catalogue_text(map.catalogue())});
+  write_map_files(map, files);
   files.write({"vehicle.yaml", vehicle_text(corrected_vehicle(*setup.vehicle, effects))});
   files.write({"scenario.yaml", scenario_text(run, !map.rocks().empty())});
   files.commit();

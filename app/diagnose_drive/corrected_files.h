@@ -7,8 +7,9 @@
 
 namespace regoplan {
 
-/// Folder beside diagnosis.json in which map, vehicle and scenario lie as the drives tell them.
-inline constexpr const char* kCorrectedFolder = "corrected-map";
+/// Folder beside diagnosis.json in which map, vehicle and scenario lie as the drives tell them:
+/// corrected-map.
+ResultFolder corrected_folder(const ResultFolder& results);
 
 /// Whether the drives said enough of the ground for a map of their own.
 bool has_corrected_map(const DriveDiagnosisRun& run);

@@ -28,17 +28,16 @@ void make_ids_distinct(std::vector<DriveRecording>& drives) {
 
 }  // namespace
 
-ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
-  require_writable_folder(command.folder.path);
+DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
   DriveDiagnosisRun run{.scenario_file = command.scenario,
                         .setup = read_drive_setup(command.scenario, command.setup),
-                        .seed = command.seed};
+                        .seed = command.seed,
+                        .page = command.page};
   const DriveColumnMap columns =
       command.columns ? read_drive_columns_file(*command.columns) : DriveColumnMap{};
   for (const std::string& notice : run.setup.notices) notify(notice, command.quiet);
-  require_results_fit(command.folder, drive_diagnosis_file_names());
-  const ResultFolder corrected{command.folder.path / kCorrectedFolder, command.folder.force};
-  require_results_fit(corrected, corrected_file_names());
+  require_results_fit(command.folder, drive_diagnosis_file_names(run.page));
+  require_results_fit(corrected_folder(command.folder), corrected_file_names());
   ProgressLine line(command.quiet);
   std::vector<DriveRecording> drives;
   for (const std::string& file : command.drives) {
@@ -69,16 +68,26 @@ ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
     notify(finding.drive.empty() ? finding.text : finding.drive + ": " + finding.text,
            command.quiet);
   }
-  if (has_corrected_map(run)) write_corrected_map(run, corrected);
-  write_drive_diagnosis_files(run, command.folder);
+  return run;
+}
+
+void write_drive_diagnosis(const DriveDiagnosisRun& run, const ResultFolder& folder) {
+  if (has_corrected_map(run)) write_corrected_map(run, corrected_folder(folder));
+  write_drive_diagnosis_files(run, folder);
+}
+
+ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
+  require_writable_folder(command.folder.path);
+  const DriveDiagnosisRun run = diagnosed(command);
+  write_drive_diagnosis(run, command.folder);
   if (command.json) {
     fmt::print("{}", drive_diagnosis_json(run));
   } else if (!command.quiet) {
     fmt::print("{}report: {}\n", drive_diagnosis_summary(run),
-               (command.folder.path / "report.html").string());
+               (command.folder.path / run.page).string());
     if (has_corrected_map(run)) {
       fmt::print("map, soils and vehicle as the drives tell them: regoplan plan {}\n",
-                 (corrected.path / "scenario.yaml").string());
+                 (corrected_folder(command.folder).path / "scenario.yaml").string());
     }
   }
   if (run.diagnosis.interrupted) return kInterrupted;

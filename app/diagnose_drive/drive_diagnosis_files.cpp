@@ -238,15 +238,15 @@ std::string drive_diagnosis_summary(const DriveDiagnosisRun& run) {
   return text;
 }
 
-std::vector<std::string> drive_diagnosis_file_names() {
-  return {"diagnosis.json", "windows.csv", "report.html"};
+std::vector<std::string> drive_diagnosis_file_names(const std::string& page) {
+  return {"diagnosis.json", "windows.csv", page};
 }
 
 void write_drive_diagnosis_files(const DriveDiagnosisRun& run, const ResultFolder& folder) {
   StagedFiles files(folder);
   files.write({"diagnosis.json", drive_diagnosis_json(run)});
   files.write({"windows.csv", windows_csv(run)});
-  files.write({"report.html", drive_diagnosis_report(run)});
+  files.write({run.page, drive_diagnosis_report(run)});
   files.commit();
 }
 

@@ -18,6 +18,7 @@ struct DriveDiagnosisRun {
   std::vector<std::int64_t> drive_rows;
   DriveSetupFile setup;
   std::uint64_t seed = 1;
+  std::string page = "report.html";  ///< name of its page
   DriveDiagnosis diagnosis;
 };
 
@@ -28,9 +29,9 @@ std::string drive_diagnosis_json(const DriveDiagnosisRun& run);
 /// The diagnosis in a few lines for a terminal.
 std::string drive_diagnosis_summary(const DriveDiagnosisRun& run);
 
-/// Writes diagnosis.json, windows.csv and report.html, all or none.
+/// Writes diagnosis.json, windows.csv and the page, all or none.
 /// \throws InputError where the folder takes no files
 void write_drive_diagnosis_files(const DriveDiagnosisRun& run, const ResultFolder& folder);
-std::vector<std::string> drive_diagnosis_file_names();
+std::vector<std::string> drive_diagnosis_file_names(const std::string& page);
 
 }  // namespace regoplan

@@ -8,7 +8,7 @@
 #include "app/command/command.h"
 #include "app/command/plan_options.h"
 #include "app/command/progress_line.h"
-#include "app/drive/drive_report.h"
+#include "app/drive/drive_run.h"
 #include "app/drive/follower_pipe.h"
 #include "app/evaluate/path_files.h"
 #include "app/io/interrupt.h"
@@ -74,28 +74,11 @@ TrueWorld true_world(const PlanningProblem& problem, DriveRecord& record) {
 
 std::string summary(const DriveRecord& record, double computed_in_s) {
   const DriveResult& r = record.result;
-  std::string text = drive_headline(record) + "\n";
-  if (r.smallest_margin) {
-    text += fmt::format("smallest margins: cornering {:.3f}, tip-over {:.3f}, traction {:.3f}\n",
-                        r.margin_cornering_min, r.margin_tip_over_min, r.margin_traction_min);
-  }
-  for (const LimitBroken& one : r.broken) text += broken_text(one) + "\n";
-  text += fmt::format(
-      "{:.1f} m in {:.1f} s, {:.1f} kJ; computed in {:.2f} s, {:.0f} times as fast\n", r.length_m,
-      r.duration_s, r.energy_j / 1000, computed_in_s, r.duration_s / computed_in_s);
-  return text;
-}
-
-void write(const DriveRecord& record, const PlanningProblem& problem, const ReferencePath& path,
-           const TrueWorld& world, const ResultFolder& folder) {
-  const std::vector<RenderedFile> files{
-      {"drive.csv", drive_csv(record, problem.vehicle)},
-      {"truth.json", truth_json(record, world)},
-      {"drive.json", drive_json(record, problem)},
-      {"report.html", drive_report(problem, path, record, world)}};
-  StagedFiles staged(folder);
-  for (const RenderedFile& file : files) staged.write(file);
-  staged.commit();
+  return drive_summary(record) +
+         fmt::format(
+             "{:.1f} m in {:.1f} s, {:.1f} kJ; computed in {:.2f} s, {:.0f} times as fast\n",
+             r.length_m, r.duration_s, r.energy_j / 1000, computed_in_s,
+             r.duration_s / computed_in_s);
 }
 
 ExitStatus run(const Options& options) {
@@ -113,7 +96,7 @@ ExitStatus run(const Options& options) {
                      .ends_in_goal = leads_to_the_goal(given.path, problem.goal),
                      .settings = settings_of(options, problem)};
   const TrueWorld world = true_world(problem, record);
-  require_results_fit(options.folder, {"drive.csv", "truth.json", "drive.json", "report.html"});
+  require_results_fit(options.folder, drive_result_names(record.page));
   for (const std::string& notice : scenario.notices) notify(notice, options.quiet);
   for (const std::string& notice : given.notices) notify(notice, options.quiet);
   if (!record.ends_in_goal) {
@@ -129,12 +112,12 @@ ExitStatus run(const Options& options) {
   }
   const double computed_in_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  write(record, problem, given.path, world, options.folder);
+  write_drive(record, problem, given.path, world, options.folder);
   if (options.json) {
     fmt::print("{}", drive_json(record, problem));
   } else if (!options.quiet) {
     fmt::print("{}report: {}\n", summary(record, computed_in_s),
-               (options.folder.path / "report.html").string());
+               (options.folder.path / record.page).string());
   }
   if (record.result.interrupted) return kInterrupted;
   return record.result.reached && record.result.within_limits() ? kYes : kNo;

@@ -17,6 +17,7 @@ struct DriveRecord {
   std::vector<SoilZone> zones = {};
   std::string sensors;  ///< name or file of the sensors; empty: exact
   bool ends_in_goal = true;
+  std::string page = "report.html";  ///< name of its page
   DriveSettings settings;
   DriveResult result;
 };

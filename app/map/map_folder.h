@@ -18,6 +18,6 @@ bool write_map_folder(const TerrainMap& map, const ScenarioStub& stub, const Res
                       const std::stop_token& stop);
 
 /// Its files, whatever the map has.
-std::vector<std::string> map_file_names();
+std::vector<std::string> map_folder_names();
 
 }  // namespace regoplan

@@ -64,7 +64,7 @@ ExitStatus run_map_make(const MapMakeOptions& options) {
                                    options.soils, code, options.terrain.soil_zones));
     }
   }
-  require_results_fit(options.out, map_file_names());
+  require_results_fit(options.out, map_folder_names());
   SyntheticTerrain terrain = make_terrain(options.terrain, options.given);
   const TerrainMap map(std::move(terrain.elevation), std::move(terrain.classes), std::move(soils),
                        std::move(terrain.rocks));

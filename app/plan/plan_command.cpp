@@ -34,13 +34,14 @@ ExitStatus run_command(const PlanOptions& options) {
     throw InputError("plan: one of SCENARIO.yaml and --again PLAN.json is needed");
   }
   if (options.again.empty()) {
-    return run_plan(read_scenario(options.scenario, options.overrides), options.output);
+    return run_plan(read_scenario(options.scenario, options.overrides), options.output).status;
   }
   PlanOutput output = options.output;
   output.again = read_earlier_plan(options.again);
-  return run_plan(
-      read_scenario(output.again->scenario, merged(output.again->overrides, options.overrides)),
-      output);
+  return run_plan(read_scenario(output.again->scenario,
+                                merged(output.again->overrides, options.overrides)),
+                  output)
+      .status;
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ ExitStatus status_of(const PlanResult& result) {
 
 }  // namespace
 
-ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
+PlanRun run_plan(const Scenario& scenario, const PlanOutput& output) {
   require_results_fit(output.folder, plan_file_names(scenario.problem));
   for (const std::string& notice : scenario.notices) notify(notice, output.quiet);
   const PlanOrigin origin{.inputs = digests_of(scenario.inputs), .again = output.again};
@@ -87,7 +87,7 @@ ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
     fmt::print("{}", text);
     std::fflush(stdout);
   };
-  const PlanResult result =
+  PlanResult result =
       plan(scenario.problem,
            {.on_progress = [&](const PlanProgress& progress) { line.show(progress); },
             .on_verified = [&](const Candidate& path,
@@ -95,14 +95,15 @@ ExitStatus run_plan(const Scenario& scenario, const PlanOutput& output) {
             .on_answer =
                 [&](const PlanResult& answer) { say(summary(answer, scenario.problem.limits)); },
             .stop = stop_on_interrupt(),
-            .started = kProgramStart});
+            .started = output.started.value_or(kProgramStart)});
   line.wipe();
   write_plan_files(scenario.problem, result, output.folder, origin);
   if (output.json) {
     fmt::print("{}", plan_json(scenario.problem, result, origin, output.folder.path));
   }
   say(fmt::format("report: {}\n", (output.folder.path / "report.html").string()));
-  return status_of(result);
+  const ExitStatus status = status_of(result);
+  return {.status = status, .result = std::move(result)};
 }
 
 }  // namespace regoplan

@@ -1,7 +1,7 @@
 // What the demo shows, as a promise: the physics decides, not a tuned constant.
 #include <gtest/gtest.h>
 
-#include "app/plan/demo_scenario.h"
+#include "app/demo/demo_scenario.h"
 #include "planner/plan.h"
 
 namespace regoplan {
