@@ -32,4 +32,14 @@ UncertainSoil estimated_soil(const UncertainSoil& said, const SoilNumbers& numbe
   return soil;
 }
 
+std::vector<MapSoil> estimated_soils(std::vector<MapSoil> soils, std::vector<SoilNumbers> numbers,
+                                     const std::vector<SoilNumbers>& stds,
+                                     const std::vector<bool>& driven_on) {
+  numbers.resize(soils.size());
+  for (std::size_t i = 0; i < soils.size(); ++i) {
+    if (driven_on[i]) soils[i].soil = estimated_soil(soils[i].soil, numbers[i], stds[i]);
+  }
+  return soils;
+}
+
 }  // namespace regoplan

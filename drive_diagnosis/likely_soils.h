@@ -24,4 +24,10 @@ std::vector<LikelySoil> likely_soils(const TerrainMap& map, const std::vector<bo
 UncertainSoil estimated_soil(const UncertainSoil& said, const SoilNumbers& numbers,
                              const SoilNumbers& stds);
 
+/// The map's soils, those that were driven on as they are estimated.
+/// \param numbers, stds of each soil; no numbers: none is off
+std::vector<MapSoil> estimated_soils(std::vector<MapSoil> soils, std::vector<SoilNumbers> numbers,
+                                     const std::vector<SoilNumbers>& stds,
+                                     const std::vector<bool>& driven_on);
+
 }  // namespace regoplan

@@ -130,8 +130,9 @@ class EffectSearch {
     std::vector<WindowZone> result;
     for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
       const Eigen::VectorXd& share = contest_.zones_known[z];
-      result.push_back(
-          {.share = {share.begin(), share.end()}, .numbers = numbers_of(fit_.zones[z])});
+      result.push_back({.share = {share.begin(), share.end()},
+                        .soil = soil_of(share),
+                        .numbers = numbers_of(fit_.zones[z])});
     }
     return result;
   }
@@ -354,6 +355,15 @@ class EffectSearch {
     return map_.soil_index(middle.x_m, middle.y_m).value_or(0);
   }
 
+  /// The soil of the map that most of a zone is said to be.
+  int soil_of(const Eigen::VectorXd& share) const {
+    std::vector<double> lies_on(map_.soils().size());
+    for (std::size_t i = 0; i < comparison_.size(); ++i) {
+      lies_on[static_cast<std::size_t>(soil_at(i))] += share[static_cast<Eigen::Index>(i)];
+    }
+    return static_cast<int>(std::ranges::max_element(lies_on) - lies_on.begin());
+  }
+
   SoilZoneFound zone_of(const EffectFound& effect, std::size_t index) const {
     std::size_t first = comparison_.size(), last = 0;
     double begins = 0, ends = 0;
@@ -375,7 +385,7 @@ class EffectSearch {
                        .ends_s = before_end(ends),
                        .start_s = {time_s(effect.first_at[0]), time_s(effect.first_at[1])},
                        .end_s = {before_end(effect.last_at[0]), before_end(effect.last_at[1])},
-                       .soil = soil_at((first + last) / 2)};
+                       .soil = soil_of(effect.share)};
     zone.at_border = (first > 0 && soil_at(first - 1) != soil_at(first)) ||
                      (last + 1 < comparison_.size() && soil_at(last + 1) != soil_at(last));
     estimate(index, zone);
@@ -390,25 +400,9 @@ class EffectSearch {
 
   /// The map's soils as the fit has them.
   std::vector<MapSoil> soils_left() const {
-    std::vector<MapSoil> soils = map_.soils();
-    std::vector<SoilNumbers> numbers = deviation().soils;
-    numbers.resize(soils.size());
-    std::vector<SoilNumbers> stds(soils.size(), kOne);
-    for (std::size_t i = 0; i < trials_.size(); ++i) {
-      const std::vector<SoilNumbers>& of = trials_[i].deviation.soils;
-      for (std::size_t soil = 0; soil < of.size(); ++soil) {
-        for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-          if (of[soil].at(k) != 0) {
-            stds[soil].at(k) = fit_.parameters_std[static_cast<Eigen::Index>(i)];
-          }
-        }
-      }
-    }
-    for (std::size_t i = 0; i < soils.size(); ++i) {
-      if (comparison_.soils_driven()[i])
-        soils[i].soil = estimated_soil(soils[i].soil, numbers[i], stds[i]);
-    }
-    return soils;
+    return estimated_soils(map_.soils(), deviation().soils,
+                           soil_stds(trials_, fit_.parameters_std, map_.soils().size()),
+                           comparison_.soils_driven());
   }
 
   /// The zone's soil: its map soil as it is estimated all along, with the zone's numbers on top.

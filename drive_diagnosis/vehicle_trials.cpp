@@ -106,4 +106,20 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMa
   return trials.trials;
 }
 
+std::vector<SoilNumbers> soil_stds(const std::vector<VehicleTrial>& trials,
+                                   const Eigen::VectorXd& stds, std::size_t soils) {
+  SoilNumbers one{};
+  one.fill(1);
+  std::vector<SoilNumbers> left(soils, one);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const std::vector<SoilNumbers>& of = trials[i].deviation.soils;
+    for (std::size_t soil = 0; soil < of.size(); ++soil) {
+      for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+        if (of[soil].at(k) != 0) left[soil].at(k) = stds[static_cast<Eigen::Index>(i)];
+      }
+    }
+  }
+  return left;
+}
+
 }  // namespace regoplan

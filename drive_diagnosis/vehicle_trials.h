@@ -20,4 +20,9 @@ struct VehicleTrial {
 std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMap& map,
                                          const std::vector<bool>& soils);
 
+/// What is left of the spread of each soil's numbers, in standard deviations: 1 where no trial is
+/// of it. \param stds of each trial
+std::vector<SoilNumbers> soil_stds(const std::vector<VehicleTrial>& trials,
+                                   const Eigen::VectorXd& stds, std::size_t soils);
+
 }  // namespace regoplan

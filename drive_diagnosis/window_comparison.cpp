@@ -321,17 +321,18 @@ Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
   parallel_for(size(), threads_, [&](std::size_t i) {
     throw_if_stopped(stop);
     const auto row = static_cast<Eigen::Index>(i);
-    SoilNumbers numbers{};
+    const WindowZone* zone = nullptr;
     double share = 0;
-    for (const WindowZone& zone : zones) {
-      if (!(zone.share[i] > share)) continue;
-      share = zone.share[i];
-      numbers = zone.numbers;
+    for (const WindowZone& one : zones) {
+      if (!(one.share[i] > share)) continue;
+      share = one.share[i];
+      zone = &one;
     }
     const WindowInput input = shifted(i);
     const auto plain = share < 1 ? model_.predict(input, deviation) : std::nullopt;
-    const auto zoned = share > 0 ? model_.predict(input, deviation, numbers) : std::nullopt;
-    if ((share < 1 && !plain) || (share > 0 && !zoned)) return;
+    const auto zoned =
+        zone ? model_.predict(input, deviation, zone->numbers, zone->soil) : std::nullopt;
+    if ((share < 1 && !plain) || (zone && !zoned)) return;
     Eigen::VectorXd values = Eigen::VectorXd::Zero(result.cols());
     if (plain) values += (1 - share) * vector_of(*plain);
     if (zoned) values += share * vector_of(*zoned);

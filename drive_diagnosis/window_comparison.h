@@ -33,9 +33,10 @@ struct WindowsUsed {
   std::array<int, kLeftOutReasons> left_out{};
 };
 
-/// Soil of its own in some windows, by how much of each lies in it.
+/// One soil in some windows, whatever the map says there, by how much of each lies in it.
 struct WindowZone {
   std::vector<double> share;  ///< of each compared window
+  int soil = 0;               ///< of the map, that its numbers are told from
   SoilNumbers numbers{};
 };
 

@@ -344,11 +344,12 @@ BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxW
 
 std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
                                                      const VehicleDeviation& deviation,
-                                                     const SoilNumbers& zone) const {
+                                                     const SoilNumbers& zone,
+                                                     std::optional<int> zone_soil) const {
   const Vehicle changed = deviating(vehicle_, deviation);
   const LoadSharing sharing(changed);
   std::vector<std::optional<WheelModel>> models(map_.soils().size());
-  const auto model_of = [&](std::int16_t index) {
+  const auto model_of = [&](int index) {
     const auto soil = static_cast<std::size_t>(index);
     if (!models[soil]) {
       models[soil].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
@@ -379,7 +380,7 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
       scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
       scene.rim_mps.at(i) =
           place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
-      scene.models.at(i) = model_of(patch.soil.at(i));
+      scene.models.at(i) = model_of(zone_soil.value_or(patch.soil.at(i)));
     }
     const auto found = balanced(scene);
     if (!found) return {};

@@ -101,10 +101,13 @@ class WindowModel {
   /// Whether the ground is known at each of its places.
   bool knows_ground(const WindowInput& input) const;
   /// Nothing where the ground is not known or no motion balances.
-  /// \param zone deviations of whatever soil lies there, on top of those of the soils
+  /// \param zone deviations of the soil that lies there, on top of those of the soils
+  /// \param zone_soil the soil of the map that lies there, whatever the map says; nothing: what it
+  /// says
   std::optional<WindowPrediction> predict(const WindowInput& input,
                                           const VehicleDeviation& deviation,
-                                          const SoilNumbers& zone = {}) const;
+                                          const SoilNumbers& zone = {},
+                                          std::optional<int> zone_soil = {}) const;
 
  private:
   const TerrainMap& map_;

@@ -108,5 +108,36 @@ TEST(WindowComparison, WindowsThatAreNotComparedAreCountedByReason) {
   EXPECT_GE(used.left_out.at(static_cast<std::size_t>(LeftOut::kStanding)), 3);
 }
 
+/// The rolling map with two soils, the one of a class everywhere.
+TerrainMap of_two_soils(std::int32_t everywhere) {
+  const TerrainMap map = rolling_map();
+  const UncertainSoil mare = map.soils()[0].soil;
+  const UncertainSoil weak{.mean = weaker(mare, 4), .standard_deviation = mare.standard_deviation};
+  GridFrame frame = map.elevation().frame;
+  frame.cell_width_m *= frame.columns;
+  frame.cell_height_m *= frame.rows;
+  frame.columns = frame.rows = 1;
+  return {map.elevation(),
+          ClassRaster{.frame = frame, .code = {everywhere}},
+          SoilCatalogue{.soils = {{"mare", "assumed", mare}, {"weak", "assumed", weak}},
+                        .classes = {{0, 0}, {1, 1}},
+                        .unmapped = {}},
+          {}};
+}
+
+TEST(WindowModel, AZoneIsOfItsOwnSoilWhateverTheMapSays) {
+  const Compared compared({.seed = 3});
+  const TerrainMap mare = of_two_soils(0), weak = of_two_soils(1);
+  const WindowModel on_mare(mare, compared.vehicle, 1.62), on_weak(weak, compared.vehicle, 1.62);
+  const WindowInput& input = compared.comparison->input(20);
+  const auto said = on_weak.predict(input, {}), zone = on_mare.predict(input, {}, {}, 1);
+  const auto mare_there = on_mare.predict(input, {});
+  ASSERT_TRUE(said && zone && mare_there);
+  for (std::size_t i = 0; i < compared.vehicle.wheels.size(); ++i) {
+    EXPECT_EQ(zone->torque_nm.at(i), said->torque_nm.at(i));
+    EXPECT_GT(zone->torque_nm.at(i), mare_there->torque_nm.at(i) + 1);
+  }
+}
+
 }  // namespace
 }  // namespace regoplan
