@@ -34,7 +34,7 @@ def commands(folder):
                       "--out", out],
         "diagnose drives": ["diagnose", folder / "d.csv", "--scenario", folder / "s.yaml", "--out", out],
         "drive": ["drive", folder / "s.yaml", folder / "p.csv", "--sensors", "B", "--out", out],
-        "demo": ["demo", "--iterations", "200", "--out", out],
+        "demo": ["demo", "--no-drive", "--iterations", "200", "--out", out],
         "export": ["export", folder / "planned", "--nav2", out],
     }
 

@@ -78,6 +78,6 @@ soil_draws: 2
 `);
 regoplan('benchmark', join(folder, 'suite.yaml'), '--out', join(folder, 'benchmark'));
 regoplan(
-    'demo', '--planner', 'Lattice', '--iterations', '500', '--candidates', '2', '--seed', '4', '--out',
+    'demo', '--no-drive', '--planner', 'Lattice', '--iterations', '500', '--candidates', '2', '--seed', '4', '--out',
     join(folder, 'other-plan'));
 regoplan('compare', join(folder, 'plan'), join(folder, 'other-plan'), '--out', join(folder, 'comparison'));

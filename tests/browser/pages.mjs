@@ -3,7 +3,7 @@ import {statSync} from 'node:fs';
 import {join} from 'node:path';
 import {chromium} from 'playwright-core';
 
-export const KINDS = ['plan', 'evaluation', 'manoeuvres', 'drive', 'drives', 'diagnosis', 'benchmark', 'comparison'];
+export const KINDS = ['plan', 'evaluation', 'manoeuvres', 'drive', 'drives', 'plan/drive', 'diagnosis', 'benchmark', 'comparison'];
 const folder = process.env.REGOPLAN_PAGES;
 export const fileOf = kind => join(folder, kind, 'report.html');
 export const bytesOf = kind => statSync(fileOf(kind)).size;
