@@ -143,7 +143,7 @@ double rms_m(const Course& course, const UncertainSoil& soil, FollowerChoice fol
   const Soil truth = drawn(soil, draw);
   const double longest_s = problem.vehicle.speed_max_mps > 1 ? 0.025 : 0.25;
   const IndependentSimulator simulator(
-      problem.vehicle, truth, problem.gravity_mps2,
+      problem.vehicle, {truth}, problem.gravity_mps2,
       [&](double x, double y, double yaw) { return course.planned.dynamics().ground(x, y, yaw); },
       longest_s);
   const DriveResult result = drive(course.planned, simulator, course.path, false,
@@ -233,7 +233,7 @@ void equal_physics() {
     const std::vector<WheelLaw> laws{WheelLaw(model)};
     const VehicleDynamics terramech(vehicle, laws, ground, gravity);
     const double step_s = fast ? 0.025 : 0.25;
-    const IndependentSimulator simulator(vehicle, soil, gravity, ground, step_s);
+    const IndependentSimulator simulator(vehicle, {soil}, gravity, ground, step_s);
     VehicleState a = terramech.rolling_state(0, 0, 0, v), b = a;
     double way = 0, apart = 0, time_s = 0, ours_s = 0;
     while (way < 200) {

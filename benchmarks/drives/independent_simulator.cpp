@@ -24,10 +24,27 @@ double moved_to(double value, double target, double most) {
   return value + std::clamp(target - value, -most, most);
 }
 
+/// The vehicle as it truly is, about its true centre of gravity.
+Vehicle carried(Vehicle vehicle, const DriveTruth& truth) {
+  vehicle.yaw_inertia_kgm2 *= 1 + truth.payload_kg / vehicle.mass_kg;
+  vehicle.mass_kg += truth.payload_kg;
+  vehicle.cg_height_m += truth.cg_up_m;
+  for (WheelMount& mount : vehicle.wheels) {
+    mount.x_m -= truth.cg_forward_m;
+    mount.y_m -= truth.cg_left_m;
+  }
+  if (vehicle.rocker_bogie) {
+    vehicle.rocker_bogie->rocker_pivot_x_m -= truth.cg_forward_m;
+    vehicle.rocker_bogie->bogie_pivot_x_m -= truth.cg_forward_m;
+  }
+  return vehicle;
+}
+
 }  // namespace
 
 /// Ground and commands at a moment.
 struct IndependentSimulator::Posture {
+  std::array<std::int16_t, kMaxWheels> soil{};
   double slope_along = 0, slope_left = 0, hollow = 0, yaw = 0;
   double curvature = 0, crab = 0, rim = 0;
 
@@ -35,15 +52,29 @@ struct IndependentSimulator::Posture {
   double tall() const { return std::sqrt(1 + slope_along * slope_along + slope_left * slope_left); }
 };
 
-IndependentSimulator::IndependentSimulator(const Vehicle& vehicle, const Soil& soil,
+IndependentSimulator::IndependentSimulator(const Vehicle& vehicle, std::vector<Soil> soils,
                                            double gravity_mps2, VehicleDynamics::Ground ground,
-                                           double longest_step_s)
+                                           double longest_step_s, const DriveTruth& truth)
     : vehicle_(vehicle),
-      soil_(soil),
+      truth_(truth),
+      faults_(truth.wheels.empty() ? std::vector<WheelFault>(vehicle.wheels.size()) : truth.wheels),
+      carried_(carried(vehicle, truth)),
+      soils_(std::move(soils)),
       gravity_(gravity_mps2),
       ground_(std::move(ground)),
       longest_step_s_(longest_step_s),
-      shares_(load_shares(vehicle)) {}
+      shares_(load_shares(carried_)) {}
+
+/// The state of the true centre of gravity from that of the known one, by sign 1, or back by -1.
+VehicleState IndependentSimulator::moved(VehicleState state, double sign) const {
+  const double forward = sign * truth_.cg_forward_m, left = sign * truth_.cg_left_m;
+  const double c = std::cos(state.yaw_rad), s = std::sin(state.yaw_rad);
+  state.x_m += c * forward - s * left;
+  state.y_m += s * forward + c * left;
+  state.motion.vx_mps -= state.motion.yaw_rate_rad_s * left;
+  state.motion.vy_mps += state.motion.yaw_rate_rad_s * forward;
+  return state;
+}
 
 double IndependentSimulator::load(std::size_t wheel, double normal, double along,
                                   double left) const {
@@ -51,10 +82,10 @@ double IndependentSimulator::load(std::size_t wheel, double normal, double along
   return share[0] * normal + share[1] * along + share[2] * left;
 }
 
-IndependentSimulator::WheelAnswer IndependentSimulator::wheel(double load_n, double along_mps,
-                                                              double left_mps,
+IndependentSimulator::WheelAnswer IndependentSimulator::wheel(const Soil& soil, double load_n,
+                                                              double along_mps, double left_mps,
                                                               double rim_mps) const {
-  const RimIntegral rim(vehicle_.wheel, soil_, gravity_, along_mps, left_mps, rim_mps);
+  const RimIntegral rim(vehicle_.wheel, soil, gravity_, along_mps, left_mps, rim_mps);
   // Upward force grows with the sinkage from nothing: bracketed outward from the one found last,
   // then the secant method kept within the bracket (Illinois).
   double low = 0.97 * last_sinkage_m_, f_low = rim.at(low).up - load_n;
@@ -97,7 +128,7 @@ IndependentSimulator::Sum IndependentSimulator::forces(const Motion& motion, con
                                                        double transfer_along, double transfer_left,
                                                        std::vector<WheelNow>* wheels) const {
   const double normal =
-      vehicle_.mass_kg * (gravity_ / at.tall() + motion.along * motion.along * at.hollow);
+      carried_.mass_kg * (gravity_ / at.tall() + motion.along * motion.along * at.hollow);
   // The turn centre, seen from the vehicle's origin; the crab angle turns it about the origin.
   const double k = at.curvature, xc = vehicle_.turn_centre_x_m;
   const double ahead = std::sqrt(1 - k * xc * k * xc), aside = -k * xc;
@@ -109,26 +140,31 @@ IndependentSimulator::Sum IndependentSimulator::forces(const Motion& motion, con
     const double gx = course_x - k * mount.y_m, gy = course_y + k * mount.x_m;
     const double steer = mount.steered ? std::atan2(gy, gx) : 0;
     const double rim = at.rim * (mount.steered ? std::hypot(gx, gy) : gx);
-    const double vx = motion.along - motion.turn * mount.y_m;
-    const double vy = motion.left + motion.turn * mount.x_m;
-    const double cs = std::cos(steer), sn = std::sin(steer);
+    const double arm_x = carried_.wheels[i].x_m, arm_y = carried_.wheels[i].y_m;
+    const double vx = motion.along - motion.turn * arm_y;
+    const double vy = motion.left + motion.turn * arm_x;
+    const double points = steer + faults_[i].steer_offset_rad;
+    const double cs = std::cos(points), sn = std::sin(points);
     const double along = cs * vx + sn * vy, left = cs * vy - sn * vx;
     const double weight = load(i, normal, transfer_along, transfer_left);
     WheelAnswer answer;
-    if (weight > 0) answer = wheel(weight, along, left, rim);
+    if (weight > 0) {
+      answer = wheel(soils_.at(static_cast<std::size_t>(at.soil.at(i))), weight, along, left, rim);
+    }
     const double fx = cs * answer.along_n - sn * answer.left_n;
     const double fy = sn * answer.along_n + cs * answer.left_n;
     sum.along += fx;
     sum.left += fy;
-    sum.moment += mount.x_m * fy - mount.y_m * fx;
+    sum.moment += arm_x * fy - arm_y * fx;
     if (wheels == nullptr) continue;
-    wheels->push_back({.load_n = weight,
-                       .steer_rad = steer,
-                       .rim_speed_mps = rim,
-                       .slip = rim > along ? (rim - along) / rim : (rim - along) / along,
-                       .slip_angle_rad = std::atan2(left, std::abs(along)),
-                       .torque_nm = answer.torque_nm,
-                       .sinkage_m = answer.sinkage_m});
+    wheels->push_back(
+        {.load_n = weight,
+         .steer_rad = steer,
+         .rim_speed_mps = rim,
+         .slip = rim > along ? (rim - along) / rim : (rim - along) / along,
+         .slip_angle_rad = std::atan2(left, std::abs(along)),
+         .torque_nm = answer.torque_nm + (rim == 0 ? 0 : std::copysign(faults_[i].drag_nm, rim)),
+         .sinkage_m = answer.sinkage_m});
   }
   return sum;
 }
@@ -142,15 +178,18 @@ GroundPatch IndependentSimulator::ground(const VehicleState& state) const {
 StepResult IndependentSimulator::substep(const VehicleState& state, const VehicleControl& control,
                                          double h) const {
   const double gamma = 2 - std::numbers::sqrt2;
-  const double m = vehicle_.mass_kg, inertia = vehicle_.yaw_inertia_kgm2;
+  const double m = carried_.mass_kg, inertia = carried_.yaw_inertia_kgm2;
   bool known = true, balanced = true;
   const auto posture_at = [&](double after, double x, double y, double yaw) {
-    const GroundPatch patch = ground_(x, y, yaw);
+    const double ahead = truth_.cg_forward_m, aside = truth_.cg_left_m;
+    const GroundPatch patch = ground_(x - std::cos(yaw) * ahead + std::sin(yaw) * aside,
+                                      y - std::sin(yaw) * ahead - std::cos(yaw) * aside, yaw);
     known = known && patch.known;
     const double turn = vehicle_.curvature_rate_max_1pms * after;
     double arm = 0;
     for (const WheelMount& w : vehicle_.wheels) arm = std::max(arm, std::hypot(w.x_m, w.y_m));
-    return Posture{.slope_along = patch.slope_forward,
+    return Posture{.soil = patch.soil,
+                   .slope_along = patch.slope_forward,
                    .slope_left = patch.slope_left,
                    .hollow = patch.curvature_1pm,
                    .yaw = yaw,
@@ -258,11 +297,12 @@ StepResult IndependentSimulator::substep(const VehicleState& state, const Vehicl
 StepResult IndependentSimulator::step(const VehicleState& state, const VehicleControl& control,
                                       double duration_s) const {
   const int pieces = std::max(1, static_cast<int>(std::ceil(duration_s / longest_step_s_ - 1e-9)));
-  StepResult result{.state = state, .strain = {}};
+  StepResult result{.state = moved(state, 1), .strain = {}};
   for (int i = 0; i < pieces; ++i) {
     result = halved_substep(result.state, control, duration_s / pieces, 0);
-    if (!result.converged) return result;
+    if (!result.converged) break;
   }
+  result.state = moved(result.state, -1);
   return result;
 }
 
@@ -280,9 +320,11 @@ StepResult IndependentSimulator::halved_substep(const VehicleState& state,
 
 std::vector<WheelNow> IndependentSimulator::wheels(const VehicleState& state) const {
   const GroundPatch patch = ground(state);
+  const BodyMotion motion = moved(state, 1).motion;
   std::vector<WheelNow> wheels;
-  forces({state.motion.vx_mps, state.motion.vy_mps, state.motion.yaw_rate_rad_s},
-         {.slope_along = patch.slope_forward,
+  forces({motion.vx_mps, motion.vy_mps, motion.yaw_rate_rad_s},
+         {.soil = patch.soil,
+          .slope_along = patch.slope_forward,
           .slope_left = patch.slope_left,
           .hollow = patch.curvature_1pm,
           .yaw = state.yaw_rad,

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "driving/drive_truth.h"
 #include "driving/driven_world.h"
 
 namespace regoplan::drives {
@@ -17,12 +18,17 @@ namespace regoplan::drives {
 /// steps where that finds no balance; load transfer and the fading of forces near standstill as the
 /// physics that both simulators are to agree in. For vehicles whose every wheel is driven at its
 /// kinematic speed, and that roll forward.
+///
+/// What a truth conceals of the vehicle: drags, offsets of steering and motor constants of wheels,
+/// a payload, a centre of gravity elsewhere. Newton's equations are those of the true centre of
+/// gravity, the steering is that of the known vehicle.
 class IndependentSimulator : public DrivenWorld {
  public:
-  /// \param vehicle must outlive it \param soil under every wheel
-  /// \param ground of a place and heading
-  IndependentSimulator(const Vehicle& vehicle, const Soil& soil, double gravity_mps2,
-                       VehicleDynamics::Ground ground, double longest_step_s);
+  /// \param vehicle as it is known; must outlive it \param soils that the ground tells by index
+  /// \param ground of a place and heading \param truth of the vehicle; its ground is not asked
+  IndependentSimulator(const Vehicle& vehicle, std::vector<Soil> soils, double gravity_mps2,
+                       VehicleDynamics::Ground ground, double longest_step_s,
+                       const DriveTruth& truth = {});
 
   const Vehicle& known_vehicle() const override { return vehicle_; }
   StepResult step(const VehicleState& state, const VehicleControl& control,
@@ -32,8 +38,12 @@ class IndependentSimulator : public DrivenWorld {
   /// Not judged here. \throws std::logic_error
   StateMargins margins(const VehicleState& state, const GroundPatch& patch) const override;
   bool at_rest(const VehicleState& state) const override;
-  PathPoint on_the_map(double x_m, double y_m) const override { return {x_m, y_m}; }
-  double motor_constant_factor(std::size_t) const override { return 1; }
+  PathPoint on_the_map(double x_m, double y_m) const override {
+    return {x_m - truth_.map_east_m, y_m - truth_.map_north_m};
+  }
+  double motor_constant_factor(std::size_t wheel) const override {
+    return faults_[wheel].motor_constant_factor;
+  }
 
   struct WheelAnswer {
     double along_n = 0;  ///< force on the wheel along its heading
@@ -43,7 +53,8 @@ class IndependentSimulator : public DrivenWorld {
     bool carried = true;  ///< some sinkage below the radius carries the load
   };
   /// \param load_n above 0 \param along_mps, left_mps velocity of the contact \param rim_mps r w
-  WheelAnswer wheel(double load_n, double along_mps, double left_mps, double rim_mps) const;
+  WheelAnswer wheel(const Soil& soil, double load_n, double along_mps, double left_mps,
+                    double rim_mps) const;
 
  private:
   struct Motion {
@@ -59,9 +70,13 @@ class IndependentSimulator : public DrivenWorld {
                             int halvings) const;
   StepResult substep(const VehicleState& state, const VehicleControl& control, double h) const;
   double load(std::size_t wheel, double normal, double along, double left) const;
+  VehicleState moved(VehicleState state, double sign) const;
 
-  const Vehicle& vehicle_;
-  Soil soil_;
+  const Vehicle& vehicle_;  ///< as it is known
+  DriveTruth truth_;
+  std::vector<WheelFault> faults_;
+  Vehicle carried_;  ///< the true one, told from its own centre of gravity
+  std::vector<Soil> soils_;
   double gravity_;
   VehicleDynamics::Ground ground_;
   double longest_step_s_;
