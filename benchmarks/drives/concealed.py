@@ -67,7 +67,18 @@ EFFECTS = {
 }
 
 
-def rolling(path):
+def cratered(chance):
+    """The scenario on ground of worn craters, with slopes of about 7 deg: on level ground neither a
+    map's offset nor a payload shows."""
+    craters = [{"x_m": chance.uniform(0, 400), "y_m": chance.uniform(20, 100),
+                "diameter_m": diameter_m, "depth_m": 0.03 * diameter_m,
+                "rim_height_m": 0.005 * diameter_m}
+               for diameter_m in (chance.uniform(20, 60) for _ in range(16))]
+    level = "roughness_m: 0.06"
+    return SCENARIO.replace(level, f"{level}, craters: {json.dumps(craters)}")
+
+
+def at_speed(path):
     """The path from full speed: the simulator's wheels roll."""
     rows = path.splitlines()
     place, speed = rows[1].rsplit(",", 1)[0], rows[2].rsplit(",", 1)[1]
@@ -87,8 +98,8 @@ class Drive:
         chance = random.Random(f"{self.effect} {self.seed}")
         self.folder.mkdir(parents=True, exist_ok=True)
         self.truth.parent.mkdir(exist_ok=True)
-        (self.folder / "path.csv").write_text(rolling(wave(chance)))
-        (self.folder / "scenario.yaml").write_text(SCENARIO)
+        (self.folder / "path.csv").write_text(at_speed(wave(chance)))
+        (self.folder / "scenario.yaml").write_text(cratered(chance))
         soil = {key: {"std": max(-1.5, min(1.5, chance.gauss(0, 0.7)))} for key in NUMBERS}
         told = {"soils": {SOIL: soil}, **EFFECTS[self.effect](chance)}
         if not self.truth.exists():
