@@ -6,7 +6,6 @@ foreach(reader ${REGOPLAN_READERS})
                    --keep ${CMAKE_BINARY_DIR}/robustness-findings)
   set_tests_properties(robustness.${reader} PROPERTIES LABELS robustness TIMEOUT 120)
 endforeach()
-find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND AND NOT REGOPLAN_DEV)
   add_test(NAME robustness.kills
            COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/benchmarks/robustness/kill_campaign.py

@@ -38,6 +38,11 @@ add_test(NAME include_directions COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_
                                          ${CMAKE_SOURCE_DIR}/cmake/include_directions.cmake)
 add_test(NAME type_names COMMAND ${CMAKE_COMMAND} -DROOT=${CMAKE_SOURCE_DIR} -P
                                  ${CMAKE_SOURCE_DIR}/cmake/type_names.cmake)
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME clang_tidy.manifest COMMAND ${Python3_EXECUTABLE}
+                                            ${CMAKE_SOURCE_DIR}/tests/tooling/clang_tidy_test.py)
+endif()
 include(cmake/browser_tests.cmake)
 include(cmake/robustness_tests.cmake)
 
