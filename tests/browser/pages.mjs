@@ -14,8 +14,8 @@ export async function startBrowser() {
 }
 export const stopBrowser = () => browser.close();
 
-/// Opens a report and hands it to `look(page)` with what went wrong so far.
-export async function withPage(kind, look, {width = 1600, theme = 'light'} = {}) {
+/// Opens a report: its page, what went wrong so far, how long it took, and close().
+export async function openPage(kind, {width = 1600, theme = 'light'} = {}) {
   const context = await browser.newContext(
       {viewport: {width, height: 900}, colorScheme: theme, acceptDownloads: true});
   context.setDefaultTimeout(15000);
@@ -26,12 +26,20 @@ export async function withPage(kind, look, {width = 1600, theme = 'light'} = {})
   const before = Date.now();
   try {
     await page.goto(`file://${fileOf(kind)}`);
-    await page.waitForSelector('html[data-drawn=yes]').catch(failure => {
-      throw new Error(errors.join('; ') || failure.message);
-    });
-    const opened_ms = Date.now() - before;
-    await look(page, {errors, requests, opened_ms});
-  } finally {
+    await page.waitForSelector('html[data-drawn=yes]');
+  } catch (failure) {
     await context.close();
+    throw new Error(errors.join('; ') || failure.message);
+  }
+  return {page, errors, requests, opened_ms: Date.now() - before, close: () => context.close()};
+}
+
+/// Opens a report and hands it to `look(page)` with what went wrong so far.
+export async function withPage(kind, look, options = {}) {
+  const {page, close, ...now} = await openPage(kind, options);
+  try {
+    await look(page, now);
+  } finally {
+    await close();
   }
 }
