@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "app/compare/comparison_report.h"
 #include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
@@ -92,20 +94,25 @@ TEST(Comparison, AFileWithoutADigestCountsAsAnother) {
   EXPECT_EQ(compared(a, a).inputs, std::vector<std::string>{"map.elevation"});
 }
 
-/// `compare` as a person meets it: the same scenario planned twice, from two starts.
+/// `compare` as a person meets it: the same scenario planned from two seeds, once for all tests.
 class CompareProgram : public testing::Test {
  protected:
-  CompareProgram() {
-    write_flat_scenario(folder_);
+  static void SetUpTestSuite() {
+    planned_ = std::make_unique<ScratchFolder>();
+    write_flat_scenario(*planned_);
     for (const char* name : {"before", "after"}) {
-      const std::string scenario = folder_.path(std::string(name) + ".yaml");
-      folder_.write(std::string(name) + ".yaml",
-                    replaced(folder_.read("scenario.yaml"), "planner: {",
-                             name == std::string("after") ? "planner: {seed: 7, " : "planner: {"));
-      run_program(folder_, fmt::format("plan '{}' --candidates 1 --quiet --out '{}'", scenario,
-                                       folder_.path(name)));
+      const std::string scenario = planned_->write(
+          std::string(name) + ".yaml",
+          replaced(planned_->read("scenario.yaml"), "planner: {",
+                   name == std::string("after") ? "planner: {seed: 7, " : "planner: {"));
+      const ProgramRun run =
+          run_program(*planned_, fmt::format("plan '{}' --candidates 1 --quiet --out '{}'",
+                                             scenario, planned_->path(name)));
+      ASSERT_EQ(run.status, 0) << run.errors;
     }
   }
+  static void TearDownTestSuite() { planned_.reset(); }
+  CompareProgram() { folder_.copy_from(*planned_); }
 
   ProgramRun compare(const std::string& a, const std::string& b,
                      const std::string& options = "") const {
@@ -113,6 +120,7 @@ class CompareProgram : public testing::Test {
         folder_, fmt::format("compare '{}' '{}' {}", folder_.path(a), folder_.path(b), options));
   }
 
+  static inline std::unique_ptr<ScratchFolder> planned_;
   ScratchFolder folder_;
 };
 

@@ -41,8 +41,7 @@ class EffectiveSettings : public testing::Test {
       steep.height_m[i] = static_cast<float>(i % 40);
     }
     write_elevation(steep, folder_.path("dem.tif"));
-    folder_.write("scenario.yaml",
-                  replaced(flat_scenario(), "planner: {iterations: 200}", planner));
+    folder_.write("scenario.yaml", replaced(flat_scenario(), kFlatPlanner, planner));
     const ProgramRun run =
         run_program(folder_, "plan '" + folder_.path("scenario.yaml") + "' --out '" +
                                  folder_.path("out") + "' " + flags);
@@ -116,7 +115,7 @@ TEST_F(EffectiveSettings, ImproveIsWhatTheFlagSaysElseTheScenarioElseYes) {
 TEST_F(EffectiveSettings, WhatIsFoundIsImprovedUnlessSomebodySaysNo) {
   std::string text = replaced(flat_scenario(), "goal: {x_m: 30, y_m: 20, radius_m: 3}",
                               "goal: {x_m: 22, y_m: 32, radius_m: 1.5}");
-  text = replaced(text, "planner: {iterations: 200}",
+  text = replaced(text, kFlatPlanner,
                   "planner: {name: RRT, iterations: 500, candidates: 1, soil_draws: 5}");
   const std::string scenario = folder_.write("scenario.yaml", text);
   const auto improved = [&](int seed, const std::string& flags) {

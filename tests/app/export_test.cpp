@@ -1,6 +1,7 @@
 // A plan's files for other programs, read back as those read them.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -55,31 +56,35 @@ Mask read_mask(const ScratchFolder& folder, const std::string& name) {
   return mask;
 }
 
-/// A rock in the way and a crater too steep to drive, both beside the path.
+/// A rock in the way and a crater too steep to drive, both beside the path; planned and exported
+/// once, each test in a copy.
 class Export : public testing::Test {
  protected:
-  Export() {
-    std::string yaml = run_program(folder_, "scenario").output;
+  static void SetUpTestSuite() {
+    whole_ = std::make_unique<ScratchFolder>();
+    const ScratchFolder& folder = *whole_;
+    std::string yaml = run_program(folder, "scenario").output;
     yaml = std::regex_replace(yaml, std::regex("craters: .*"),
                               "craters: [{x_m: 20, y_m: 45, diameter_m: 12, depth_m: 5}]\n"
                               "    rocks: [{x_m: 40, y_m: 40, radius_m: 1.2, height_m: 1.5}]");
-    const std::string scenario = folder_.write("scenario.yaml", yaml);
-    EXPECT_EQ(run_program(folder_, "plan '" + scenario +
-                                       "' --quiet --iterations 200 --candidates 1 "
-                                       "--out '" +
-                                       folder_.path("result") + "'")
-                  .status,
-              0);
-    exported_ =
-        run_program(folder_, "export '" + folder_.path("result") + "' --nav2 '" +
-                                 folder_.path("nav2") + "' --qgis '" + folder_.path("qgis") + "'");
+    const std::string scenario = folder.write("scenario.yaml", yaml);
+    const ProgramRun planned = run_program(
+        folder, "plan '" + scenario + "' --quiet --iterations 200 --candidates 1 --out '" +
+                    folder.path("result") + "'");
+    ASSERT_EQ(planned.status, 0) << planned.errors;
+    const ProgramRun exported =
+        run_program(folder, "export '" + folder.path("result") + "' --nav2 '" +
+                                folder.path("nav2") + "' --qgis '" + folder.path("qgis") + "'");
+    ASSERT_EQ(exported.status, 0) << exported.errors;
   }
+  static void TearDownTestSuite() { whole_.reset(); }
+  Export() { folder_.copy_from(*whole_); }
+
+  static inline std::unique_ptr<ScratchFolder> whole_;
   ScratchFolder folder_;
-  ProgramRun exported_;
 };
 
 TEST_F(Export, MasksSayWhereAndHowFast) {
-  ASSERT_EQ(exported_.status, 0) << exported_.errors;
   const Mask keepout = read_mask(folder_, "keepout"), speed = read_mask(folder_, "speed");
   EXPECT_EQ(keepout.resolution_m, 0.5);
   EXPECT_EQ(keepout.columns, 120);

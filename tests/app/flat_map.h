@@ -27,6 +27,10 @@ inline ElevationRaster flat_elevation() {
           .height_m = std::vector<float>(1600, 0.0F)};
 }
 
+/// How it is planned there. The soil is known exactly, so that all draws are alike: twelve are as
+/// good as a hundred, and enough for what each soil number counts.
+inline constexpr const char* kFlatPlanner = "planner: {iterations: 200, soil_draws: 12}";
+
 /// A scenario that can be planned: an LRV on the flat ground of dem.tif.
 inline std::string flat_scenario() {
   return std::string("map:\n  elevation: dem.tif\n  soils: ") + kOneSoil +
@@ -34,8 +38,8 @@ inline std::string flat_scenario() {
          "vehicle: lrv\n"
          "gravity_mps2: 1.62\n"
          "start: {x_m: 10, y_m: 20, heading_deg: 0}\n"
-         "goal: {x_m: 30, y_m: 20, radius_m: 3}\n"
-         "planner: {iterations: 200}\n";
+         "goal: {x_m: 30, y_m: 20, radius_m: 3}\n" +
+         kFlatPlanner + "\n";
 }
 
 /// dem.tif and scenario.yaml in `folder`; returns the latter.

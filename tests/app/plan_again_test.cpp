@@ -1,6 +1,7 @@
 // A plan is repeated from its plan.json alone, and what has changed since is said.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/flat_map.h"
@@ -11,13 +12,21 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Each test goes on from a plan of its own folder, which was made once.
 class PlanAgain : public testing::Test {
  protected:
-  PlanAgain() {
-    write_flat_scenario(folder_);
-    EXPECT_EQ(
-        plan(quoted("scenario.yaml") + "--planner RRT --seed 3 --candidates 1", "first").status, 0);
+  static void SetUpTestSuite() {
+    planned_ = std::make_unique<ScratchFolder>();
+    write_flat_scenario(*planned_);
+    const ProgramRun run =
+        run_program(*planned_, "plan '" + planned_->path("scenario.yaml") +
+                                   "' --planner RRT --seed 3 --candidates 1 --out '" +
+                                   planned_->path("first") + "'");
+    ASSERT_EQ(run.status, 0) << run.errors;
   }
+  static void TearDownTestSuite() { planned_.reset(); }
+  PlanAgain() { folder_.copy_from(*planned_); }
+
   std::string quoted(const std::string& name) { return " '" + folder_.path(name) + "' "; }
   ProgramRun plan(const std::string& arguments, const std::string& out) {
     return run_program(folder_, "plan " + arguments + " --out" + quoted(out));
@@ -27,6 +36,7 @@ class PlanAgain : public testing::Test {
   }
   Json json(const std::string& out) { return Json::parse(folder_.read(out + "/plan.json")); }
 
+  static inline std::unique_ptr<ScratchFolder> planned_;
   ScratchFolder folder_;
 };
 
@@ -58,8 +68,8 @@ TEST_F(PlanAgain, KeepsANameWithAVariableAsItWasWritten) {
   scenario.replace(scenario.find("dem.tif"), 7, "${REGOPLAN_TEST_FOLDER}/dem.tif");
   folder_.write("named.yaml", scenario);
   const std::string set = "REGOPLAN_TEST_FOLDER='" + folder_.path("") + "' ";
-  const ProgramRun run =
-      run_program(folder_, "plan" + quoted("named.yaml") + "--out" + quoted("named"), set);
+  const ProgramRun run = run_program(
+      folder_, "plan" + quoted("named.yaml") + "--candidates 1 --out" + quoted("named"), set);
   ASSERT_EQ(run.status, 0) << run.errors;
   const Json inputs = json("named")["inputs"];
   EXPECT_EQ(inputs[0]["file"], "../named.yaml");

@@ -68,7 +68,7 @@ TEST_F(ScenarioSettings, ALimitThatIsGivenReplacesTheVehiclesAndNoOther) {
 TEST_F(ScenarioSettings, OneBudgetBoundsTheSearch) {
   EXPECT_EQ(problem("iterations: 200", "iterations: 7").search.iterations, 7);
   EXPECT_EQ(problem("iterations: 200", "time_s: 3").search.time_s, 3);
-  EXPECT_TRUE(problem("planner: {iterations: 200}\n", "").search.time_s);
+  EXPECT_TRUE(problem(std::string(kFlatPlanner) + "\n", "").search.time_s);
   EXPECT_EQ(error_of("iterations: 200", "iterations: 200, time_s: 3"),
             "s.yaml:8: planner.iterations: either time_s or iterations, not both");
 }

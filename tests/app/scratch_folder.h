@@ -10,14 +10,15 @@
 
 namespace regoplan {
 
-/// An empty folder of the running test, gone after it.
+/// An empty folder of the running test, or of its suite while that is set up; gone after it.
 class ScratchFolder {
  public:
   ScratchFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* unit = testing::UnitTest::GetInstance();
+    const auto* test = unit->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
-            (std::string("regoplan-") + test->test_suite_name() + "-" + test->name() + "-" +
-             std::to_string(::getpid()));
+            (std::string("regoplan-") + unit->current_test_suite()->name() + "-" +
+             (test ? test->name() : "suite") + "-" + std::to_string(::getpid()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -37,6 +38,11 @@ class ScratchFolder {
     std::stringstream content;
     content << stream.rdbuf();
     return content.str();
+  }
+
+  /// Takes over what stands in another, which stays as it is.
+  void copy_from(const ScratchFolder& other) const {
+    std::filesystem::copy(other.path_, path_, std::filesystem::copy_options::recursive);
   }
 
   /// How many files and folders stand in it, at any depth.
