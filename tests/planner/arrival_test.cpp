@@ -27,16 +27,21 @@ double away_m(const Goal& goal, const VehicleState& state) {
   return std::hypot(state.x_m - goal.x_m, state.y_m - goal.y_m);
 }
 
+/// A problem's worlds, whose tables take longer than most searches.
+struct Worlds {
+  explicit Worlds(const PlanningProblem& problem)
+      : searched(problem, WorldUse::kSearch, 2), verdict(problem, WorldUse::kVerdict, 2) {}
+  World searched, verdict;
+};
+
 /// What a planner finds, as the verdict drives it; nothing where it finds nothing.
-std::optional<VerifiedPath> verified(const PlanningProblem& problem, const std::string& planner,
+std::optional<VerifiedPath> verified(const Worlds& worlds, const std::string& planner,
                                      unsigned int iterations) {
-  const World searched(problem, WorldUse::kSearch, 2);
-  PlannerRun run(searched, planner);
+  PlannerRun run(worlds.searched, planner);
   run.solve(iterations);
   const std::vector<ControlSegment> controls = exact_solution(*run.definition);
   if (controls.empty()) return std::nullopt;
-  const World verdict(problem, WorldUse::kVerdict, 2);
-  return verify(verdict, searched, {.planner = planner, .controls = controls});
+  return verify(worlds.verdict, worlds.searched, {.planner = planner, .controls = controls});
 }
 
 testing::AssertionResult passed(const std::optional<VerifiedPath>& path) {
@@ -50,7 +55,7 @@ class ArrivalOf : public testing::TestWithParam<std::string> {};
 TEST_P(ArrivalOf, PathEndsAtRestInTheGoalBeforeAWall) {
   // From 3 m/s the vehicle stops in 15 m; the wall stands 7 m behind the goal's centre.
   const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall_at(47)));
-  const std::optional<VerifiedPath> path = verified(problem, GetParam(), 20000);
+  const std::optional<VerifiedPath> path = verified(Worlds(problem), GetParam(), 20000);
   ASSERT_TRUE(passed(path));
   const VehicleState& end = path->replay.end;
   EXPECT_NEAR(end.rim_speed_mps, 0, 1e-9);
@@ -66,15 +71,16 @@ INSTANTIATE_TEST_SUITE_P(Every, ArrivalOf,
 TEST(Arrival, AsFastAsTheGoalAllowsWhereTheVehicleCanThenStop) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall_at(47)));
   problem.goal.speed_max_mps = 1;
+  PlanningProblem problem_at_rest = problem;
+  problem_at_rest.goal.speed_max_mps = 0;
+  const Worlds slowly(problem), at_rest(problem_at_rest);
   for (const char* planner : {"Lattice", "StableSparse", "RRT"}) {
-    const std::optional<VerifiedPath> path = verified(problem, planner, 20000);
+    const std::optional<VerifiedPath> path = verified(slowly, planner, 20000);
     ASSERT_TRUE(passed(path)) << planner;
     const VehicleState& end = path->replay.end;
     EXPECT_LE(speed_mps(end), 1) << planner;
     EXPECT_GT(speed_mps(end), 0.1) << planner;
     EXPECT_LE(away_m(problem.goal, end), problem.goal.radius_m) << planner;
-    PlanningProblem at_rest = problem;
-    at_rest.goal.speed_max_mps = 0;
     const std::optional<VerifiedPath> slower = verified(at_rest, planner, 20000);
     ASSERT_TRUE(passed(slower)) << planner;
     EXPECT_LT(path->candidate.duration_s, slower->candidate.duration_s) << planner;
@@ -88,8 +94,9 @@ TEST(Arrival, AGoalThatCanOnlyBeCrossedAtSpeedHasNoPath) {
   problem.goal = {.x_m = 15, .y_m = 25, .radius_m = 2, .heading_rad = {}};
   for (const double allowed_mps : {0.0, 3.0}) {
     problem.goal.speed_max_mps = allowed_mps;
+    const Worlds worlds(problem);
     for (const char* planner : {"Lattice", "StableSparse", "RRT"}) {
-      EXPECT_FALSE(passed(verified(problem, planner, 3000))) << planner;
+      EXPECT_FALSE(passed(verified(worlds, planner, 3000))) << planner;
     }
   }
 }
@@ -116,7 +123,7 @@ TEST(Arrival, ComesToRestInACircleOfHalfAMetreUphillAndDown) {
     PlanningProblem problem = lrv_problem(
         one_soil_map(50, firm_regolith(), [rise](double x, double) { return rise * x; }));
     problem.goal.radius_m = 0.5;
-    const std::optional<VerifiedPath> path = verified(problem, "Lattice", 20000);
+    const std::optional<VerifiedPath> path = verified(Worlds(problem), "Lattice", 20000);
     ASSERT_TRUE(passed(path)) << rise;
     EXPECT_LE(away_m(problem.goal, path->replay.end), 0.5) << rise;
   }
