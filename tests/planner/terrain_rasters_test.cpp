@@ -15,10 +15,12 @@ PlanningProblem on_slope(double slope) {
       one_soil_map(20, firm_regolith(), [slope](double x_m, double) { return slope * x_m; }));
 }
 
+float middle(const GridFrame& frame, const std::vector<float>& values) {
+  return values[static_cast<std::size_t>(frame.rows / 2) * static_cast<std::size_t>(frame.columns) +
+                static_cast<std::size_t>(frame.columns / 2)];
+}
 float middle(const TerrainRasters& rasters, const std::vector<float>& values) {
-  return values[static_cast<std::size_t>(rasters.frame.rows / 2) *
-                    static_cast<std::size_t>(rasters.frame.columns) +
-                static_cast<std::size_t>(rasters.frame.columns / 2)];
+  return middle(rasters.frame, values);
 }
 
 TEST(TerrainRasters, LieOnTheGridOfTheElevation) {
@@ -94,7 +96,7 @@ float probability_in_the_middle(double slope, double friction_std_rad) {
   std::vector<MapSoil> soils = problem.map.soils();
   soils.front().soil.standard_deviation.friction_angle_rad = friction_std_rad;
   problem.map = problem.map.with_soils(soils);
-  return middle(terrain_rasters(problem), straight_on_probability(problem));
+  return middle(problem.map.elevation().frame, straight_on_probability(problem));
 }
 
 TEST(TerrainRasters, WhatIsKnownHoldsOrDoesNot) {
