@@ -23,9 +23,9 @@ extern const std::string_view kDiagnosisHtml;     ///< sections of the diagnosis
 extern const std::string_view kDiagnosisScript;   ///< draws them
 extern const std::string_view kDriveHtml;         ///< sections of a drive
 extern const std::string_view kDriveScript;       ///< draws them
-extern const std::string_view kLoopHtml;          ///< sections of plan, drive, diagnosis, plan again
-extern const std::string_view kLoopScript;        ///< draws them
-extern const std::string_view kDrivesHtml;        ///< sections of the diagnosis of drives
-extern const std::string_view kDrivesScript;      ///< draws them
+extern const std::string_view kLoopHtml;      ///< sections of plan, drive, diagnosis, plan again
+extern const std::string_view kLoopScript;    ///< draws them
+extern const std::string_view kDrivesHtml;    ///< sections of the diagnosis of drives
+extern const std::string_view kDrivesScript;  ///< draws them
 
 }  // namespace regoplan::report_assets
