@@ -63,6 +63,10 @@ DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
        .threads = command.threads,
        .stop = stop,
        .progress = [&line](std::string_view stage, double share) { line.show(stage, share); }});
+  if (has_corrected_map(run)) {
+    line.show("judging the drives again", 1);
+    run.verdicts = verdict_flips(run.setup.setup, run.setup.limits, run.diagnosis, run.seed);
+  }
   line.show("writing", 1);
   for (const DriveFinding& finding : run.diagnosis.findings) {
     notify(finding.drive.empty() ? finding.text : finding.drive + ": " + finding.text,

@@ -175,6 +175,15 @@ Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
   json["mechanisms"] = list_json(diagnosis.claims, claim_json);
   json["where"] = list_json(diagnosis.where, where_json);
   json["zones"] = zones_json(run);
+  json["verdicts"] = list_json(run.verdicts, [&run](const VerdictFlip& flip) {
+    return Json{{"drive", run.drive_ids[flip.drive]},
+                {"starts_s", flip.starts_s},
+                {"ends_s", flip.ends_s},
+                {"x_m", flip.x_m},
+                {"y_m", flip.y_m},
+                {"before", flip.before},
+                {"after", flip.after}};
+  });
   json["findings"] = list_json(diagnosis.findings, finding_json);
   json["fit"] = fit_json(diagnosis);
   if (diagnosis.currents) json["currents"] = currents_json(run, *diagnosis.currents);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/diagnose_drive/drive_setup.h"
+#include "app/diagnose_drive/verdict_flips.h"
 #include "app/io/staged_files.h"
 
 namespace regoplan {
@@ -20,6 +21,7 @@ struct DriveDiagnosisRun {
   std::uint64_t seed = 1;
   std::string page = "report.html";  ///< name of its page
   DriveDiagnosis diagnosis;
+  std::vector<VerdictFlip> verdicts;  ///< where there is a corrected map
 };
 
 /// What diagnosis.json holds; numbers that are not finite become null. Same input, same text.

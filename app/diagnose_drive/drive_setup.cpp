@@ -49,6 +49,7 @@ DriveSetupFile read_drive_setup(const std::string& scenario_file,
   const std::filesystem::path folder = std::filesystem::path(scenario_file).parent_path();
   ScenarioMap map = read_map(*map_node, folder, WheelVariant::kIshigami2007);
   DriveSetupFile read{.setup = {.map = std::move(map.map), .vehicle = {}},
+                      .limits = {},
                       .notices = std::move(map.notices)};
   for (const SettingsEntry& entry : root.mapping()) {
     if (entry.key == "gravity_mps2") read.setup.gravity_mps2 = entry.value.number(kGravity_mps2);
@@ -59,6 +60,11 @@ DriveSetupFile read_drive_setup(const std::string& scenario_file,
                    : named_vehicle(entry.value, folder);
       });
     }
+  }
+  if (read.setup.vehicle) {
+    const Limits usual = default_limits(*read.setup.vehicle);
+    const SettingsNode* limits = root.find("limits");
+    read.limits = limits ? read_limits(*limits, usual) : usual;
   }
   if (read.setup.vehicle && read.setup.gravity_mps2 == 0) {
     throw root.error("gravity_mps2 is missing: a vehicle needs it");

@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "drive_diagnosis/drive_diagnosis.h"
+#include "planner/problem/limits.h"
 
 namespace regoplan {
 
 /// Map, vehicle and what is known of them, from a scenario and an optional setup.
 struct DriveSetupFile {
   DriveSetup setup;
+  Limits limits;  ///< of the scenario, else of its vehicle
   std::vector<std::string> notices;
 };
 
-/// Reads `map`, `vehicle` and `gravity_mps2` of a scenario (its start, goal and all else play no
-/// part; without a vehicle only what needs none is diagnosed), and of the setup
+/// Reads `map`, `vehicle`, `gravity_mps2` and `limits` of a scenario (its start, goal and all else
+/// play no part; without a vehicle only what needs none is diagnosed), and of the setup
 ///
 ///     mounting: {pitch_deg: {mean, std}, roll_deg: {mean, std}}   # of the attitude sensor
 ///     window_s: 3                                   # 1 to 20; with a vehicle else 5

@@ -62,17 +62,6 @@ Goal read_goal(const SettingsNode& node, double speed_max_mps) {
   });
 }
 
-Limits read_limits(const SettingsNode& node, const Limits& defaults) {
-  return read_mapping(node, [&defaults](SettingsMapping& mapping) {
-    Limits limits = defaults;
-    for (const LimitKey& limit : limit_keys()) {
-      const SettingsNode* given = mapping.optional(limit.key);
-      if (given) limits.*limit.value = given->number(limit.shown_range) * limit.si_per_shown;
-    }
-    return limits;
-  });
-}
-
 Objective read_objective(const SettingsNode& node) {
   return read_mapping(node, [](SettingsMapping& mapping) {
     const Objective defaults;
@@ -247,6 +236,17 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
                                          std::move(catalogue), std::move(rocks)),
                        .notices = std::move(notices),
                        .inputs = std::move(inputs)};
+  });
+}
+
+Limits read_limits(const SettingsNode& node, const Limits& defaults) {
+  return read_mapping(node, [&defaults](SettingsMapping& mapping) {
+    Limits limits = defaults;
+    for (const LimitKey& limit : limit_keys()) {
+      const SettingsNode* given = mapping.optional(limit.key);
+      if (given) limits.*limit.value = given->number(limit.shown_range) * limit.si_per_shown;
+    }
+    return limits;
   });
 }
 

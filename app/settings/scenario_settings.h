@@ -51,6 +51,9 @@ struct ScenarioMap {
 /// \throws SettingsError
 Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrides);
 
+/// Reads the `limits` of a scenario. \param defaults where a limit is not given
+Limits read_limits(const SettingsNode& node, const Limits& defaults);
+
 /// Reads only the `map` of a scenario.
 ScenarioMap read_scenario_map(const std::string& file);
 

@@ -84,6 +84,15 @@ byId('claims').append(
                               UNKNOWN,
                           Object.entries(claim.parameters).map(parameterText).join('; ')])) :
         'Nothing is claimed.');
+const verdict = why => why || 'may be driven';
+byId('verdicts').append(
+    REPORT.verdicts.length ?
+        wideTable(
+            'Verdicts that flip', columns('drive', 'from, s', 'to, s', 'at', 'as it was known', 'as it is corrected'),
+            REPORT.verdicts.map(
+                flip => [flip.drive, fixed(flip.starts_s, 1), fixed(flip.ends_s, 1), place(flip.x_m, flip.y_m),
+                         verdict(flip.before), verdict(flip.after)])) :
+        'None: what was driven is judged as before.');
 const fits = Object.entries(REPORT.fit);
 byId('fit').append(
     fits.length ? wideTable(
