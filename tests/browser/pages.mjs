@@ -3,9 +3,11 @@ import {statSync} from 'node:fs';
 import {join} from 'node:path';
 import {chromium} from 'playwright-core';
 
-export const KINDS = ['plan', 'evaluation', 'manoeuvres', 'drive', 'drives', 'plan/drive', 'diagnosis', 'benchmark', 'comparison'];
+export const KINDS = ['plan', 'evaluation', 'manoeuvres', 'drive', 'drives', 'loop', 'diagnosis', 'benchmark', 'comparison'];
 const folder = process.env.REGOPLAN_PAGES;
-export const fileOf = kind => join(folder, kind, 'report.html');
+/// The demo's loop lies beside its plan.
+const FOLDERS = {loop: 'plan/drive'};
+export const fileOf = kind => join(folder, FOLDERS[kind] || kind, 'report.html');
 export const bytesOf = kind => statSync(fileOf(kind)).size;
 
 let browser = null;
