@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <ctime>
 
 namespace regoplan {
 namespace {
@@ -16,9 +17,10 @@ std::stop_source& source() {
   return stop;
 }
 
-void request_stop(int signal) {
-  last_signal = signal;
-  source().request_stop();
+double now_s() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);  // may be called in a signal handler
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 void end(int signal) {
@@ -33,8 +35,27 @@ void handle(void (*handler)(int), int flags) {
   action.sa_handler = handler;
   action.sa_flags = flags;
   sigemptyset(&action.sa_mask);
+  sigaddset(&action.sa_mask, SIGINT);
+  sigaddset(&action.sa_mask, SIGTERM);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+double asked_at_s = 0;
+
+/// `timeout` and others send one signal to the process and again to its group: what comes so soon
+/// is no second request.
+void request_stop(int signal) {
+  constexpr double kSameRequest_s = 0.3;
+  if (source().stop_requested()) {
+    if (now_s() - asked_at_s < kSameRequest_s) return;
+    handle(SIG_DFL, 0);
+    raise(signal);  // comes when this handler has returned
+    return;
+  }
+  asked_at_s = now_s();
+  last_signal = signal;
+  source().request_stop();
 }
 
 }  // namespace
@@ -45,7 +66,7 @@ void end_on_interrupt() {
 
 std::stop_token stop_on_interrupt() {
   std::stop_token token = source().get_token();  // made before a signal can come
-  handle(request_stop, static_cast<int>(SA_RESETHAND | SA_RESTART));
+  handle(request_stop, SA_RESTART);
   return token;
 }
 

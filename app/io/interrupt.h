@@ -8,7 +8,8 @@ namespace regoplan {
 /// nothing yet to save.
 void end_on_interrupt();
 
-/// From now on the first Ctrl-C (or SIGTERM) only asks to stop; a second one ends the process.
+/// From now on the first Ctrl-C (or SIGTERM) only asks to stop; another, more than .3 s later, ends
+/// the process.
 /// \returns what then says so
 std::stop_token stop_on_interrupt();
 

@@ -263,6 +263,21 @@ TEST_F(Evaluate, HeedsInterruptsWhileItDrives) {
   }
 }
 
+TEST_F(Evaluate, ASignalThatComesTwiceAtOnceIsOneRequest) {
+  // As `timeout` sends it: to the process, and to its group.
+  const std::string slow = file("m.yaml",
+                                "- {kind: slope_traverse, length_m: 20, slope_deg: 1, "
+                                "speed_mps: 1e-4}\n");
+  const std::string command = fmt::format(
+      "'{}' evaluate '{}' --out '{}' --quiet --manoeuvres {} 2>/dev/null & "
+      "sleep 2; kill -TERM $!; sleep 0.02; kill -TERM $!; wait $!",
+      REGOPLAN_PROGRAM, folder_.path("scenario.yaml"), folder_.path("out"), slow);
+  const int ended = std::system(command.c_str());
+  EXPECT_TRUE(WIFEXITED(ended));
+  EXPECT_EQ(WEXITSTATUS(ended), 143);
+  EXPECT_EQ(result()["interrupted"], true);
+}
+
 TEST_F(Evaluate, AChartIsAPictureAndTables) {
   const ProgramRun run =
       run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --chart '" +
