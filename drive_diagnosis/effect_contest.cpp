@@ -33,8 +33,11 @@ Eigen::MatrixXd free_columns(const EffectContest& contest) {
   const auto q = static_cast<Eigen::Index>(contest.soil_numbers);
   const auto zones = static_cast<Eigen::Index>(contest.zones_known.size());
   const Eigen::Index parameters = contest.parameters.cols();
-  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(contest.data.size(), parameters + zones * q);
+  const Eigen::Index ground = contest.ground.cols();
+  Eigen::MatrixXd columns =
+      Eigen::MatrixXd::Zero(contest.data.size(), parameters + zones * q + ground);
   columns.leftCols(parameters) = contest.parameters;
+  if (ground > 0) columns.rightCols(ground) = contest.ground;
   for (const std::size_t fault : contest.faults_known) {
     columns.col(static_cast<Eigen::Index>(fault)) *= kFault;
   }
@@ -385,6 +388,16 @@ ContestFit fit_contest(const EffectContest& contest) {
     fit.zones_std.emplace_back(spread.diagonal().cwiseMax(0).cwiseSqrt());
   }
   return fit;
+}
+
+double likelihood_nats(const EffectContest& contest) {
+  const Eigen::MatrixXd columns = free_columns(contest);
+  const Eigen::Index p = columns.cols();
+  const Eigen::LLT<Eigen::MatrixXd> factor(columns.transpose() * columns +
+                                           Eigen::MatrixXd::Identity(p, p));
+  const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
+  const double explained = factor.matrixL().solve(columns.transpose() * contest.data).squaredNorm();
+  return -(contest.data.squaredNorm() - explained + log_det) / 2;
 }
 
 double prior_nats(const EffectContest& contest, const ContestFit& fit) {

@@ -12,6 +12,9 @@ namespace regoplan {
 /// Everything that competes to explain a drive, in white data: to first order, what each changes.
 struct EffectContest {
   Eigen::VectorXd data;
+  /// What varies from window to window without a name and without being noise of one window, by one
+  /// deviation each: the ground's slopes off the map's.
+  Eigen::MatrixXd ground;
   /// A column for each parameter, by the size that a sound vehicle is off (one standard deviation).
   Eigen::MatrixXd parameters;
   std::vector<bool> claimable;  ///< of each parameter: a fault has a name
@@ -58,6 +61,9 @@ struct ContestFit {
   std::vector<Eigen::VectorXd> zones, zones_std;
 };
 ContestFit fit_contest(const EffectContest& contest);
+
+/// Nats by which the data are likely with whatever varies without a name, but for a constant.
+double likelihood_nats(const EffectContest& contest);
 
 /// Nats that parameters and zones of a fit cost before anything is measured.
 double prior_nats(const EffectContest& contest, const ContestFit& fit);

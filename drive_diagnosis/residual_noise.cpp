@@ -10,8 +10,9 @@
 namespace regoplan {
 namespace {
 
-constexpr double kMad = 0.6745;  ///< median of |x| of a normal x
-constexpr double kFar = 2.5;     ///< beyond, a residual counts less
+constexpr double kMad = 0.6745;     ///< median of |x| of a normal x
+constexpr double kFar = 2.5;        ///< beyond, a residual counts less
+constexpr double kOfNormal = 0.92;  ///< mean of min(x^2, kFar^2) of a normal x
 
 }  // namespace
 
@@ -31,6 +32,7 @@ ResidualNoise::ResidualNoise(ResidualParts parts) : parts_(std::move(parts)) {
   const auto windows = static_cast<double>(residuals.rows());
   const double freedom = std::max(0.3, 1 - static_cast<double>(parts_.columns.size()) /
                                                (windows * static_cast<double>(residuals.cols())));
+  input_scale_.assign(parts_.inputs.size(), 1);
   constexpr int kRounds = 15;
   Eigen::MatrixXd left = residuals;
   for (int round = 0; round < kRounds; ++round) {
@@ -38,6 +40,7 @@ ResidualNoise::ResidualNoise(ResidualParts parts) : parts_(std::move(parts)) {
     left = fitted_residuals();
     if (round == 0) choose_shares(left);
     update(left, freedom);
+    update_inputs(left, freedom);
   }
   widen_what_goes_on(left);
   factor();
@@ -56,25 +59,35 @@ Eigen::VectorXd ResidualNoise::variances(Eigen::Index window) const {
 
 void ResidualNoise::factor() {
   root_.clear();
+  known_root_.clear();
   covariance_.clear();
   const Eigen::Index channels = parts_.residuals.cols();
   for (Eigen::Index w = 0; w < parts_.residuals.rows(); ++w) {
-    Eigen::MatrixXd covariance = variances(w).asDiagonal();
-    for (const Eigen::MatrixXd& input : parts_.inputs) {
-      covariance += input.row(w).transpose() * input.row(w);
+    Eigen::MatrixXd known = variances(w).asDiagonal(), estimated = 0 * known;
+    for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
+      const Eigen::VectorXd column = input_scale_[k] * parts_.inputs[k].row(w).transpose();
+      (parts_.scatters_unknown[k] ? estimated : known) += column * column.transpose();
     }
-    const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
-    root_.emplace_back(cholesky.matrixL().solve(Eigen::MatrixXd::Identity(channels, channels)));
-    covariance_.push_back(std::move(covariance));
+    const auto root_of = [channels](const Eigen::MatrixXd& covariance) -> Eigen::MatrixXd {
+      return covariance.llt().matrixL().solve(Eigen::MatrixXd::Identity(channels, channels));
+    };
+    known_root_.push_back(root_of(known));
+    root_.push_back(root_of(known + estimated));
+    covariance_.emplace_back(known + estimated);
   }
 }
 
 Eigen::VectorXd ResidualNoise::whitened(const Eigen::MatrixXd& by_window) const {
+  return whitened(by_window, known_root_);
+}
+
+Eigen::VectorXd ResidualNoise::whitened(const Eigen::MatrixXd& by_window,
+                                        const std::vector<Eigen::MatrixXd>& roots) {
   Eigen::VectorXd white(by_window.size());
   const Eigen::Index channels = by_window.cols();
   for (Eigen::Index w = 0; w < by_window.rows(); ++w) {
     white.segment(w * channels, channels) =
-        root_[static_cast<std::size_t>(w)] * by_window.row(w).transpose();
+        roots[static_cast<std::size_t>(w)] * by_window.row(w).transpose();
   }
   return white;
 }
@@ -86,7 +99,8 @@ Eigen::MatrixXd ResidualNoise::inputs_given(const Eigen::MatrixXd& residuals) co
     const Eigen::VectorXd white = root * residuals.row(w).transpose();
     for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
       const Eigen::VectorXd column = root * parts_.inputs[k].row(w).transpose();
-      result(w, static_cast<Eigen::Index>(k)) = column.dot(white);
+      const double variance = input_scale_[k] * input_scale_[k];
+      result(w, static_cast<Eigen::Index>(k)) = variance * column.dot(white);
     }
   }
   return result;
@@ -102,9 +116,9 @@ Eigen::MatrixXd ResidualNoise::fitted_residuals() const {
   };
   Eigen::MatrixXd design(parts_.residuals.size(), count);
   for (Eigen::Index c = 0; c < count; ++c) {
-    design.col(c) = wider(c) * whitened(parts_.columns[static_cast<std::size_t>(c)]);
+    design.col(c) = wider(c) * whitened(parts_.columns[static_cast<std::size_t>(c)], root_);
   }
-  const Eigen::VectorXd data = whitened(parts_.residuals);
+  const Eigen::VectorXd data = whitened(parts_.residuals, root_);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(data.size()), x = Eigen::VectorXd::Zero(count);
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
@@ -128,7 +142,6 @@ Eigen::MatrixXd ResidualNoise::fitted_residuals() const {
 /// than they would with it as it is.
 void ResidualNoise::update(const Eigen::MatrixXd& left, double freedom) {
   Eigen::VectorXd seen = Eigen::VectorXd::Zero(left.cols()), due = seen;
-  constexpr double kOfNormal = 0.92;  // mean of min(x^2, kFar^2)
   for (Eigen::Index w = 0; w < left.rows(); ++w) {
     const Eigen::MatrixXd& root = root_[static_cast<std::size_t>(w)];
     const Eigen::MatrixXd inverse = root.transpose() * root;
@@ -167,6 +180,28 @@ void ResidualNoise::update(const Eigen::MatrixXd& left, double freedom) {
     constexpr double kLeast = 1e-6;  // of a channel's unit
     double& scale = scale_[static_cast<std::size_t>(k)];
     scale = std::max(kLeast, scale * std::sqrt(seen[k] / (due[k] * freedom)));
+    if (!is_alike(k)) scale = std::max(scale, parts_.sampled_std[static_cast<std::size_t>(k)]);
+  }
+}
+
+/// The scatter of an input that nobody tells: by how much more the residuals scatter along what it
+/// changes than they would with it as it is.
+void ResidualNoise::update_inputs(const Eigen::MatrixXd& left, double freedom) {
+  for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
+    if (!parts_.scatters_unknown[k]) continue;
+    double seen = 0, due = 0;
+    for (Eigen::Index w = 0; w < left.rows(); ++w) {
+      const Eigen::MatrixXd& root = root_[static_cast<std::size_t>(w)];
+      const Eigen::VectorXd column = root * parts_.inputs[k].row(w).transpose();
+      const double known = column.squaredNorm(), along = column.dot(root * left.row(w).transpose());
+      seen += std::min(along * along, kFar * kFar * known) / kOfNormal;
+      due += known;
+    }
+    constexpr double kLeast = 0.01, kMost = 20;  // of what it was given by
+    if (due > 0) {
+      input_scale_[k] =
+          std::clamp(input_scale_[k] * std::sqrt(seen / (due * freedom)), kLeast, kMost);
+    }
   }
 }
 

@@ -13,16 +13,18 @@ struct ResidualParts {
   std::vector<bool> may_be_wrong;  ///< of each: a fault takes it far beyond that size
   /// What an input of a window that is measured with scatter changes in it, by that scatter.
   std::vector<Eigen::MatrixXd> inputs;
-  std::vector<bool> follows;  ///< whether a window follows the one before
+  std::vector<bool> scatters_unknown;  ///< of each input: how far it scatters is estimated
+  std::vector<bool> follows;           ///< whether a window follows the one before
   /// Scatter that goes with a measurement goes with this; 0 where it does not.
   Eigen::MatrixXd reference;
-  /// What neighbouring samples say of the scatter of a window's measurement, of each channel whose
-  /// scatter goes with what it measures.
+  /// What neighbouring samples say of the scatter of a window's measurement, of each channel of
+  /// which they say any.
   std::vector<double> sampled_std;
 };
 
 /// How residuals scatter: each channel by a scale of its own, and all by what the inputs' scatter
-/// does to them. Makes them white.
+/// does to them. Makes them white but for what inputs of unknown scatter do: those may go together
+/// from window to window.
 class ResidualNoise {
  public:
   /// Estimates the scales by what is left when everything global is fitted (expectation
@@ -36,11 +38,16 @@ class ResidualNoise {
   /// the inputs' scatter has done to the residuals, and not what parameters do.
   Eigen::MatrixXd inputs_given(const Eigen::MatrixXd& residuals) const;
   const std::vector<double>& scales() const { return scale_; }
+  /// How far each input scatters, in what it was given by.
+  const std::vector<double>& input_scales() const { return input_scale_; }
 
  private:
+  static Eigen::VectorXd whitened(const Eigen::MatrixXd& by_window,
+                                  const std::vector<Eigen::MatrixXd>& roots);
   void factor();
   Eigen::MatrixXd fitted_residuals() const;
   void update(const Eigen::MatrixXd& left, double freedom);
+  void update_inputs(const Eigen::MatrixXd& left, double freedom);
   void choose_shares(const Eigen::MatrixXd& left);
   void widen_what_goes_on(const Eigen::MatrixXd& left);
   Eigen::VectorXd variances(Eigen::Index window) const;
@@ -50,7 +57,9 @@ class ResidualNoise {
 
   ResidualParts parts_;
   std::vector<double> scale_, share_;
-  std::vector<Eigen::MatrixXd> root_;  ///< of each window: inverse of its Cholesky factor
+  std::vector<double> input_scale_;          ///< of each input, in that which it was given by
+  std::vector<Eigen::MatrixXd> root_;        ///< of each window: inverse of its Cholesky factor
+  std::vector<Eigen::MatrixXd> known_root_;  ///< the same without inputs of unknown scatter
   std::vector<Eigen::MatrixXd> covariance_;
 };
 

@@ -8,6 +8,7 @@
 #include "drive_diagnosis/likely_soils.h"
 #include "drive_diagnosis/residual_noise.h"
 #include "drive_diagnosis/rolling_resistance.h"
+#include "drive_diagnosis/slope_errors.h"
 #include "drive_diagnosis/vehicle_trials.h"
 #include "drive_diagnosis/window_comparison.h"
 #include "terramech/basics/interruption.h"
@@ -233,10 +234,15 @@ class EffectSearch {
         may_be_wrong.push_back(true);
       }
     }
+    std::vector<bool> unknown;
+    for (std::size_t k = 0; k < inputs.size(); ++k) {
+      unknown.push_back(k >= comparison_.slope_along());
+    }
     ResidualNoise noise({.residuals = data,
                          .columns = std::move(global),
                          .may_be_wrong = std::move(may_be_wrong),
                          .inputs = inputs,
+                         .scatters_unknown = unknown,
                          .follows = contest_.follows,
                          .reference = std::move(reference),
                          .sampled_std = comparison_.sampled_std()});
@@ -256,6 +262,13 @@ class EffectSearch {
                           static_cast<Eigen::Index>(k)) = noise.whitened(alone);
       }
     }
+    const std::size_t along = comparison_.slope_along();
+    const auto white = [&](std::size_t input) {
+      return Eigen::VectorXd(noise.input_scales()[input] * noise.whitened(inputs[input]));
+    };
+    contest_.ground = likely_slope_errors(
+        contest_, {.along = white(along), .across = white(along + 1), .channels = base.cols()},
+        comparison_.channel("pitch_rad"));
     return noise;
   }
 

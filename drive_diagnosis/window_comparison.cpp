@@ -218,7 +218,7 @@ std::optional<LeftOut> WindowComparison::add(std::size_t window,
 void WindowComparison::estimate_sampled_std() {
   sampled_std_.assign(channels_.size(), 0);
   for (std::size_t k = 0; k < channels_.size(); ++k) {
-    if (!scales(k)) continue;
+    if (!scales(k) && channels_[k] != "pitch_rad" && channels_[k] != "roll_rad") continue;
     std::vector<double> of_windows;
     for (const std::size_t i : windows_of_) {
       of_windows.push_back(mean_std(drives_[windows_[i].drive], windows_[i], channels_[k]));
@@ -244,6 +244,12 @@ void WindowComparison::choose_channels() {
     torque_wheels_.push_back(i);
     channels_.push_back(name);
   }
+}
+
+std::optional<std::size_t> WindowComparison::channel(std::string_view name) const {
+  const auto at = std::ranges::find(channels_, name);
+  if (at == channels_.end()) return {};
+  return static_cast<std::size_t>(at - channels_.begin());
 }
 
 Eigen::VectorXd WindowComparison::vector_of(const WindowPrediction& prediction) const {
@@ -286,7 +292,7 @@ bool WindowComparison::consecutive(std::size_t i) const {
 
 void WindowComparison::shift(WindowInput& input, std::size_t window, std::size_t which,
                              double deviations) const {
-  constexpr double kLeast_mps2 = 0.002, kLeast_rps2 = 0.002;
+  constexpr double kLeast_mps2 = 0.002, kLeast_rps2 = 0.002, kSlope = 0.005;
   const std::size_t wheels = vehicle_.wheels.size();
   const WindowInput& measured = inputs_[window];
   for (WindowInput::Place& place : input.places) {
@@ -296,10 +302,13 @@ void WindowComparison::shift(WindowInput& input, std::size_t window, std::size_t
       place.more_mps2 +=
           deviations *
           acceleration_std(measured, &WindowInput::Place::acceleration_mps2, kLeast_mps2);
-    } else {
+    } else if (which == wheels + 1) {
       place.more_rps2 +=
           deviations *
           acceleration_std(measured, &WindowInput::Place::yaw_acceleration_rps2, kLeast_rps2);
+    } else {
+      (which == wheels + 2 ? place.more_slope_forward : place.more_slope_left) +=
+          deviations * kSlope;
     }
   }
 }

@@ -54,14 +54,20 @@ class WindowComparison {
   /// Whether comparison `i` follows the one before without a gap.
   bool consecutive(std::size_t i) const;
   const std::vector<std::string>& channels() const { return channels_; }
+  /// Where a channel stands among them; nothing where it is not compared.
+  std::optional<std::size_t> channel(std::string_view name) const;
   const std::vector<bool>& soils_driven() const { return soils_driven_; }
   const WindowsUsed& used() const { return used_; }
   bool has_torque() const { return !torque_wheels_.empty(); }
   const WindowInput& input(std::size_t i) const { return inputs_[i]; }
   /// From now on windows are asked at inputs off the measured ones: of each window so many standard
-  /// deviations of each wheel's turning, of the acceleration and of that of turning.
+  /// deviations of each wheel's turning, of the acceleration, of that of turning and of the
+  /// ground's slopes along and across.
   void shift_inputs(const Eigen::MatrixXd& shifts) { shifts_ = shifts; }
-  std::size_t inputs() const { return vehicle_.wheels.size() + 2; }
+  std::size_t inputs() const { return vehicle_.wheels.size() + 4; }
+  /// The input that is the ground's slope along; the next is that across. Nobody says how far a
+  /// map's slopes err.
+  std::size_t slope_along() const { return vehicle_.wheels.size() + 2; }
 
   /// By window and channel.
   const Eigen::MatrixXd& measured() const { return measured_; }

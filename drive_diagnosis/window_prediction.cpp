@@ -364,8 +364,10 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
                               .roll_rad = deviation.mounting_roll_rad};
   for (std::size_t j = 0; j < input.places.size(); ++j) {
     const WindowInput::Place& place = input.places.at(j);
-    const GroundPatch patch = ground_of(ground_, map_, vehicle_, place.part, deviation);
+    GroundPatch patch = ground_of(ground_, map_, vehicle_, place.part, deviation);
     if (!patch.known) return {};
+    patch.slope_forward += place.more_slope_forward;
+    patch.slope_left += place.more_slope_left;
     Scene scene{.vehicle = changed,
                 .sharing = sharing,
                 .input = place,

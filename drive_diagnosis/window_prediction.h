@@ -50,6 +50,8 @@ struct WindowInput {
     double yaw_acceleration_rps2 = 0;
     /// What the model is to take for more than its own accelerations.
     double more_mps2 = 0, more_rps2 = 0;
+    /// By how much the ground rises more than the map says, along and to the left, per metre.
+    double more_slope_forward = 0, more_slope_left = 0;
     MotionStart start;
     std::array<double, kMaxWheels> rim_rad_s{};
     std::array<double, kMaxWheels> steer_rad{};
