@@ -10,7 +10,11 @@ function(regoplan_tests folder)
   add_executable(${folder}_tests ${sources})
   target_compile_definitions(${folder}_tests PRIVATE REGOPLAN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   target_link_libraries(${folder}_tests PRIVATE regoplan_options ${ARGN} GTest::gtest_main)
-  target_precompile_headers(${folder}_tests PRIVATE <gtest/gtest.h>)
+  # Where all sources are one unit (CMAKE_UNITY_BUILD_BATCH_SIZE), the header is read once anyway.
+  list(LENGTH sources count)
+  if(count GREATER 8)
+    target_precompile_headers(${folder}_tests PRIVATE <gtest/gtest.h>)
+  endif()
   # What takes time is in the libraries; tests compile a third faster so.
   target_compile_options(${folder}_tests PRIVATE -O1)
   set(but_suites "")

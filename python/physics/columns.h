@@ -2,6 +2,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "terramech/basics/value_range.h"
 
 namespace regoplan::python {
+
+/// What stands in a column of results where a row has no answer.
+inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns of numbers that are read row by row: the arguments of a function over arrays.
 class Columns {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 #include <span>
 
@@ -19,7 +18,6 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr ValueRange kSlope{.min = -1.4, .max = 1.4};  // 80 deg: a tangent that is a number
 
 /// The arguments of every function of a moment, in this order.

@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include <array>
-#include <limits>
 #include <numbers>
 
 #include "app/settings/scenario_settings.h"
@@ -41,7 +40,6 @@ struct ForceColumns {
   }
 
   void put(std::size_t row, const WheelForces& forces) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     const bool any = has_forces(forces.status);
     to[0][row] = any ? forces.fx_n : kNone;
     to[1][row] = any ? forces.fy_n : kNone;
@@ -155,7 +153,6 @@ py::tuple channels(const WheelSource& wheel, const std::vector<py::array>& argum
                                                        conditions_of(values, i, count));
       out.put(first + i, all.forces);
       const bool any = has_forces(all.forces.status);
-      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
       to[0][first + i] = any ? all.rut_left_m : kNone;
       to[1][first + i] = any ? all.rut_right_m : kNone;
       to[2][first + i] = any ? all.roll_moment_nm : kNone;

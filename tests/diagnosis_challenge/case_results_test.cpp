@@ -1,5 +1,6 @@
 #include "benchmarks/diagnosis/case_results.h"
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <fstream>

@@ -1,5 +1,7 @@
 #include "benchmarks/diagnosis/challenge.h"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 
 #include "benchmarks/diagnosis/challenge_files.h"

@@ -1,3 +1,5 @@
+#include <gtest/gtest.h>
+
 // Generated cases that once were judged wrongly, each for a reason of its own.
 #include <algorithm>
 

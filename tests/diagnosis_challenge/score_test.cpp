@@ -1,5 +1,7 @@
 #include "benchmarks/diagnosis/score.h"
 
+#include <gtest/gtest.h>
+
 namespace regoplan::challenge {
 namespace {
 

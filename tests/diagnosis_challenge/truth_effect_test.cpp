@@ -1,9 +1,10 @@
-// Every truth is a bundle of signs over the channels, where it acts and where it must not.
-#include "benchmarks/diagnosis/truth_effect.h"
+#include <gtest/gtest.h>
 
+// Every truth is a bundle of signs over the channels, where it acts and where it must not.
 #include <cmath>
 #include <string>
 
+#include "benchmarks/diagnosis/truth_effect.h"
 #include "tests/terramech/wheel_specs.h"
 
 namespace regoplan::challenge {

@@ -1,9 +1,10 @@
+#include <gtest/gtest.h>
+
 // The integrator behind the challenges shares no code with the wheel model, and agrees with it
 // where nothing is changed.
-#include "benchmarks/diagnosis/truth_wheel.h"
-
 #include <cmath>
 
+#include "benchmarks/diagnosis/truth_wheel.h"
 #include "tests/terramech/wheel_specs.h"
 
 namespace regoplan::challenge {
