@@ -153,9 +153,14 @@ TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
 
 Vehicle corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects) {
   Vehicle corrected = vehicle;
+  if (effects.vehicle.mass_kg) corrected.mass_kg = effects.vehicle.mass_kg->value;
+  if (effects.vehicle.wheel_radius_m) {
+    corrected.wheel.radius_m = effects.vehicle.wheel_radius_m->value;
+  }
   for (const VehicleFinding& found : effects.found) {
-    if (found.id == "wheel_radius") corrected.wheel.radius_m *= 1 + found.size;
-    if (found.id == "payload") corrected.mass_kg *= 1 + found.size;
+    if (found.id == "wheel_radius")
+      corrected.wheel.radius_m = vehicle.wheel.radius_m * (1 + found.size);
+    if (found.id == "payload") corrected.mass_kg = vehicle.mass_kg * (1 + found.size);
     if (found.id != "cg_offset") continue;
     if (found.parameter == "up_m") corrected.cg_height_m += found.size;
     // Wheels are told from the centre of gravity.

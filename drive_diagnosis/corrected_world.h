@@ -26,7 +26,8 @@ std::vector<MapPlace> zone_track(const SoilZoneFound& zone,
 TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
                          const std::vector<DriveWindow>& windows);
 
-/// The vehicle with wheel radius, mass and centre of gravity as they were named.
+/// The vehicle with wheel radius, mass and centre of gravity as they were named, and with the mass
+/// and wheel radius that nobody knew well as they were estimated.
 Vehicle corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects);
 
 }  // namespace regoplan

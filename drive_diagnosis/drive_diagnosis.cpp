@@ -328,10 +328,16 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   result.currents = diagnose_currents(drives, result.windows, result.mountings,
                                       checks.current_sides_swapped, options.seed, options.stop);
   if (result.currents) claim_side_drag(result);
+  if (setup.uncertain.motor_constant) {
+    for (DriveRecording& drive : drives) tell_torques(setup.uncertain.motor_constant->value, drive);
+  }
   if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
-    VehicleComparison comparison = find_vehicle_effects(
-        drives, result.windows, setup.map, *setup.vehicle, setup.gravity_mps2,
-        {.seed = options.seed, .threads = options.threads, .stop = options.stop});
+    VehicleComparison comparison =
+        find_vehicle_effects(drives, result.windows, setup.map, *setup.vehicle, setup.gravity_mps2,
+                             {.uncertain = setup.uncertain,
+                              .seed = options.seed,
+                              .threads = options.threads,
+                              .stop = options.stop});
     result.windows_used = comparison.windows;
     result.effects = std::move(comparison.effects);
   }

@@ -24,6 +24,7 @@ namespace regoplan {
 struct DriveSetup {
   TerrainMap map;
   std::optional<Vehicle> vehicle;  ///< without one, only what needs none is looked at
+  UncertainVehicle uncertain;      ///< of its numbers, those that nobody knows well
   double gravity_mps2 = 0;
   DriveEstimate mounting_pitch_rad{0, 0.035};  ///< how the attitude sensor is said to sit
   DriveEstimate mounting_roll_rad{0, 0.035};

@@ -48,6 +48,10 @@ struct DriveRecording {
   DriveChannel* channel(std::string_view name);
 };
 
+/// Multiplies recorded torques of wheels by so much, and makes torques of currents of wheels whose
+/// torque is not recorded (`current_<wheel>_a` becomes `torque_<wheel>_nm`).
+void tell_torques(double motor_constant, DriveRecording& drive);
+
 /// What a channel is called without its unit and what it stands for, `current` and `left_a`.
 std::vector<const DriveChannel*> channels_of(const DriveRecording& drive, std::string_view prefix);
 

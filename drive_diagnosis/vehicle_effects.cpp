@@ -30,7 +30,8 @@ class EffectSearch {
         vehicle_(vehicle),
         gravity_mps2_(gravity_mps2),
         comparison_(comparison),
-        trials_(vehicle_trials(vehicle, map, comparison.soils_driven())),
+        uncertain_(settings.uncertain),
+        trials_(vehicle_trials(vehicle, settings.uncertain, map, comparison.soils_driven())),
         likely_(likely_soils(map, comparison.soils_driven())),
         seed_(settings.seed),
         stop_(settings.stop),
@@ -95,6 +96,7 @@ class EffectSearch {
       result.found.push_back(std::move(finding));
     }
     result.noise = noise_;
+    result.vehicle = estimated_vehicle(uncertain_, trials_, fit_.parameters, fit_.parameters_std);
     result.soils = soils_left();
     result.rms_after = rms(comparison_.measured() - predicted());
     return result;
@@ -440,6 +442,7 @@ class EffectSearch {
   double gravity_mps2_;
   WindowComparison& comparison_;
   Eigen::MatrixXd shifts_;  ///< of the inputs that were linearised about
+  const UncertainVehicle& uncertain_;
   std::vector<VehicleTrial> trials_;
   std::vector<LikelySoil> likely_;  ///< what the contest's likely soils are
   std::uint64_t seed_;

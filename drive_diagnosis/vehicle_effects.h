@@ -9,6 +9,7 @@
 
 #include "drive_diagnosis/drive_windows.h"
 #include "drive_diagnosis/mounting.h"
+#include "drive_diagnosis/vehicle_trials.h"
 #include "drive_diagnosis/window_comparison.h"
 #include "drive_diagnosis/window_prediction.h"
 
@@ -43,6 +44,7 @@ struct VehicleFinding {
 struct VehicleEffects {
   std::vector<VehicleFinding> found;
   VehicleFinding strongest_left;  ///< what did not stand out
+  UncertainVehicle vehicle;       ///< of the numbers that nobody knew well, what the drives say
   std::vector<MapSoil> soils;  ///< of the map, with what is left of the spread of those driven on
   int windows = 0;             ///< that were compared
   std::vector<std::string> channels;
@@ -59,6 +61,7 @@ struct VehicleComparison {
 };
 
 struct EffectSearchSettings {
+  UncertainVehicle uncertain = {};
   std::uint64_t seed = 1;
   int threads = 2;  ///< changes no result
   std::stop_token stop = {};

@@ -26,6 +26,11 @@ class Trials {
   std::vector<VehicleTrial> trials;
 };
 
+/// How far a number may be off, as a share of it.
+double share_or(const std::optional<DriveEstimate>& number, double sound) {
+  return number ? number->std / number->value : sound;
+}
+
 constexpr double kSoundDrag_nm = 0.2, kSoundSteer_deg = 0.1, kSoundMotor = 0.01;
 
 void add_wheels(const Vehicle& vehicle, Trials& trials) {
@@ -68,21 +73,23 @@ void add_pairs(const Vehicle& vehicle, Trials& trials) {
 
 }  // namespace
 
-std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMap& map,
-                                         const std::vector<bool>& soils) {
+std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const UncertainVehicle& uncertain,
+                                         const TerrainMap& map, const std::vector<bool>& soils) {
   Trials trials;
   add_wheels(vehicle, trials);
   add_pairs(vehicle, trials);
-  trials.add("motor_constant", "torque_share", kSoundMotor,
+  trials.add("motor_constant", "torque_share", share_or(uncertain.motor_constant, kSoundMotor),
              [](VehicleDeviation& d, double size) { d.motor_share.fill(size); });
-  trials.add("wheel_radius", "radius_share", 0.003, &VehicleDeviation::radius_share);
-  trials.add("payload", "mass_share", 0.015, &VehicleDeviation::payload_share);
+  trials.add("wheel_radius", "radius_share", share_or(uncertain.wheel_radius_m, 0.003),
+             &VehicleDeviation::radius_share);
+  trials.add("payload", "mass_share", share_or(uncertain.mass_kg, 0.015),
+             &VehicleDeviation::payload_share);
   trials.add("cg_offset", "forward_m", 0.015, &VehicleDeviation::cg_forward_m);
   trials.add("cg_offset", "left_m", 0.015, &VehicleDeviation::cg_left_m);
   trials.add("cg_offset", "up_m", 0.025, &VehicleDeviation::cg_up_m);
   trials.add("tow_drag", "drag_n", 3, &VehicleDeviation::tow_drag_n);
-  trials.add("map_offset", "east_m", 0.3, &VehicleDeviation::map_east_m);
-  trials.add("map_offset", "north_m", 0.3, &VehicleDeviation::map_north_m);
+  trials.add("map_offset", "east_m", 0.2, &VehicleDeviation::map_east_m);
+  trials.add("map_offset", "north_m", 0.2, &VehicleDeviation::map_north_m);
   if (std::ranges::count(soils, true) > 1) {
     trials.add("zone_border", "east_m", 0.5, &VehicleDeviation::soil_east_m);
     trials.add("zone_border", "north_m", 0.5, &VehicleDeviation::soil_north_m);
@@ -104,6 +111,23 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMa
     }
   }
   return trials.trials;
+}
+
+UncertainVehicle estimated_vehicle(const UncertainVehicle& said,
+                                   const std::vector<VehicleTrial>& trials,
+                                   const Eigen::VectorXd& sizes, const Eigen::VectorXd& stds) {
+  const auto estimate = [&](const std::optional<DriveEstimate>& number, std::string_view parameter,
+                            int power) -> std::optional<DriveEstimate> {
+    if (!number) return {};
+    const auto trial = std::ranges::find(trials, parameter, &VehicleTrial::parameter);
+    const auto k = static_cast<Eigen::Index>(trial - trials.begin());
+    const double value = number->value * std::pow(1 + sizes[k] * trial->unit, power);
+    return DriveEstimate{value, value * stds[k] * trial->unit};
+  };
+  return {.mass_kg = estimate(said.mass_kg, "mass_share", 1),
+          .wheel_radius_m = estimate(said.wheel_radius_m, "radius_share", 1),
+          // What is told too large by a share is to be multiplied by less.
+          .motor_constant = estimate(said.motor_constant, "torque_share", -1)};
 }
 
 std::vector<SoilNumbers> soil_stds(const std::vector<VehicleTrial>& trials,

@@ -1,11 +1,22 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "drive_diagnosis/mounting.h"
 #include "drive_diagnosis/window_prediction.h"
 
 namespace regoplan {
+
+/// Numbers of a vehicle that nobody knows well, each with how far it may be off; one that is not
+/// given is as well known as a sound vehicle's. The vehicle itself holds the values.
+struct UncertainVehicle {
+  std::optional<DriveEstimate> mass_kg, wheel_radius_m;
+  /// By which a wheel's recorded torque, or its current where no torque is recorded, is multiplied
+  /// to get N m.
+  std::optional<DriveEstimate> motor_constant;
+};
 
 /// Something of vehicle, sensors or soil that may be otherwise, by one number.
 struct VehicleTrial {
@@ -17,8 +28,14 @@ struct VehicleTrial {
 
 /// Everything that may be otherwise all along: faults, and numbers of the map's soils.
 /// \param soils that were driven on, by index
-std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const TerrainMap& map,
-                                         const std::vector<bool>& soils);
+std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const UncertainVehicle& uncertain,
+                                         const TerrainMap& map, const std::vector<bool>& soils);
+
+/// The numbers of a vehicle that nobody knew well, as they are estimated.
+/// \param sizes, stds of each trial
+UncertainVehicle estimated_vehicle(const UncertainVehicle& said,
+                                   const std::vector<VehicleTrial>& trials,
+                                   const Eigen::VectorXd& sizes, const Eigen::VectorXd& stds);
 
 /// What is left of the spread of each soil's numbers, in standard deviations: 1 where no trial is
 /// of it. \param stds of each trial

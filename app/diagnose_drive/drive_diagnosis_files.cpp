@@ -144,6 +144,17 @@ Json fit_json(const DriveDiagnosis& diagnosis) {
   return fit;
 }
 
+/// The numbers of the vehicle that the setup says nobody knows well, as the drives tell them.
+Json vehicle_json(const UncertainVehicle& vehicle) {
+  Json json = Json::object();
+  for (const auto& [key, number] : {std::pair{"mass_kg", vehicle.mass_kg},
+                                    {"wheel_radius_m", vehicle.wheel_radius_m},
+                                    {"motor_constant", vehicle.motor_constant}}) {
+    if (number) json[key] = estimate_json(*number);
+  }
+  return json;
+}
+
 Json windows_used_json(const WindowsUsed& used) {
   Json left_out = Json::object();
   for (std::size_t i = 0; i < kLeftOutReasons; ++i) {
@@ -187,6 +198,7 @@ Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
   json["findings"] = list_json(diagnosis.findings, finding_json);
   json["fit"] = fit_json(diagnosis);
   if (diagnosis.currents) json["currents"] = currents_json(run, *diagnosis.currents);
+  if (diagnosis.effects) json["vehicle"] = vehicle_json(diagnosis.effects->vehicle);
   json["mounting"] = list_json(diagnosis.mountings, [](const Mounting& day) {
     return Json{{"day", day.day},
                 {"pitch_deg", degrees_json(day.pitch_rad)},

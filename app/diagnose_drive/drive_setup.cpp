@@ -22,6 +22,34 @@ DriveEstimate read_angle(const SettingsNode& node) {
   });
 }
 
+DriveEstimate read_number(const SettingsNode& node) {
+  if (node.kind() != SettingsNode::Kind::kMapping) throw node.error("{mean, std} is expected");
+  return read_mapping(node, [&](SettingsMapping& mapping) {
+    return DriveEstimate{mapping.number("mean", kAbove0), mapping.number("std", kAbove0)};
+  });
+}
+
+/// Numbers of the vehicle that nobody knows well: their means take the place of the vehicle's own.
+void read_uncertain(const SettingsNode& node, DriveSetup& setup) {
+  if (!setup.vehicle) throw node.error("the scenario has no vehicle whose numbers these could be");
+  Vehicle& vehicle = *setup.vehicle;
+  read_mapping(node, [&](SettingsMapping& keys) {
+    if (const SettingsNode* mass = keys.optional("mass_kg")) {
+      setup.uncertain.mass_kg = read_number(*mass);
+      vehicle.mass_kg = setup.uncertain.mass_kg->value;
+    }
+    if (const SettingsNode* radius = keys.optional("wheel_radius_m")) {
+      setup.uncertain.wheel_radius_m = read_number(*radius);
+      vehicle.wheel.radius_m = setup.uncertain.wheel_radius_m->value;
+    }
+    if (const SettingsNode* motor = keys.optional("motor_constant")) {
+      setup.uncertain.motor_constant = read_number(*motor);
+    }
+    validate(vehicle);
+    return true;
+  });
+}
+
 void read_setup_keys(const std::string& file, DriveSetup& setup) {
   read_mapping(read_settings(file), [&](SettingsMapping& mapping) {
     if (const SettingsNode* mounting = mapping.optional("mounting")) {
@@ -34,6 +62,7 @@ void read_setup_keys(const std::string& file, DriveSetup& setup) {
         return true;
       });
     }
+    if (const SettingsNode* vehicle = mapping.optional("vehicle")) read_uncertain(*vehicle, setup);
     setup.window_s = mapping.number_or("window_s", {.min = 1, .max = 20}, setup.window_s);
     return true;
   });
@@ -61,6 +90,9 @@ DriveSetupFile read_drive_setup(const std::string& scenario_file,
       });
     }
   }
+  constexpr double kWithVehicle_s = 5;  // steering settles, and poses at 1 Hz give a speed
+  if (read.setup.vehicle) read.setup.window_s = kWithVehicle_s;
+  if (setup_file) read_setup_keys(*setup_file, read.setup);
   if (read.setup.vehicle) {
     const Limits usual = default_limits(*read.setup.vehicle);
     const SettingsNode* limits = root.find("limits");
@@ -69,9 +101,6 @@ DriveSetupFile read_drive_setup(const std::string& scenario_file,
   if (read.setup.vehicle && read.setup.gravity_mps2 == 0) {
     throw root.error("gravity_mps2 is missing: a vehicle needs it");
   }
-  constexpr double kWithVehicle_s = 5;  // steering settles, and poses at 1 Hz give a speed
-  if (read.setup.vehicle) read.setup.window_s = kWithVehicle_s;
-  if (setup_file) read_setup_keys(*setup_file, read.setup);
   return read;
 }
 

@@ -20,6 +20,7 @@ struct DriveSetupFile {
 /// play no part; without a vehicle only what needs none is diagnosed), and of the setup
 ///
 ///     mounting: {pitch_deg: {mean, std}, roll_deg: {mean, std}}   # of the attitude sensor
+///     vehicle: {mass_kg: {mean, std}, wheel_radius_m: {mean, std}, motor_constant: {mean, std}}
 ///     window_s: 3                                   # 1 to 20; with a vehicle else 5
 ///
 /// \throws SettingsError
