@@ -266,7 +266,7 @@ class EffectSearch {
     }
     const std::size_t along = comparison_.slope_along();
     const auto white = [&](std::size_t input) {
-      return Eigen::VectorXd(noise.input_scales()[input] * noise.whitened(inputs[input]));
+      return Eigen::VectorXd(noise.input_scales()[input] * noise.whitened(here.inputs[input]));
     };
     contest_.ground = likely_slope_errors(
         contest_, {.along = white(along), .across = white(along + 1), .channels = base.cols()},
