@@ -141,13 +141,13 @@ TEST_F(Faults, APipeThatNobodyWritesToCanBeInterrupted) {
         "diagnose" + pipe + "--setup" + file("m.yaml") + "--out" + file("out"),
         "map info" + pipe}) {
     // Late enough that it has started on a busy machine as well, and waits.
-    EXPECT_EQ(shell("timeout --preserve-status -k 2 -s INT 1.5 @ " + arguments), 130) << arguments;
+    EXPECT_EQ(shell("timeout --preserve-status -k 20 -s INT 1.5 @ " + arguments), 130) << arguments;
     EXPECT_EQ(folder_.read("errors"), "regoplan: interrupted\n") << arguments;
   }
-  EXPECT_EQ(shell("timeout --preserve-status -k 2 -s TERM 1.5 @ map info" + pipe), 143);
+  EXPECT_EQ(shell("timeout --preserve-status -k 20 -s TERM 1.5 @ map info" + pipe), 143);
   // One that somebody holds open and writes nothing to.
   const std::string held = "exec 9<>" + pipe +
-                           "; timeout --preserve-status -k 2 -s INT 1.5 @ wheel" + pipe +
+                           "; timeout --preserve-status -k 20 -s INT 1.5 @ wheel" + pipe +
                            "--model" + file("m.yaml");
   EXPECT_EQ(shell(held), 130);
   EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
