@@ -162,13 +162,13 @@ Vehicle corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects)
       corrected.wheel.radius_m = vehicle.wheel.radius_m * (1 + found.size);
     if (found.id == "payload") corrected.mass_kg = vehicle.mass_kg * (1 + found.size);
     if (found.id != "cg_offset") continue;
-    if (found.parameter == "up_m") corrected.cg_height_m += found.size;
-    // Wheels are told from the centre of gravity.
-    for (WheelMount& mount : corrected.wheels) {
-      if (found.parameter == "forward_m") mount.x_m -= found.size;
-      if (found.parameter == "left_m") mount.y_m -= found.size;
-    }
+    const auto off_m = [&found](std::string_view way) {
+      return found.parameter == way ? found.size : 0;
+    };
+    corrected = with_centre_moved(corrected, off_m("forward_m"), off_m("left_m"), off_m("up_m"));
   }
+  // Told from a centre of gravity nearer to its inner wheels, the same turn asks more of them.
+  corrected.curvature_max_1pm = steerable_curvature_1pm(corrected);
   return corrected;
 }
 

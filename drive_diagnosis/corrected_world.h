@@ -27,7 +27,8 @@ TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
                          const std::vector<DriveWindow>& windows);
 
 /// The vehicle with wheel radius, mass and centre of gravity as they were named, and with the mass
-/// and wheel radius that nobody knew well as they were estimated.
+/// and wheel radius that nobody knew well as they were estimated. Where wheels cannot steer its
+/// largest curvature any more, told from the centre of gravity that was found, it is what they can.
 Vehicle corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects);
 
 }  // namespace regoplan

@@ -33,12 +33,8 @@ struct Scene {
 
 Vehicle deviating(Vehicle vehicle, const VehicleDeviation& deviation) {
   vehicle.mass_kg *= 1 + deviation.payload_share;
-  vehicle.cg_height_m += deviation.cg_up_m;
-  for (WheelMount& mount : vehicle.wheels) {
-    mount.x_m -= deviation.cg_forward_m;
-    mount.y_m -= deviation.cg_left_m;
-  }
-  return vehicle;
+  return with_centre_moved(std::move(vehicle), deviation.cg_forward_m, deviation.cg_left_m,
+                           deviation.cg_up_m);
 }
 
 Soils soils_under(const TerrainMap& map, const Vehicle& vehicle, const WindowPart& place,

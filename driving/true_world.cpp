@@ -14,16 +14,7 @@ Vehicle true_vehicle(Vehicle vehicle, const DriveTruth& truth) {
   const double mass_kg = vehicle.mass_kg + truth.payload_kg;
   vehicle.yaw_inertia_kgm2 *= mass_kg / vehicle.mass_kg;
   vehicle.mass_kg = mass_kg;
-  vehicle.cg_height_m += truth.cg_up_m;
-  vehicle.turn_centre_x_m -= truth.cg_forward_m;
-  for (WheelMount& wheel : vehicle.wheels) {
-    wheel.x_m -= truth.cg_forward_m;
-    wheel.y_m -= truth.cg_left_m;
-  }
-  if (vehicle.rocker_bogie) {
-    vehicle.rocker_bogie->rocker_pivot_x_m -= truth.cg_forward_m;
-    vehicle.rocker_bogie->bogie_pivot_x_m -= truth.cg_forward_m;
-  }
+  vehicle = with_centre_moved(vehicle, truth.cg_forward_m, truth.cg_left_m, truth.cg_up_m);
   // Whether it can steer so far was asked of the known vehicle: a moved centre of gravity does not
   // change its steering, only from where it is told.
   Vehicle checked = vehicle;

@@ -89,6 +89,14 @@ void validate_wheels(const std::vector<WheelMount>& wheels) {
   }
 }
 
+/// Whether a wheel has room to steer against slip beside its angle at a curvature, either side.
+bool has_room_to_steer(const Vehicle& vehicle, const WheelMount& wheel, double curvature_1pm) {
+  return std::ranges::all_of(std::array{-1.0, 1.0}, [&](double side) {
+    return std::abs(steer_angle_rad(vehicle, wheel, side * curvature_1pm)) + kSteerReserve_rad <=
+           vehicle.steer_angle_max_rad;
+  });
+}
+
 void validate_steering(const Vehicle& vehicle) {
   require_above("curvature_max_1pm", vehicle.curvature_max_1pm, 0, 100);
   require_above("curvature_rate_max_1pms", vehicle.curvature_rate_max_1pms, 0, 1000);
@@ -126,17 +134,16 @@ void validate_steering(const Vehicle& vehicle) {
           fmt::format("off turn_centre_x_m = {:.6g}: there a steered wheel never turns",
                       vehicle.turn_centre_x_m));
     }
-    for (const double side : {-1.0, 1.0}) {
+    if (!has_room_to_steer(vehicle, wheel, vehicle.curvature_max_1pm)) {
       const double angle_rad =
-          std::abs(steer_angle_rad(vehicle, wheel, side * vehicle.curvature_max_1pm));
-      if (!(angle_rad + kSteerReserve_rad <= vehicle.steer_angle_max_rad)) {
-        throw ValueError(
-            "curvature_max_1pm", vehicle.curvature_max_1pm,
-            fmt::format("what keeps every wheel 1 deg within steer_angle_max_deg = {:.6g}; wheel "
-                        "'{}' would need {:.4g} deg",
-                        rounded_degrees(vehicle.steer_angle_max_rad), wheel.name,
-                        rounded_degrees(angle_rad)));
-      }
+          std::max(std::abs(steer_angle_rad(vehicle, wheel, vehicle.curvature_max_1pm)),
+                   std::abs(steer_angle_rad(vehicle, wheel, -vehicle.curvature_max_1pm)));
+      throw ValueError(
+          "curvature_max_1pm", vehicle.curvature_max_1pm,
+          fmt::format("what keeps every wheel 1 deg within steer_angle_max_deg = {:.6g}; wheel "
+                      "'{}' would need {:.4g} deg",
+                      rounded_degrees(vehicle.steer_angle_max_rad), wheel.name,
+                      rounded_degrees(angle_rad)));
     }
   }
 }
@@ -207,6 +214,40 @@ void validate_body(const BodyBox& body) {
 }
 
 }  // namespace
+
+double steerable_curvature_1pm(const Vehicle& vehicle) {
+  const auto can_steer = [&vehicle](double curvature_1pm) {
+    if (std::abs(curvature_1pm * vehicle.turn_centre_x_m) >= 1) return false;
+    return std::ranges::all_of(vehicle.wheels, [&](const WheelMount& wheel) {
+      return !wheel.steered || has_room_to_steer(vehicle, wheel, curvature_1pm);
+    });
+  };
+  if (can_steer(vehicle.curvature_max_1pm)) return vehicle.curvature_max_1pm;
+  double can = 0, cannot = vehicle.curvature_max_1pm;
+  while (cannot - can > 1e-9 * vehicle.curvature_max_1pm) {
+    const double middle = (can + cannot) / 2;
+    (can_steer(middle) ? can : cannot) = middle;
+  }
+  return can;
+}
+
+Vehicle with_centre_moved(Vehicle vehicle, double forward_m, double left_m, double up_m) {
+  vehicle.cg_height_m += up_m;
+  vehicle.turn_centre_x_m -= forward_m;
+  for (WheelMount& wheel : vehicle.wheels) {
+    wheel.x_m -= forward_m;
+    wheel.y_m -= left_m;
+  }
+  if (vehicle.rocker_bogie) {
+    vehicle.rocker_bogie->rocker_pivot_x_m -= forward_m;
+    vehicle.rocker_bogie->bogie_pivot_x_m -= forward_m;
+  }
+  vehicle.body.x_min_m -= forward_m;
+  vehicle.body.x_max_m -= forward_m;
+  vehicle.body.y_min_m -= left_m;
+  vehicle.body.y_max_m -= left_m;
+  return vehicle;
+}
 
 double steer_angle_rad(const Vehicle& vehicle, const WheelMount& wheel, double curvature_1pm) {
   if (!wheel.steered) return 0;

@@ -110,6 +110,16 @@ double steer_angle_rad(const Vehicle& vehicle, const WheelMount& wheel, double c
 /// `steer_angle_rad`: -asin(k x_c). Radians, odd in k, NaN where |k x_c| > 1.
 double kinematic_body_slip_angle_rad(const Vehicle& vehicle, double curvature_1pm);
 
+/// The largest curvature up to `curvature_max_1pm`, either side, at which every steered wheel stays
+/// 1 deg within `steer_angle_max_rad`, as `validate` asks of the maximum itself. \returns 1/m, to
+/// 1e-9 of the maximum
+double steerable_curvature_1pm(const Vehicle& vehicle);
+
+/// The vehicle told from another centre of gravity: wheels, turn centre, pivots and body stay where
+/// they are and lie so much farther back, right and down from it. Its curvatures stay as they were,
+/// though told of another point: `steerable_curvature_1pm` says whether it can still steer them.
+Vehicle with_centre_moved(Vehicle vehicle, double forward_m, double left_m, double up_m);
+
 /// Distance of the outermost wheel from the vehicle's origin.
 double longest_arm_m(const Vehicle& vehicle);
 

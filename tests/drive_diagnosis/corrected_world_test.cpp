@@ -133,6 +133,22 @@ TEST(CorrectedVehicle, TakesWhatWasNamedAndNothingElse) {
     EXPECT_DOUBLE_EQ(corrected.wheels[i].x_m, lrv.wheels[i].x_m - 0.05);
     EXPECT_EQ(corrected.wheels[i].y_m, lrv.wheels[i].y_m);
   }
+  EXPECT_DOUBLE_EQ(corrected.body.x_max_m, lrv.body.x_max_m - 0.05);
+  EXPECT_DOUBLE_EQ(corrected.turn_centre_x_m, lrv.turn_centre_x_m - 0.05);
+}
+
+TEST(CorrectedVehicle, CanBePlannedForWhereverItsCentreOfGravityWasFound) {
+  const Vehicle lrv = preset_vehicle("lrv");
+  for (const char* way : {"forward_m", "left_m", "up_m"}) {
+    for (const double off_m : {-0.25, -0.1, 0.1, 0.25}) {
+      VehicleEffects effects;
+      effects.found = {{.id = "cg_offset", .parameter = way, .size = off_m}};
+      const Vehicle corrected = corrected_vehicle(lrv, effects);
+      EXPECT_NO_THROW(validate(corrected)) << way << " " << off_m;
+      EXPECT_LE(corrected.curvature_max_1pm, lrv.curvature_max_1pm);
+      EXPECT_GT(corrected.curvature_max_1pm, 0.8 * lrv.curvature_max_1pm);
+    }
+  }
 }
 
 }  // namespace
