@@ -11,6 +11,7 @@
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/names/calibrated_recording.h"
 #include "diagnosis/names/claim.h"
+#include "diagnosis/names/claimed_place.h"
 #include "diagnosis/names/correction.h"
 #include "diagnosis/names/name_contest.h"
 #include "diagnosis/names/next_experiment.h"
@@ -46,14 +47,12 @@ class Diagnosing {
     tell("testing for lack of fit", 0.05);
     detect();
     tell("locating the mismatch", 0.1);
-    if (rejected_) {
-      found_.where = locate(calibrated_.recording(), calibrated_.remainder_of(calibrated_.base()),
-                            options_.seed + 1);
-      tell_when();
-    }
+    if (rejected_) locate_mismatch();
     complete_ = found_;
     tell("scoring what may be wrong", 0.15);
+    const bool located = rejected_;
     score();
+    if (rejected_ && !located) locate_mismatch();
     found_.ranking = ranking();
     complete_ = found_;
     tell("proving it on held-out conditions", 0.85);
@@ -115,10 +114,18 @@ class Diagnosing {
   }
 
   /// Where replicates follow a course, the part of it in which a channel is off comes first.
-  void tell_when() {
+  void locate_mismatch() {
     const CondensedRecording& recording = calibrated_.recording();
+    found_.where =
+        locate(recording, calibrated_.remainder_of(calibrated_.base()), options_.seed + 1);
     if (!recording.course) return;
     if (auto when = last_part_of(recording)) found_.where.insert(found_.where.begin(), *when);
+  }
+
+  /// What is claimed says itself when or on which stretch it acts: nearer than a scan does.
+  void take_places_of(const CandidateFit& fit) {
+    const std::vector<MismatchRegion> places = claimed_places(calibrated_.problem(), fit);
+    found_.where.insert(found_.where.begin(), places.begin(), places.end());
   }
 
   /// What each effect at a usual size would add to the calibrated model.
@@ -173,6 +180,7 @@ class Diagnosing {
       const bool single = std::ranges::all_of(
           claim->names, [](const NameClass& names) { return names.ids.size() == 1; });
       found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
+      take_places_of(claim->fit);
       take(
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
       return;
@@ -214,6 +222,7 @@ class Diagnosing {
     partial_ranking_ = std::move(part.ranking);
     found_.remainder_share = remainder_share(found_.claims);
     const CandidateFit& fit = part.claim->fit;
+    take_places_of(fit);
     const std::vector<std::size_t> left = remainder_settings(calibrated_.problem(), fit);
     take(correction_by(calibrated_, fit, left,
                        calibrated_.held_out({.fit = &fit, .remainder = left}, options_.threads),

@@ -6,19 +6,29 @@
 #include "terramech/basics/angles.h"
 
 namespace regoplan {
+namespace {
+
+constexpr double kSlipGap = 0.015;
+
+ConditionAxis axis_of(const TestBed& bed, std::string column, double gap, const auto& value) {
+  ConditionAxis axis{.column = std::move(column)};
+  for (const Condition& at : bed.conditions) axis.value.push_back(value(at));
+  const auto [low, high] = std::ranges::minmax(axis.value);
+  // runs that were meant alike differ a little; a scale of the axis decides where none is known
+  axis.level = levels(axis.value, gap > 0 ? gap : (high - low) / 50);
+  axis.levels = 1 + std::ranges::max(axis.level);
+  return axis;
+}
+
+}  // namespace
 
 std::vector<ConditionAxis> condition_axes(const TestBed& bed) {
   std::vector<ConditionAxis> axes;
   const auto add = [&](std::string column, double gap, const auto& value) {
-    ConditionAxis axis{.column = std::move(column)};
-    for (const Condition& at : bed.conditions) axis.value.push_back(value(at));
-    const auto [low, high] = std::ranges::minmax(axis.value);
-    // runs that were meant alike differ a little; a scale of the axis decides where none is known
-    axis.level = levels(axis.value, gap > 0 ? gap : (high - low) / 50);
-    axis.levels = 1 + std::ranges::max(axis.level);
+    ConditionAxis axis = axis_of(bed, std::move(column), gap, value);
     if (axis.levels > 1) axes.push_back(std::move(axis));
   };
-  add("slip_ratio", 0.015, [](const Condition& at) { return at.slip_ratio; });
+  add("slip_ratio", kSlipGap, [](const Condition& at) { return at.slip_ratio; });
   bool left = false, right = false;
   for (const Condition& at : bed.conditions) {
     left = left || at.slip_angle_rad > 0.01;
@@ -36,6 +46,13 @@ std::vector<ConditionAxis> condition_axes(const TestBed& bed) {
   add("position_m", 0, [](const Condition& at) { return at.conditions.position_m; });
   add("time_s", 0, [](const Condition& at) { return at.conditions.time_s; });
   return axes;
+}
+
+std::optional<ConditionAxis> memory_axis(const TestBed& bed) {
+  ConditionAxis axis = axis_of(bed, "after_slip_ratio", kSlipGap,
+                               [](const Condition& at) { return at.after_slip_ratio; });
+  if (axis.levels < 2) return std::nullopt;
+  return axis;
 }
 
 }  // namespace regoplan

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,9 @@ struct ConditionAxis {
 /// were tested), `load_n`, `speed_mps`, `pass`, `position_m`, `time_s`. Levels of slip and the like
 /// that lie close together count as one.
 std::vector<ConditionAxis> condition_axes(const TestBed& bed);
+
+/// `after_slip_ratio`, the slip of the run before, which a bed may remember; nothing where it does
+/// not vary.
+std::optional<ConditionAxis> memory_axis(const TestBed& bed);
 
 }  // namespace regoplan

@@ -58,6 +58,12 @@ class Scan {
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       for (std::size_t b = a + 1; b < axes_.size(); ++b) corners(axes_[a], axes_[b]);
     }
+    // Last: where the run before tells no more than the run itself does, the run counts.
+    if (const auto memory = memory_axis(bed)) {
+      for (const Interval& interval : intervals(memory->levels, true)) {
+        add({&*memory}, members(*memory, interval));
+      }
+    }
   }
 
   const std::vector<Region>& regions() const { return regions_; }

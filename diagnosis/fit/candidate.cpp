@@ -151,6 +151,7 @@ class EffectList {
             .kind = EffectKind::kGain,
             .coordinates = {{.name = "gain", .spread = 0.1}},
             .to = c});
+      add_changing_gains({c});
       for (std::size_t k = 0; k < bed_.channels.size(); ++k) {
         if (k == c || !crosses(bed_.channels[c].channel) || !crosses(bed_.channels[k].channel)) {
           continue;
@@ -166,6 +167,13 @@ class EffectList {
               .from = k});
       }
     }
+    // One transducer measures both forces.
+    std::vector<std::size_t> forces;
+    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
+      const Channel channel = bed_.channels[c].channel;
+      if (channel == Channel::kFx || channel == Channel::kFy) forces.push_back(c);
+    }
+    if (forces.size() > 1) add_changing_gains(forces);
   }
 
   std::vector<Effect> take() { return std::move(effects_); }
@@ -182,6 +190,29 @@ class EffectList {
     return std::nullopt;
   }
 
+  /// A gain of these channels that settles or drifts, where the recording tells the time.
+  void add_changing_gains(const std::vector<std::size_t>& channels) {
+    if (!columns_.time || columns_.difference) return;
+    const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
+    Effect effect{.id = "sensor_gain",
+                  .kind = EffectKind::kGain,
+                  .coordinates = {{.name = "gain", .spread = 0.1}},
+                  .fixed = {{"first_time_s", time.low}, {"last_time_s", time.high}},
+                  .to = channels.front(),
+                  .also = {channels.begin() + 1, channels.end()}};
+    std::string names;
+    for (const std::size_t c : channels) names += " " + std::string(name(bed_.channels[c].channel));
+    effect.form = "drifting" + names;
+    effect.course = GainCourse::kDrifting;
+    push(effect);
+    effect.form = "settling" + names;
+    effect.course = GainCourse::kSettling;
+    effect.coordinates.push_back(positive("settling_time_s", 0.05 * time.width(), time.width()));
+    // Without a gain, the time in which it settles would change nothing.
+    effect.start = {0.5, 0};
+    effects_.push_back(effect);
+  }
+
   double signal(std::size_t c) const {
     const Eigen::VectorXd& y = bed_.channels[c].mean;
     return std::sqrt(y.squaredNorm() / static_cast<double>(y.size())) + bed_.channels[c].scale;
@@ -196,6 +227,28 @@ class EffectList {
   Columns columns_;
   std::vector<Effect> effects_;
 };
+
+/// Multiplies one channel by what an effect's gain is at the time of each condition.
+/// \param x the effect's coordinates
+void apply_gain(const TestBed& bed, const Effect& effect, std::size_t channel,
+                const Eigen::VectorXd& x, Eigen::VectorXd& values) {
+  const double gain = effect.coordinates.front().value(x[0]);
+  const ChannelData& data = bed.channels[channel];
+  auto to = values.segment(bed.offset(channel), data.mean.size());
+  if (effect.course == GainCourse::kConstant) {
+    to *= 1 + gain;
+    return;
+  }
+  const double first = effect.fixed.at("first_time_s"), last = effect.fixed.at("last_time_s");
+  for (Eigen::Index i = 0; i < to.size(); ++i) {
+    const std::size_t at = data.conditions[static_cast<std::size_t>(i)];
+    const double passed = bed.conditions[at].conditions.time_s - first;
+    const double share = effect.course == GainCourse::kDrifting
+                             ? passed / (last - first)
+                             : std::exp(-passed / effect.coordinates[1].value(x[1]));
+    to[i] *= 1 + gain * share;
+  }
+}
 
 }  // namespace
 
@@ -243,8 +296,13 @@ bool is_instrument(const std::string& id) {
   return id.starts_with("sensor_") || id == "slip_scale" || id == "load_transfer";
 }
 
-bool has_one_form(const std::string& id) {
-  return id.starts_with("sensor_") || id == "slip_scale" || id == "slope_tilt";
+bool has_one_form(const Effect& effect) {
+  if (effect.course != GainCourse::kConstant) return false;
+  return effect.id.starts_with("sensor_") || effect.id == "slip_scale" || effect.id == "slope_tilt";
+}
+
+bool is_told_by_time(const Effect& effect) {
+  return effect.id == "cohesion_drift" || effect.course != GainCourse::kConstant;
 }
 
 std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, EffectsOf of) {
@@ -315,7 +373,12 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const std::vector<Soi
       const double amount = effect.coordinates.front().value(x[next]);
       auto to = values->segment(bed.offset(effect.to), bed.channels[effect.to].mean.size());
       if (effect.kind == EffectKind::kBias) to.array() += amount;
-      if (effect.kind == EffectKind::kGain) to *= 1 + amount;
+      if (effect.kind == EffectKind::kGain) {
+        apply_gain(bed, effect, effect.to, x.segment(next, size), *values);
+        for (const std::size_t c : effect.also) {
+          apply_gain(bed, effect, c, x.segment(next, size), *values);
+        }
+      }
       if (effect.kind == EffectKind::kCrosstalk) {
         // both channels stand at their conditions; one that lacks the other's value stays as it is
         const ChannelData& source = bed.channels[effect.from];

@@ -36,6 +36,13 @@ Soil soil_at(const UncertainSoil& soil, const std::vector<SoilCoordinate>& coord
 
 enum class EffectKind { kMechanism, kBias, kGain, kCrosstalk };
 
+/// How a gain changes in time, t from 0 at the first condition to 1 at the last.
+enum class GainCourse {
+  kConstant,  ///< gain
+  kSettling,  ///< gain exp(-(time - first time)/settling_time_s): an amplifier that warms up
+  kDrifting,  ///< gain t
+};
+
 /// One form of one thing that may be wrong: a mechanism of the wheel or a fault of an instrument.
 struct Effect {
   std::string id;
@@ -43,8 +50,10 @@ struct Effect {
   EffectKind kind = EffectKind::kMechanism;
   std::vector<Coordinate> coordinates;
   std::map<std::string, double> fixed;
-  std::size_t to = 0, from = 0;  ///< instruments: index into TestBed::channels
-  std::vector<double> start;     ///< x to start a fit from
+  std::size_t to = 0, from = 0;   ///< instruments: index into TestBed::channels
+  std::vector<std::size_t> also;  ///< further channels that the same gain acts on
+  GainCourse course = GainCourse::kConstant;
+  std::vector<double> start;  ///< x to start a fit from
   /// Its last coordinate is a factor on kx and ky of the soil: the modulus of another shear law is
   /// not the one that soil tests state.
   bool own_modulus = false;
@@ -55,8 +64,12 @@ struct Effect {
 bool is_instrument(const std::string& id);
 
 /// Whether what it does is known to the last term, so that no other form of it can be meant: a
-/// sensor's bias, gain and crosstalk, a scale, a tilt.
-bool has_one_form(const std::string& id);
+/// sensor's bias, constant gain and crosstalk, a scale, a tilt.
+bool has_one_form(const Effect& effect);
+
+/// Whether nothing but the time of the runs tells it from other effects: two of these together
+/// would share one course in time in any way one likes.
+bool is_told_by_time(const Effect& effect);
 
 /// What effects are to explain: a recording against the model as a whole, by names whose rates of
 /// error are known from campaigns; in part, by later names too; or against a reference, where the

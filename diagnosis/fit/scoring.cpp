@@ -90,7 +90,7 @@ std::vector<Hypothesis> promising_pairs(const FitProblem& problem,
   std::vector<Hypothesis> pairs;
   const auto add = [&](const Hypothesis& single, const Effect& effect) {
     const Effect& first = single.effects.front();
-    if (first.id == effect.id) return;
+    if (first.id == effect.id || (is_told_by_time(first) && is_told_by_time(effect))) return;
     const bool known = std::ranges::any_of(pairs, [&](const Hypothesis& pair) {
       const auto same = [](const Effect& a, const Effect& b) {
         return a.id == b.id && a.form == b.form && a.fixed == b.fixed;

@@ -22,6 +22,14 @@ bool agree(const WheelRun& a, const WheelRun& b) {
          a.conditions.heading_rad == b.conditions.heading_rad && a.wheel == b.wheel;
 }
 
+/// Of the run before another in the order of the runs, 0 where there is none. Samples of one run
+/// follow the same.
+double slip_before(const std::vector<WheelRun>& runs, std::size_t run) {
+  std::size_t before = run;
+  while (before > 0 && runs[before].run_id == runs[run].run_id) --before;
+  return runs[before].run_id == runs[run].run_id ? 0 : runs[before].slip_ratio;
+}
+
 }  // namespace
 
 std::vector<std::size_t> levels(const std::vector<double>& values, double gap) {
@@ -71,6 +79,7 @@ std::vector<Condition> group_conditions(const Recording& recording,
       group.slip_ratio += share * run.slip_ratio;
       group.slip_angle_rad += share * run.slip_angle_rad;
       group.conditions.time_s += share * run.conditions.time_s;
+      group.after_slip_ratio += share * slip_before(recording.runs, r);
       group.one_day = group.one_day && run.day == recording.runs[group.runs.front()].day;
     }
   }

@@ -18,6 +18,7 @@ struct Condition {
   double day = 0;                 ///< of its first run
   bool one_day = true;            ///< whether all its runs are of that day
   double when = 0;                ///< where time is a place: 0 for the first run, 1 for the last
+  double after_slip_ratio = 0;    ///< mean slip of the runs before its own; 0 before the first
   std::vector<std::size_t> runs;  ///< indices into the recording
 };
 

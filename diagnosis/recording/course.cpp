@@ -121,7 +121,7 @@ std::optional<Course> course_of(const Recording& recording,
     }
   }
   // Time that is told leaves no days untold.
-  if (!best || !best->in_time() || best->column == "time_s") return best;
+  if (!best || !best->in_time() || recording.columns.time) return best;
   if (const auto in_rounds = with_rounds_as_days(recording, conditions)) {
     const ChannelContrasts of_rounds = contrasts_of(*in_rounds, conditions, channels, setup, stop);
     best->may_be_days = gain_nats(of_rounds, best->trend) < Thresholds::kCourse_nats;

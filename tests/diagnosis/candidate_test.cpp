@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/bed/condensed_recording.h"
 #include "synthetic_bed.h"
@@ -62,6 +63,50 @@ TEST(Hypothesis, ABiasMovesItsOwnChannelAlone) {
   const Eigen::Index n = bed.channels[1].mean.size();
   EXPECT_NEAR(change.segment(bed.offset(1), n).sum(), 3.0 * static_cast<double>(n), 1e-9);
   EXPECT_NEAR(change.norm(), change.segment(bed.offset(1), n).norm(), 1e-12);
+}
+
+const Effect& changing_gain(const std::vector<Effect>& effects, const std::string& form) {
+  return *std::ranges::find_if(
+      effects, [&](const Effect& e) { return e.id == "sensor_gain" && e.form == form; });
+}
+
+TEST(Hypothesis, AGainMayChangeInTimeWhereTheRecordingTellsTimes) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, {.conditions = 12}, 1);
+  const auto changes = [](const Effect& e) { return e.course != GainCourse::kConstant; };
+  for (WheelRun& run : recording.runs) run.day = 0;
+  EXPECT_TRUE(
+      std::ranges::none_of(effects_for(condense(recording, setup).bed, recording), changes));
+
+  recording.columns.time = true;
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    recording.runs[i].conditions.time_s = 600 * static_cast<double>(i);
+  }
+  const TestBed bed = condense(recording, setup).bed;
+  const auto effects = effects_for(bed, recording);
+  const Effect& settling = changing_gain(effects, "settling fx_n fy_n");
+  const Effect& drifting = changing_gain(effects, "drifting torque_nm");
+  for (const Effect* effect : {&settling, &drifting}) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect->start.size()));
+    x[0] = 2;  // a gain of 0.2
+    const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
+    const Eigen::VectorXd after = *predict(bed, {}, {{*effect}}, x);
+    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+      const bool acts = c == effect->to || std::ranges::count(effect->also, c) > 0;
+      for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
+        const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
+        const double passed = bed.conditions[bed.channels[c].conditions[i]].conditions.time_s -
+                              effect->fixed.at("first_time_s");
+        const double width = effect->fixed.at("last_time_s") - effect->fixed.at("first_time_s");
+        const double share = effect == &drifting
+                                 ? passed / width
+                                 : std::exp(-passed / effect->coordinates[1].value(0));
+        EXPECT_NEAR(after[row], before[row] * (acts ? 1 + 0.2 * share : 1), 1e-9);
+      }
+    }
+  }
+  EXPECT_TRUE(is_told_by_time(settling));
+  EXPECT_FALSE(has_one_form(settling));
 }
 
 }  // namespace

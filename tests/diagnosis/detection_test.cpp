@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
 #include "diagnosis/checks/location.h"
 #include "diagnosis/fit/calibration.h"
 #include "synthetic_bed.h"
@@ -14,18 +18,24 @@ struct Calibrated {
   FitRemainder remainder;
 };
 
-Calibrated calibrated(const TrueWheel& truth, std::uint64_t seed, const BedPlan& plan = {}) {
+Calibrated calibrated(const Recording& recording) {
   const DiagnosisSetup setup = simulant_setup();
-  std::mt19937_64 random(seed);
-  Calibrated made{
-      condense(record(truth, setup, draw(setup.soil, setup.wheel.width_m, random), plan, seed),
-               setup),
-      {}};
+  Calibrated made{condense(recording, setup), {}};
   const Calibration found = calibrate(made.recording.bed, soil_coordinates(setup.soil));
   made.remainder = {.residual = made.recording.bed.measured() - found.prediction,
                     .x = found.x,
                     .jacobian = found.jacobian};
   return made;
+}
+
+Recording recorded(const TrueWheel& truth, std::uint64_t seed, const BedPlan& plan = {}) {
+  const DiagnosisSetup setup = simulant_setup();
+  std::mt19937_64 random(seed);
+  return record(truth, setup, draw(setup.soil, setup.wheel.width_m, random), plan, seed);
+}
+
+Calibrated calibrated(const TrueWheel& truth, std::uint64_t seed, const BedPlan& plan = {}) {
+  return calibrated(recorded(truth, seed, plan));
 }
 
 TrueWheel deep_in_slip() {
@@ -137,6 +147,37 @@ TEST(Location, FindsTheChannelAndTheSlipAngles) {
   ASSERT_TRUE(found.front().region.contains("slip_angle_deg"));
   EXPECT_GT(found.front().region.at("slip_angle_deg")[0], 12);
   EXPECT_GT(found.front().ci95[0], 0);
+}
+
+TEST(Location, ABedThatRemembersIsToldByTheRunBefore) {
+  BedPlan plan;
+  plan.instruments = [before = 0.0](WheelRun& run) mutable {
+    if (before > 0.6) run.measured[0] -= 6;
+    before = run.slip_ratio;
+  };
+  const Calibrated made = calibrated({}, 6, plan);
+  const auto found = locate(made.recording, made.remainder, 6);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.front().channel, Channel::kFx);
+  ASSERT_TRUE(found.front().region.contains("after_slip_ratio"));
+  EXPECT_GT(found.front().region.at("after_slip_ratio")[0], 0.6);
+  EXPECT_LT(found.front().effect, 0);
+}
+
+TEST(Location, WhereSlipRoseFromRunToRunTheRunItselfIsTold) {
+  TrueWheel wheel;
+  wheel.fx_n = [](const WheelRun& run, double) { return run.slip_ratio > 0.6 ? -6.0 : 0.0; };
+  Recording recording = recorded(wheel, 7);
+  // As sweeps go: each slip comes after the next lower one.
+  std::ranges::stable_sort(recording.runs, [](const WheelRun& a, const WheelRun& b) {
+    return std::tuple(a.day, a.slip_angle_rad, std::round(10 * a.slip_ratio)) <
+           std::tuple(b.day, b.slip_angle_rad, std::round(10 * b.slip_ratio));
+  });
+  const Calibrated made = calibrated(recording);
+  const auto found = locate(made.recording, made.remainder, 7);
+  ASSERT_FALSE(found.empty());
+  EXPECT_TRUE(found.front().region.contains("slip_ratio"));
+  EXPECT_FALSE(found.front().region.contains("after_slip_ratio"));
 }
 
 TEST(Location, IsSilentWhereNothingDiffers) {

@@ -74,6 +74,30 @@ TEST(Diagnose, ABiasedSensorIsCalledASensor) {
   EXPECT_TRUE(found.corrected_model.mechanisms.empty());
 }
 
+TEST(Diagnose, AnAmplifierThatWarmsUpIsASensorAndSaidWhen) {
+  constexpr double kRun_s = 120, kSettling_s = 4000;
+  BedPlan plan;
+  plan.instruments = [time_s = 0.0](WheelRun& run) mutable {
+    run.conditions.time_s = time_s;
+    run.day = 0;
+    const double gain = 1 + 0.25 * std::exp(-time_s / kSettling_s);
+    run.measured[0] *= gain;
+    run.measured[1] *= gain;
+    time_s += kRun_s;
+  };
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, plan, 12);
+  recording.columns.time = true;
+  const Diagnosis found = diagnose(recording, setup);
+  EXPECT_TRUE(names(found, "sensor_gain")) << found.sentence;
+  EXPECT_FALSE(names(found, "cohesion_drift")) << found.sentence;
+  EXPECT_TRUE(found.corrected_model.mechanisms.empty());
+  ASSERT_FALSE(found.where.empty());
+  ASSERT_TRUE(found.where.front().region.contains("time_s"));
+  EXPECT_LT(found.where.front().region.at("time_s")[0], kSettling_s / 2);
+  EXPECT_LT(found.where.front().region.at("time_s")[1], 2 * kSettling_s);
+}
+
 TEST(Diagnose, AnEffectOnNoListIsUnexplainedAndItsCorrectionKeepsToWhatWasMeasured) {
   TrueWheel wheel;
   wheel.fx_n = [](const WheelRun& run, double) {
