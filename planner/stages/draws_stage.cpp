@@ -25,9 +25,15 @@ class DrawsStage {
     std::vector<std::map<int, std::vector<double>>> drawn(chosen_.size());
     std::vector<int> given(chosen_.size());
     bool bounded = false, mapped = false, weighed = false;
+    const double half_left_s = plan_.budget.left_s(kDrawsShare) / 2;
     work_off(plan_, [&]() -> std::optional<Piece> {
       if (!std::exchange(bounded, true)) return bound_piece();
-      if (!chosen_.empty() && given.front() > 0 && !std::exchange(mapped, true)) {
+      // A path without draws ranks behind all that have some: each gets its first before the
+      // rasters take a thread for long, unless that left them no time.
+      const bool each_given = !given.empty() && *std::ranges::min_element(given) > 0;
+      const bool is_late = plan_.budget.left_s(kDrawsShare) <= half_left_s;
+      if (!chosen_.empty() && given.front() > 0 && (each_given || is_late) &&
+          !std::exchange(mapped, true)) {
         return rasters_piece();
       }
       constexpr int kFirst = 20;  // draws of every candidate come first
