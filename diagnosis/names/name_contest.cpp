@@ -91,8 +91,8 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
 /// forms that nobody knows and may leave one.
 std::string NameContest::doubt_about(const CandidateFit& fit) const {
   std::string doubt = objection(calibrated_.problem(), fit);
-  const bool exact = std::ranges::all_of(
-      fit.candidate.effects, [](const Effect& effect) { return has_one_form(effect); });
+  const bool exact = std::ranges::all_of(fit.candidate.effects,
+                                         [](const Effect& effect) { return has_one_form(effect); });
   if (!doubt.empty() || !exact) return doubt;
   const LackOfFit left = lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(fit), seed_);
   if (left.f <= left.critical) return "";
