@@ -45,15 +45,6 @@ bool is_beside(const std::vector<MapPlace>& track, double reach_m, const MapPlac
   return false;
 }
 
-/// The way driven in a window of a zone, in the mean: no border is told more finely.
-double window_way_m(const SoilZoneFound& zone, const std::vector<DriveWindow>& windows) {
-  double way_m = 0;
-  for (std::size_t i = zone.first; i <= zone.last; ++i) {
-    way_m += windows[i].speed_mps * windows[i].duration_s();
-  }
-  return way_m / static_cast<double>(zone.last - zone.first + 1);
-}
-
 /// A class raster of the whole map where it has none.
 ClassRaster classes_of(const TerrainMap& map, const SoilCatalogue& catalogue) {
   if (map.classes()) return *map.classes();
@@ -156,7 +147,7 @@ TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
   for (const VehicleFinding& found : effects.found) {
     if (!found.zone) continue;
     const std::vector<MapPlace> track = zone_track(*found.zone, windows);
-    const double reach_m = length_m(track) / 2 + window_way_m(*found.zone, windows);
+    const double reach_m = length_m(track) / 2;
     paint(track, reach_m, code_of(*found.zone, ++zones, catalogue), classes);
   }
   return {std::move(elevation), std::move(classes), std::move(catalogue), std::move(rocks)};
