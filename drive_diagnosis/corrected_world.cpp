@@ -55,8 +55,8 @@ ClassRaster classes_of(const TerrainMap& map, const SoilCatalogue& catalogue) {
   return classes;
 }
 
-void paint(const std::vector<MapPlace>& track, double reach_m, std::int32_t code,
-           ClassRaster& classes) {
+void paint(const std::vector<MapPlace>& track, std::int32_t code, ClassRaster& classes) {
+  const double reach_m = length_m(track) / 2;
   const GridFrame& frame = classes.frame;
   const auto [west, east] = std::ranges::minmax(track, {}, &MapPlace::x_m);
   const auto [south, north] = std::ranges::minmax(track, {}, &MapPlace::y_m);
@@ -146,9 +146,7 @@ TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
   int zones = 0;
   for (const VehicleFinding& found : effects.found) {
     if (!found.zone) continue;
-    const std::vector<MapPlace> track = zone_track(*found.zone, windows);
-    const double reach_m = length_m(track) / 2;
-    paint(track, reach_m, code_of(*found.zone, ++zones, catalogue), classes);
+    paint(zone_track(*found.zone, windows), code_of(*found.zone, ++zones, catalogue), classes);
   }
   return {std::move(elevation), std::move(classes), std::move(catalogue), std::move(rocks)};
 }

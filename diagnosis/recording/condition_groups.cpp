@@ -22,12 +22,14 @@ bool agree(const WheelRun& a, const WheelRun& b) {
          a.conditions.heading_rad == b.conditions.heading_rad && a.wheel == b.wheel;
 }
 
-/// Of the run before another in the order of the runs, 0 where there is none. Samples of one run
-/// follow the same.
-double slip_before(const std::vector<WheelRun>& runs, std::size_t run) {
-  std::size_t before = run;
-  while (before > 0 && runs[before].run_id == runs[run].run_id) --before;
-  return runs[before].run_id == runs[run].run_id ? 0 : runs[before].slip_ratio;
+/// Of each run the slip of the one before in the order of the runs, 0 where there is none. Samples
+/// of one run follow the same.
+std::vector<double> slips_before(const std::vector<WheelRun>& runs) {
+  std::vector<double> before(runs.size(), 0.0);
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    before[i] = runs[i].run_id == runs[i - 1].run_id ? before[i - 1] : runs[i - 1].slip_ratio;
+  }
+  return before;
 }
 
 }  // namespace
@@ -69,6 +71,7 @@ std::vector<Condition> group_conditions(const Recording& recording,
     }
     groups[g].runs.push_back(used[i]);
   }
+  const std::vector<double> slip_before = slips_before(recording.runs);
   for (Condition& group : groups) {
     const double share = 1.0 / static_cast<double>(group.runs.size());
     group.conditions.time_s = 0;
@@ -79,7 +82,7 @@ std::vector<Condition> group_conditions(const Recording& recording,
       group.slip_ratio += share * run.slip_ratio;
       group.slip_angle_rad += share * run.slip_angle_rad;
       group.conditions.time_s += share * run.conditions.time_s;
-      group.after_slip_ratio += share * slip_before(recording.runs, r);
+      group.after_slip_ratio += share * slip_before[r];
       group.one_day = group.one_day && run.day == recording.runs[group.runs.front()].day;
     }
   }

@@ -30,9 +30,8 @@ class DrawsStage {
       if (!std::exchange(bounded, true)) return bound_piece();
       // A path without draws ranks behind all that have some: each gets its first before the
       // rasters take a thread for long, unless that left them no time.
-      const bool each_given = !given.empty() && *std::ranges::min_element(given) > 0;
       const bool is_late = plan_.budget.left_s(kDrawsShare) <= half_left_s;
-      if (!chosen_.empty() && given.front() > 0 && (each_given || is_late) &&
+      if (!given.empty() && (is_late ? given.front() : *std::ranges::min_element(given)) > 0 &&
           !std::exchange(mapped, true)) {
         return rasters_piece();
       }
