@@ -1,9 +1,11 @@
 #include "diagnosis/checks/location.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "diagnosis/bed/condition_axes.h"
+#include "diagnosis/bed/discrepancy.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 
@@ -44,6 +46,26 @@ std::vector<std::size_t> members(const ConditionAxis& axis, const Interval& inte
   return inside;
 }
 
+/// Takes from the values of a channel the surface that a smooth discrepancy makes of them.
+Eigen::MatrixXd left_by_surface(const TestBed& bed, const ChannelData& data) {
+  // Strong enough to follow what the model lacks, of any size that was met; closer scales would
+  // pass through every condition and leave nothing to be told by the run before.
+  constexpr double kAmplitude = 8;  // of one run's noise
+  const DiscrepancyScales& scales = discrepancy_scales()[1];
+  const Eigen::Index n = data.mean.size();
+  Eigen::MatrixXd whole = data.noise;
+  const auto at = [&](Eigen::Index row) -> const Condition& {
+    return bed.conditions[data.conditions[static_cast<std::size_t>(row)]];
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      whole(i, k) += std::pow(kAmplitude * data.scale, 2) *
+                     discrepancy_kernel(scales, data.channel, at(i), at(k));
+    }
+  }
+  return data.noise * whole.llt().solve(Eigen::MatrixXd::Identity(n, n));
+}
+
 class Scan {
  public:
   explicit Scan(const TestBed& bed) : bed_(bed), axes_(condition_axes(bed)) {
@@ -58,11 +80,12 @@ class Scan {
     for (std::size_t a = 0; a < axes_.size(); ++a) {
       for (std::size_t b = a + 1; b < axes_.size(); ++b) corners(axes_[a], axes_[b]);
     }
-    // Last: where the run before tells no more than the run itself does, the run counts.
     if (const auto memory = memory_axis(bed)) {
+      const std::size_t first = regions_.size();
       for (const Interval& interval : intervals(memory->levels, true)) {
         add({&*memory}, members(*memory, interval));
       }
+      count_beyond_own_conditions(first);
     }
   }
 
@@ -112,6 +135,22 @@ class Scan {
         region.box[axis->column] = {low, high};
       }
       regions_.push_back(std::move(region));
+    }
+  }
+
+  /// Where a series sweeps over slip the run before tells of the run itself. From `first` on,
+  /// regions take the mean of what a surface through the residuals over each run's own conditions
+  /// leaves, scaled so that a residual of 1 in the region and 0 elsewhere still counts 1.
+  void count_beyond_own_conditions(std::size_t first) {
+    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
+      const Eigen::MatrixXd left = left_by_surface(bed_, bed_.channels[c]);
+      for (std::size_t i = first; i < regions_.size(); ++i) {
+        if (regions_[i].channel != c) continue;
+        auto weight = regions_[i].weight.segment(bed_.offset(c), left.rows());
+        const Eigen::VectorXd within = (weight.array() > 0).cast<double>();
+        const Eigen::VectorXd beyond = left.transpose() * weight;
+        weight = beyond / beyond.dot(within);
+      }
     }
   }
 

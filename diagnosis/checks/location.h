@@ -12,7 +12,8 @@ namespace regoplan {
 /// of the slip of the run before, and corners of two columns, are scanned in every channel for the
 /// mean residual. Its significance is judged against the largest such mean, over all channels and
 /// regions, that noise leaves in seeded draws, so that 5 % of recordings without mismatch show any
-/// region at all. Of regions that share most of their conditions only the strongest stays.
+/// region at all. The run before counts by what a smooth surface over each run's own conditions
+/// does not tell. Of regions that share most of their conditions only the strongest stays.
 std::vector<MismatchRegion> locate(const CondensedRecording& recording, const FitRemainder& fit,
                                    std::uint64_t seed);
 

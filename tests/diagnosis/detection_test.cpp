@@ -180,6 +180,31 @@ TEST(Location, WhereSlipRoseFromRunToRunTheRunItselfIsTold) {
   EXPECT_FALSE(found.front().region.contains("after_slip_ratio"));
 }
 
+TEST(Location, WhereEachSlipAlwaysFollowsTheSameSlipTheRunItselfIsTold) {
+  TrueWheel wheel;
+  wheel.fx_n = [](const WheelRun& run, double) {
+    return run.slip_ratio > 0.6 || run.slip_ratio < -0.2 ? -6.0 : 0.0;
+  };
+  BedPlan plan;
+  plan.conditions = 72;
+  Recording recording = record(wheel, simulant_setup(), simulant_setup().soil.mean, plan, 8);
+  // The slips that are off come after .3 and .5, always and alone: one box of the run before, but
+  // two of the run itself.
+  const auto place = [](const WheelRun& run) {
+    static const std::vector<double> order{0.3, -0.3, 0.5, 0.8, 0, 0.15};
+    return std::ranges::find_if(
+               order, [&](double slip) { return std::abs(run.slip_ratio - slip) < 0.02; }) -
+           order.begin();
+  };
+  std::ranges::stable_sort(recording.runs, {}, [&](const WheelRun& run) {
+    return std::tuple(run.day, run.slip_angle_rad, std::round(run.load_n / 25), place(run));
+  });
+  const Calibrated made = calibrated(recording);
+  const auto found = locate(made.recording, made.remainder, 8);
+  ASSERT_FALSE(found.empty());
+  EXPECT_FALSE(found.front().region.contains("after_slip_ratio"));
+}
+
 TEST(Location, IsSilentWhereNothingDiffers) {
   int shown = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
