@@ -15,9 +15,9 @@ constexpr double kZone = 3;      ///< another soil's numbers, in standard deviat
 constexpr double kCommon = 6;    ///< and in the direction in which they go together
 constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
-/// Twice nats beyond chance: for what residuals have of tails, and, where an effect is known
-/// already, for what it leaves besides, as its fit is not exact.
-constexpr double kToSpare = 4, kToSpareBeside = 12;
+/// Twice nats beyond chance that a fault is asked, and what else there is: ground that goes on from
+/// window to window looks like a zone, and what the fit of a known effect leaves like any.
+constexpr double kToSpareFault = 4, kToSpare = 12;
 constexpr double kNarrowest = 0.7;  ///< of the noise that is told, what there may be
 constexpr std::size_t kShortest = 2;
 
@@ -348,7 +348,7 @@ class Contest {
     const double wide = std::max(
         kNarrowest, std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
     const bool is_first = contest_.zones_known.empty() && contest_.faults_known.empty();
-    const double asked = best.chance + (is_first ? kToSpare : kToSpareBeside);
+    const double asked = best.chance + (is_first && !best.is_zone ? kToSpareFault : kToSpare);
     best.std *= wide;
     const double gain = best.gain / (wide * wide);
     best.sigmas = best.is_zone ? std::sqrt(std::max(0.0, gain)) : std::abs(best.size) / best.std;
