@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -22,7 +24,7 @@ using Groups = std::vector<int>;
 
 /// Least squares with a prior of 100 A about 0 on every term: nothing to windows that say something
 /// of it, and 0 for what they do not show at all.
-CurrentModel fit(const Windows& windows, const std::vector<double>& weights) {
+CurrentModel fit(const Windows& windows, const std::vector<double>& weights, double half_track_m) {
   constexpr double kPrior = 1e-4;
   using Normal = Eigen::Matrix<double, kTerms, kTerms>;
   std::array<Normal, 2> normal{kPrior * Normal::Identity(), kPrior * Normal::Identity()};
@@ -30,13 +32,13 @@ CurrentModel fit(const Windows& windows, const std::vector<double>& weights) {
   for (std::size_t i = 0; i < windows.size(); ++i) {
     if (weights[i] == 0) continue;
     for (int side = 0; side < 2; ++side) {
-      const CurrentModel::Terms terms = CurrentModel::terms(side, windows[i]);
+      const CurrentModel::Terms terms = CurrentModel::terms(side, windows[i], half_track_m);
       const Eigen::Map<const Eigen::Matrix<double, kTerms, 1>> t(terms.data());
       normal.at(static_cast<std::size_t>(side)) += weights[i] * t * t.transpose();
       right.col(side) += weights[i] * t * windows[i].current_a.at(static_cast<std::size_t>(side));
     }
   }
-  CurrentModel model;
+  CurrentModel model{.half_track_m = half_track_m};
   for (int side = 0; side < 2; ++side) {
     const Eigen::Matrix<double, kTerms, 1> c =
         normal.at(static_cast<std::size_t>(side)).ldlt().solve(right.col(side));
@@ -45,6 +47,34 @@ CurrentModel fit(const Windows& windows, const std::vector<double>& weights) {
     }
   }
   return model;
+}
+
+double squares_left(const CurrentModel& model, const Windows& windows,
+                    const std::vector<double>& weights) {
+  double sum = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    if (weights[i] == 0) continue;
+    for (int side = 0; side < 2; ++side) {
+      const double off = model.current_a(side, windows[i]) -
+                         windows[i].current_a.at(static_cast<std::size_t>(side));
+      sum += weights[i] * off * off;
+    }
+  }
+  return sum;
+}
+
+/// The same with the track that leaves least: nobody says how wide the vehicle rolls.
+CurrentModel fit(const Windows& windows, const std::vector<double>& weights) {
+  CurrentModel best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double half_track_m : {0.1, 0.2, 0.4, 0.8, 1.6}) {
+    const CurrentModel model = fit(windows, weights, half_track_m);
+    const double left = squares_left(model, windows, weights);
+    if (left >= least) continue;
+    least = left;
+    best = model;
+  }
+  return best;
 }
 
 std::array<double, 2> mean_currents(const Windows& windows, const std::vector<double>& weights) {
@@ -188,6 +218,34 @@ std::optional<DriveEstimate> standing_excess(const std::vector<DriveRecording>& 
   return DriveEstimate{mean, std::sqrt(square / (n * (n - 1)))};
 }
 
+/// Whether its wheels, or else its heading against its course, say so.
+bool goes_back(const DriveRecording& drive, const DriveWindow& window) {
+  const double rim = (side_mean(drive, window, "wheel_speed", "rad_s", {}, "left") +
+                      side_mean(drive, window, "wheel_speed", "rad_s", {}, "right")) /
+                     2;
+  constexpr double kTurns_rad_s = 0.1;
+  if (std::abs(rim) > kTurns_rad_s) return rim < 0;
+  const double back =
+      std::remainder(heading_rad(drive, window) - window.course_rad, 2 * std::numbers::pi);
+  return std::abs(back) > 1;
+}
+
+/// Share of a window in which speed or turning is commanded; all of it where no command is logged.
+double driven_share(const DriveRecording& drive, const DriveWindow& window) {
+  const DriveChannel* speed = drive.channel("command_speed");
+  const DriveChannel* turn = drive.channel("command_turn");
+  if (!speed || !turn) return 1;
+  int driven = 0, all = 0;
+  const auto from = std::ranges::lower_bound(drive.time_s, window.start_s) - drive.time_s.begin();
+  for (auto i = static_cast<std::size_t>(from); i < drive.size() && drive.time_s[i] <= window.end_s;
+       ++i) {
+    if (std::isnan(speed->values[i]) || std::isnan(turn->values[i])) continue;
+    ++all;
+    driven += speed->values[i] != 0 || turn->values[i] != 0;
+  }
+  return all > 0 ? static_cast<double>(driven) / all : 1;
+}
+
 Windows steady_windows(const std::vector<DriveRecording>& drives,
                        const std::vector<DriveWindow>& windows,
                        const std::vector<Mounting>& mountings, bool swapped) {
@@ -201,17 +259,8 @@ Windows steady_windows(const std::vector<DriveRecording>& drives,
     CurrentWindow at{.window = i, .drive = window.drive, .duration_s = window.duration_s()};
     at.current_a = {side_mean(drive, window, "current", "a", {}, swapped ? "right" : "left"),
                     side_mean(drive, window, "current", "a", {}, swapped ? "left" : "right")};
-    const double back =
-        std::abs(std::remainder(heading_rad(drive, window) - window.course_rad, 6.283185307));
-    const std::array<const char*, 2> names{"left", "right"};
-    for (std::size_t side = 0; side < 2; ++side) {
-      // In a tight turn the inner side runs backwards.
-      const double rim = side_mean(drive, window, "wheel_speed", "rad_s", {}, names.at(side));
-      constexpr double kTurns_rad_s = 0.1;
-      at.direction.at(side) = std::abs(rim) > kTurns_rad_s ? std::copysign(1.0, rim)
-                              : back > 1                   ? -1
-                                                           : 1;
-    }
+    at.speed_mps = goes_back(drive, window) ? -speed : speed;
+    at.driven = driven_share(drive, window);
     at.sin_pitch = std::sin(window.pitch_rad - pitch_offset_rad(mountings, drive.day));
     at.yaw_rate_rad_s = window.yaw_rate_rad_s;
     const double all = at.current_a[0] + at.current_a[1] + at.sin_pitch + at.yaw_rate_rad_s;
@@ -238,16 +287,16 @@ void draw_excess(const Windows& windows, const Groups& clusters, std::uint64_t s
       const auto found = times.find(cluster);
       weights.push_back(found == times.end() ? 0 : found->second);
     }
-    const CurrentModel drawn = fit(windows, weights);
+    const CurrentModel drawn = fit(windows, weights, result.model.half_track_m);
     excess.push_back(drawn.level_a(0) - drawn.level_a(1));
-    ratio.push_back(drawn.sides[0][2] / drawn.sides[1][2]);
+    ratio.push_back(drawn.gravity_a(0) / drawn.gravity_a(1));
   }
   const auto spread = [](const std::vector<double>& values) {
     return (quantile_value(values, 0.8413) - quantile_value(values, 0.1587)) / 2;
   };
   result.left_excess_a = {result.model.level_a(0) - result.model.level_a(1), spread(excess)};
   result.left_excess_ci95_a = {quantile_value(excess, 0.025), quantile_value(excess, 0.975)};
-  result.gravity_ratio = {result.model.sides[0][2] / result.model.sides[1][2], spread(ratio)};
+  result.gravity_ratio = {result.model.gravity_a(0) / result.model.gravity_a(1), spread(ratio)};
 }
 
 /// What would do as well as a dragging side.
@@ -278,15 +327,21 @@ void name_excess(CurrentDiagnosis& result) {
 
 }  // namespace
 
-CurrentModel::Terms CurrentModel::terms(int side, const CurrentWindow& at) {
-  const double direction = at.direction.at(static_cast<std::size_t>(side));
-  const double turn = std::tanh(at.yaw_rate_rad_s / kTurn_rad_s);
+CurrentModel::Terms CurrentModel::terms(int side, const CurrentWindow& at, double half_track_m) {
+  constexpr double kTurnsOver_mps = 0.05;  // slower, wheels turn both ways within a window
+  constexpr double kStands_mps = 0.01, kSlides = 1.0 / 3;
+  const double outward = side == 0 ? -1 : 1, by_turn_mps = half_track_m * at.yaw_rate_rad_s;
+  const double direction = std::tanh((at.speed_mps + outward * by_turn_mps) / kTurnsOver_mps);
+  const double turn = by_turn_mps / std::hypot(by_turn_mps, kSlides * at.speed_mps, kStands_mps);
   const double braking = std::min(0.0, direction * at.sin_pitch) * direction;
-  return {1, direction, at.sin_pitch, braking, turn, direction * std::abs(turn)};
+  Terms terms{0, 1, direction, at.sin_pitch, braking, turn, direction * std::abs(turn)};
+  for (double& term : terms) term *= at.driven;
+  terms[0] = 1 - at.driven;
+  return terms;
 }
 
 double CurrentModel::current_a(int side, const CurrentWindow& window) const {
-  const Terms t = terms(side, window);
+  const Terms t = terms(side, window, half_track_m);
   double sum = 0;
   for (std::size_t k = 0; k < t.size(); ++k)
     sum += sides.at(static_cast<std::size_t>(side)).at(k) * t.at(k);

@@ -12,36 +12,42 @@
 
 namespace regoplan {
 
-/// A window as the motors of one side see it.
+/// A window as the motors see it.
 struct CurrentWindow {
   std::size_t window = 0;  ///< index of its window
   std::size_t drive = 0;
-  std::array<double, 2> direction{1, 1};  ///< of each side's wheels, left, right; -1 backwards
-  double sin_pitch = 0;
+  double speed_mps = 0;  ///< over ground, along the vehicle: less than 0 backwards
   double yaw_rate_rad_s = 0;
+  double sin_pitch = 0;
+  double driven = 1;                  ///< share of it in which anything is commanded
   std::array<double, 2> current_a{};  ///< left, right
   double duration_s = 0;
 };
 
-/// The current of a side of a skid-steered vehicle, as linear in
-///   1, direction           the current that overcomes rolling, gears and friction,
+/// The current of a side of a skid-steered vehicle. What nothing is asked of takes what the
+/// instruments read of nothing, whether it stands, coasts or is carried; what is driven, linear in
+///   1, direction           the current that overcomes rolling, gears and friction; the direction
+///                          in which the side's wheels turn follows from speed and yaw rate,
 ///   sin(pitch)             gravity's share,
 ///   braking sin(pitch)     what is less of it where gravity drives (gears that do not turn back),
-///   tanh(r / r0), |.|      the wheels that are dragged sideways in a turn with yaw rate r: dry
-///                          friction, so full in all but the widest turns.
+///   turn, direction |turn| the wheels that are dragged sideways: dry friction, full where the turn
+///                          moves the sides by more than a third of the speed.
 struct CurrentModel {
-  static constexpr int kTerms = 6;
-  static constexpr double kTurn_rad_s = 0.1;  ///< r0
+  static constexpr int kTerms = 7;
   using Terms = std::array<double, kTerms>;
-  std::array<Terms, 2> sides{};  ///< left, right
+  /// From the middle to where a side's wheels, as they slip, roll: more than half the track.
+  double half_track_m = 0.4;
+  std::array<Terms, 2> sides{};  ///< left, right: at rest, then those above
 
-  static Terms terms(int side, const CurrentWindow& window);
+  static Terms terms(int side, const CurrentWindow& window, double half_track_m);
   double current_a(int side, const CurrentWindow& window) const;
   /// What a side takes straight ahead on the level.
   double level_a(int side) const {
-    return sides.at(static_cast<std::size_t>(side))[0] +
-           sides.at(static_cast<std::size_t>(side))[1];
+    return sides.at(static_cast<std::size_t>(side))[1] +
+           sides.at(static_cast<std::size_t>(side))[2];
   }
+  /// Of a side, for the whole of gravity.
+  double gravity_a(int side) const { return sides.at(static_cast<std::size_t>(side))[3]; }
 };
 
 /// How a model of the currents does on drives that it was not fitted to.

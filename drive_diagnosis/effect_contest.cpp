@@ -15,7 +15,10 @@ constexpr double kZone = 3;      ///< another soil's numbers, in standard deviat
 constexpr double kCommon = 6;    ///< and in the direction in which they go together
 constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
-constexpr double kToSpare = 12;  ///< twice nats beyond chance, for what residuals have of tails
+/// Twice nats beyond chance that a fault is asked, and what else there is: ground that goes on from
+/// window to window looks like a zone, and what the fit of a known effect leaves like any.
+constexpr double kToSpareFault = 4, kToSpare = 12;
+constexpr double kNarrowest = 0.7;  ///< of the noise that is told, what there may be
 constexpr std::size_t kShortest = 2;
 
 /// What deviations of 1 stand for in a known zone: each number varies by itself, and all along the
@@ -341,13 +344,16 @@ class Contest {
       best.size = products_(k, 0) / length;
       best.std = std::sqrt(std::max(1e-12, 1 / length - 1));  // without its own prior
     }
-    const double wide =
-        std::max(1.0, std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
+    // What is left tells how wide the noise is, which inputs are told to have more or less than.
+    const double wide = std::max(
+        kNarrowest, std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
+    const bool is_first = contest_.zones_known.empty() && contest_.faults_known.empty();
+    const double asked = best.chance + (is_first && !best.is_zone ? kToSpareFault : kToSpare);
     best.std *= wide;
     const double gain = best.gain / (wide * wide);
     best.sigmas = best.is_zone ? std::sqrt(std::max(0.0, gain)) : std::abs(best.size) / best.std;
-    best.stands_out = gain > best.chance && (!best.is_zone || gain > best.chance + kToSpare) &&
-                      best.sigmas * best.sigmas > best.chance + kToSpare;
+    best.stands_out =
+        gain > (best.is_zone ? asked : best.chance) && best.sigmas * best.sigmas > asked;
     best.gain = gain;
   }
 

@@ -100,12 +100,19 @@ Json currents_json(const DriveDiagnosisRun& run, const CurrentDiagnosis& current
   }
   const auto side_json = [&](int side) {
     const CurrentModel::Terms& c = currents.model.sides.at(static_cast<std::size_t>(side));
-    return Json{{"constant_a", c[0]},      {"direction_a", c[1]},
-                {"per_sin_pitch_a", c[2]}, {"braking_per_sin_pitch_a", c[3]},
-                {"turn_a", c[4]},          {"either_turn_a", c[5]}};
+    return Json{{"not_driven_a", c[0]},
+                {"constant_a", c[1]},
+                {"direction_a", c[2]},
+                {"per_sin_pitch_a", c[3]},
+                {"braking_per_sin_pitch_a", c[4]},
+                {"turn_a", c[5]},
+                {"either_turn_a", c[6]}};
   };
   Json json = {{"windows", currents.windows},
-               {"model", {{"left", side_json(0)}, {"right", side_json(1)}}},
+               {"model",
+                {{"left", side_json(0)},
+                 {"right", side_json(1)},
+                 {"half_track_m", currents.model.half_track_m}}},
                {"held_out", held_out.held_out},
                {"rms_a", held_out.both_rms_a},
                {"constant_rms_a", held_out.both_constant_rms_a},

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
 namespace regoplan {
 namespace {
 
@@ -43,6 +48,48 @@ TEST(FitContest, ADeviationCostsByHowFarItIsFromWhatIsLikely) {
   EXPECT_EQ(prior_nats(contest, nothing), 0);
   EXPECT_GT(prior_nats(contest, along), 0);
   EXPECT_GT(prior_nats(contest, against), 5 * prior_nats(contest, along));
+}
+
+/// Two faults that change what is measured in different ways, the first of them off by so many of
+/// its standard errors; scatter of so much of what is told.
+EffectContest with_a_fault(double standard_errors, double scatter) {
+  constexpr Eigen::Index kMeasured = 200, kWindows = 10;
+  constexpr double kSensitivity = 0.5;  // standard errors for what a sound vehicle is off
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd draws(kMeasured, 3);
+  for (Eigen::Index i = 0; i < draws.size(); ++i) draws.data()[i] = normal(random);
+  const Eigen::MatrixXd apart =
+      draws.householderQr().householderQ() * Eigen::MatrixXd::Identity(kMeasured, 3);
+  EffectContest contest{
+      .data = standard_errors * apart.col(0) + scatter * std::sqrt(kMeasured) * apart.col(2),
+      .parameters = kSensitivity * apart.leftCols(2),
+      .claimable = {true, true},
+      .soil = Eigen::MatrixXd::Zero(kMeasured, kWindows),
+      .soil_numbers = 1,
+      .common_direction = Eigen::VectorXd::Ones(1),
+      .follows = std::vector<bool>(kWindows, true)};
+  return contest;
+}
+
+TEST(StrongestEffect, StandsOutBeyondWhatChanceGives) {
+  constexpr std::uint64_t kSeed = 1;
+  EXPECT_TRUE(strongest_effect(with_a_fault(4.2, 1), kSeed).stands_out);
+  EXPECT_FALSE(strongest_effect(with_a_fault(3.2, 1), kSeed).stands_out);
+}
+
+TEST(StrongestEffect, BesideAKnownOneMoreIsAskedAsItsFitIsNotExact) {
+  EffectContest contest = with_a_fault(4.2, 1);
+  contest.faults_known = {1};
+  EXPECT_FALSE(strongest_effect(contest, 1).stands_out);
+}
+
+TEST(StrongestEffect, NoiseThatIsToldTooWideHidesNothing) {
+  const EffectFound wide = strongest_effect(with_a_fault(3.4, 1), 1);
+  const EffectFound narrow = strongest_effect(with_a_fault(3.4, 0.75), 1);
+  EXPECT_FALSE(wide.stands_out);
+  EXPECT_TRUE(narrow.stands_out);
+  EXPECT_NEAR(narrow.std / wide.std, 0.75, 0.02);
 }
 
 }  // namespace
