@@ -45,6 +45,15 @@ bool is_beside(const std::vector<MapPlace>& track, double reach_m, const MapPlac
   return false;
 }
 
+/// The way driven in a window of a zone, in the mean: no border is told more finely.
+double window_way_m(const SoilZoneFound& zone, const std::vector<DriveWindow>& windows) {
+  double way_m = 0;
+  for (std::size_t i = zone.first; i <= zone.last; ++i) {
+    way_m += windows[i].speed_mps * windows[i].duration_s();
+  }
+  return way_m / static_cast<double>(zone.last - zone.first + 1);
+}
+
 /// A class raster of the whole map where it has none.
 ClassRaster classes_of(const TerrainMap& map, const SoilCatalogue& catalogue) {
   if (map.classes()) return *map.classes();
@@ -55,8 +64,8 @@ ClassRaster classes_of(const TerrainMap& map, const SoilCatalogue& catalogue) {
   return classes;
 }
 
-void paint(const std::vector<MapPlace>& track, std::int32_t code, ClassRaster& classes) {
-  const double reach_m = length_m(track) / 2;
+void paint(const std::vector<MapPlace>& track, double reach_m, std::int32_t code,
+           ClassRaster& classes) {
   const GridFrame& frame = classes.frame;
   const auto [west, east] = std::ranges::minmax(track, {}, &MapPlace::x_m);
   const auto [south, north] = std::ranges::minmax(track, {}, &MapPlace::y_m);
@@ -146,7 +155,9 @@ TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
   int zones = 0;
   for (const VehicleFinding& found : effects.found) {
     if (!found.zone) continue;
-    paint(zone_track(*found.zone, windows), code_of(*found.zone, ++zones, catalogue), classes);
+    const std::vector<MapPlace> track = zone_track(*found.zone, windows);
+    const double reach_m = length_m(track) / 2 + window_way_m(*found.zone, windows);
+    paint(track, reach_m, code_of(*found.zone, ++zones, catalogue), classes);
   }
   return {std::move(elevation), std::move(classes), std::move(catalogue), std::move(rocks)};
 }

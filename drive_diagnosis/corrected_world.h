@@ -21,7 +21,7 @@ std::vector<MapPlace> zone_track(const SoilZoneFound& zone,
 /// The map as the drives tell it: soils with what is left of their spread, each zone as a soil
 /// class of its own, and the map, or its soils alone, moved by an offset that was named.
 /// A drive sees a zone only where it went: across the track it is taken to reach half its length
-/// along the track to either side.
+/// along the track to either side, and a window farther, as no border is told more finely.
 /// \param windows that `effects` is of
 TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
                          const std::vector<DriveWindow>& windows);

@@ -92,6 +92,16 @@ Eigen::VectorXd ResidualNoise::whitened(const Eigen::MatrixXd& by_window,
   return white;
 }
 
+double ResidualNoise::nats(const Eigen::MatrixXd& residuals) const {
+  double sum = 0;
+  for (const double z : whitened(residuals, root_)) {
+    const double size = std::abs(z);
+    sum += size < kFar ? size * size / 2 : kFar * (size - kFar / 2);
+  }
+  for (const Eigen::MatrixXd& root : root_) sum -= root.diagonal().array().log().sum();
+  return sum;
+}
+
 Eigen::MatrixXd ResidualNoise::inputs_given(const Eigen::MatrixXd& residuals) const {
   Eigen::MatrixXd result(residuals.rows(), static_cast<Eigen::Index>(parts_.inputs.size()));
   for (Eigen::Index w = 0; w < residuals.rows(); ++w) {

@@ -37,6 +37,9 @@ class ResidualNoise {
   /// The inputs that residuals make most likely, by window and input, in deviations of each: what
   /// the inputs' scatter has done to the residuals, and not what parameters do.
   Eigen::MatrixXd inputs_given(const Eigen::MatrixXd& residuals) const;
+  /// By how many nats residuals are unlikely as such noise, but for what all have in common; far
+  /// ones count less. Fits of the same windows compare, each by the noise that it leaves.
+  double nats(const Eigen::MatrixXd& residuals) const;
   const std::vector<double>& scales() const { return scale_; }
   /// How far each input scatters, in what it was given by.
   const std::vector<double>& input_scales() const { return input_scale_; }

@@ -160,6 +160,7 @@ class EffectSearch {
   struct Linearised {
     Eigen::MatrixXd data, base;
     std::vector<Eigen::MatrixXd> columns, soil, inputs;
+    double nats = 0;  ///< by which what the fit leaves is unlikely
   };
 
   EffectFound strongest_now() {
@@ -214,14 +215,16 @@ class EffectSearch {
                       .columns = std::move(columns),
                       .soil = std::move(soil),
                       .inputs = inputs};
-    shifts_ = whiten(result, contest_.zones_known).inputs_given(left);
+    const ResidualNoise noise = whiten(result, contest_.zones_known);
+    shifts_ = noise.inputs_given(left);
+    result.nats = noise.nats(left);
     return result;
   }
 
   /// Makes data and columns of the contest white.
   /// \param zones stretches whose soil is no noise
   ResidualNoise whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones) {
-    const auto& [data, base, columns, soil, inputs] = here;
+    const auto& [data, base, columns, soil, inputs, nats] = here;
     Eigen::MatrixXd reference = Eigen::MatrixXd::Zero(base.rows(), base.cols());
     for (Eigen::Index k = 0; k < base.cols(); ++k) {
       if (!comparison_.scales(static_cast<std::size_t>(k))) continue;
@@ -276,7 +279,8 @@ class EffectSearch {
 
   /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
   /// their means change what everything else does. Steps that are long are shortened. Soils far off
-  /// are no longer linear, so that steps may lead away again: the best of where they led counts.
+  /// are no longer linear, so that steps may lead away again: the likeliest of where they led
+  /// counts.
   void settle() {
     constexpr double kSettled = 0.05, kLongest = 1.5;  // deviations
     constexpr double kZoneLongest = 3, kZoneFarthest = 12;
@@ -287,12 +291,11 @@ class EffectSearch {
     for (int round = 0; round < rounds; ++round) {
       const Eigen::MatrixXd shifts = shifts_;
       const Linearised here = linearise();
-      const double misfit_here = misfit(comparison_.measured() - here.base);
       ContestFit next = fit_contest(contest_);
-      if (round == 0 || misfit_here < least) {
-        least = misfit_here;
+      const double nats = here.nats + prior_nats(contest_, fit_);
+      if (round == 0 || nats < least) {
+        least = nats;
         best = fit_;
-        // Those of the step before do not know a zone that has just been added.
         best.parameters_std = next.parameters_std;
         best.zones_std = next.zones_std;
         best_shifts = shifts;
@@ -315,16 +318,6 @@ class EffectSearch {
     fit_ = std::move(best);
     shifts_ = std::move(best_shifts);
     comparison_.shift_inputs(shifts_);
-  }
-
-  /// Nats by which residuals and what they ask of parameters are unlikely, with scatter of whatever
-  /// size in each channel.
-  double misfit(const Eigen::MatrixXd& residuals) const {
-    double nats = prior_nats(contest_, fit_);
-    for (const double one : rms(residuals)) {
-      nats += static_cast<double>(residuals.rows()) * std::log(one);
-    }
-    return nats;
   }
 
   /// Of a step, how far it takes whatever a sound vehicle and its soils may be off.

@@ -81,11 +81,11 @@ TEST(CorrectedMap, AZoneLiesBesideItsTrackAndNowhereElse) {
   EXPECT_EQ(soil(22.6, 30.4), 1);
   EXPECT_EQ(soil(41.4, 30.4), 1);
   EXPECT_EQ(soil(42.6, 30.4), 0);
-  // Half its length to either side.
-  EXPECT_EQ(soil(32.4, 39.4), 1);
-  EXPECT_EQ(soil(32.4, 20.6), 1);
-  EXPECT_EQ(soil(32.4, 40.6), 0);
-  EXPECT_EQ(soil(32.4, 19.4), 0);
+  // Half its length to either side, 10 m, and a window of 5 m.
+  EXPECT_EQ(soil(32.4, 44.4), 1);
+  EXPECT_EQ(soil(32.4, 15.6), 1);
+  EXPECT_EQ(soil(32.4, 45.6), 0);
+  EXPECT_EQ(soil(32.4, 14.4), 0);
 }
 
 TEST(CorrectedMap, AZoneLikeASoilOfTheMapTakesItsClass) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "drive_diagnosis/robust_statistics.h"
@@ -47,6 +48,33 @@ TEST(ResidualNoise, IsAsWideAsEachChannelScatters) {
   for (const std::vector<double>& of_channel : ratios) {
     EXPECT_NEAR(median_value(of_channel), 1, 0.12);
   }
+}
+
+TEST(ResidualNoise, IsLikelierToHaveLeftLess) {
+  const Eigen::MatrixXd residuals = scattered(2);
+  const ResidualNoise noise = noise_of(residuals);
+  EXPECT_LT(noise.nats(residuals / 2), noise.nats(residuals));
+  EXPECT_LT(noise.nats(residuals), noise.nats(1.5 * residuals));
+}
+
+TEST(ResidualNoise, OfTheFitThatLeavesLessIsTheLikelierOne) {
+  // Each fit is held against the noise that it leaves: scatter doubled in one channel costs
+  // log(2) nats a window.
+  const Eigen::MatrixXd less = scattered(3);
+  Eigen::MatrixXd more = less;
+  more.col(1) *= 2;
+  const double cost = noise_of(more).nats(more) - noise_of(less).nats(less);
+  EXPECT_NEAR(cost, kWindowCount * std::log(2), 0.05 * kWindowCount);
+}
+
+TEST(ResidualNoise, CountsOneStrayWindowLittle) {
+  const Eigen::MatrixXd residuals = scattered(4);
+  const ResidualNoise noise = noise_of(residuals);
+  Eigen::MatrixXd near = residuals, far = residuals;
+  near(7, 0) = 10;
+  far(7, 0) = 20;
+  // Ten standard deviations more would cost 150 nats if they counted in full.
+  EXPECT_LT(noise.nats(far) - noise.nats(near), 40);
 }
 
 }  // namespace
