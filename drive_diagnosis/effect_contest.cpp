@@ -10,9 +10,12 @@
 namespace regoplan {
 namespace {
 
-constexpr double kFault = 8;     ///< a fault's deviation, in those of a sound vehicle
-constexpr double kZone = 3;      ///< another soil's numbers, in standard deviations of this one's
-constexpr double kCommon = 6;    ///< and in the direction in which they go together
+constexpr double kFault = 8;  ///< a fault's deviation, in those of a sound vehicle
+constexpr double kZone = 3;   ///< another soil's numbers, in standard deviations of this one's
+/// The same once a zone is known, for what does not go along the directions that soils differ in:
+/// where the largest stress lies (a0 of .2 to .45 in Wong & Reece 1967) says little of a soil, and
+/// would else take the place of its bearing.
+constexpr double kOwn = 1.5;
 constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
 /// Twice nats beyond chance that a fault is asked, and what else there is: ground that goes on from
@@ -21,13 +24,12 @@ constexpr double kToSpareFault = 4, kToSpare = 12;
 constexpr double kNarrowest = 0.7;  ///< of the noise that is told, what there may be
 constexpr std::size_t kShortest = 2;
 
-/// What deviations of 1 stand for in a known zone: each number varies by itself, and all along the
-/// direction in which they go together.
+/// What deviations of 1 stand for in a known zone: each number varies by itself, and along the
+/// directions in which they go together.
 Eigen::MatrixXd zone_factor(const EffectContest& contest) {
   const auto q = static_cast<Eigen::Index>(contest.soil_numbers);
-  const Eigen::VectorXd common = kCommon * contest.common_direction;
-  const Eigen::MatrixXd covariance =
-      kZone * kZone * Eigen::MatrixXd::Identity(q, q) + common * common.transpose();
+  Eigen::MatrixXd covariance = kOwn * kOwn * Eigen::MatrixXd::Identity(q, q);
+  for (const Eigen::VectorXd& wide : contest.wide_directions) covariance += wide * wide.transpose();
   return covariance.llt().matrixL();
 }
 

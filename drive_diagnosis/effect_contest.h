@@ -21,9 +21,9 @@ struct EffectContest {
   /// Columns of soil of its own: for each window one for each number, by a standard deviation.
   Eigen::MatrixXd soil;
   std::size_t soil_numbers = 0;
-  /// Direction in which numbers of another soil go together, of length one deviation each; the
-  /// fit of a known zone may go far along it.
-  Eigen::VectorXd common_direction;
+  /// Directions in which numbers of another soil go together, each as far as one standard deviation
+  /// of soils: the fit of a known zone may go far along them.
+  std::vector<Eigen::VectorXd> wide_directions;
   /// Soils that a zone may well have, as numbers by which it would differ, each one deviation long:
   /// less evidence shows one of these than a soil of which nothing is known.
   std::vector<Eigen::VectorXd> likely_soils;

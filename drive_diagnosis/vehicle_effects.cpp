@@ -17,6 +17,11 @@ namespace regoplan {
 namespace {
 
 constexpr std::size_t kWindowsLeast = 12;
+constexpr double kSettled = 0.05;  ///< deviations
+/// How far another soil may be from that of the map, in standard deviations of the map's: weaker in
+/// all; and in the logarithm of its bearing, which of sands and regoliths spans two decades (kphi
+/// of 1e4 to 1e6) where tests of one soil know it to a quarter.
+constexpr double kFarWeaker = 6, kBearing_log = 1.5;
 constexpr SoilNumbers kOne{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 
 /// The contest over a drive, linearised anew about what was found.
@@ -48,7 +53,7 @@ class EffectSearch {
     }
     for (const VehicleTrial& trial : trials_) contest_.claimable.push_back(!trial.id.empty());
     contest_.soil_numbers = numbers_.size();
-    contest_.common_direction = values_of(weaker_by(1));
+    contest_.wide_directions = {values_of(weaker_by(kFarWeaker)), other_bearing()};
     for (const LikelySoil& likely : likely_) {
       constexpr double kFarthest = 6;
       contest_.likely_soils.push_back(
@@ -79,7 +84,7 @@ class EffectSearch {
         contest_.faults_known.push_back(strongest.parameter);
       }
       found.push_back(std::move(strongest));
-      settle();
+      settle_with(found.back());
     }
     std::size_t zone = 0;
     for (const EffectFound& effect : found) {
@@ -127,6 +132,18 @@ class EffectSearch {
       values[static_cast<Eigen::Index>(k)] = numbers.at(numbers_[k]);
     }
     return values;
+  }
+
+  /// Soils of another bearing, in the mean of those driven on.
+  Eigen::VectorXd other_bearing() const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size()));
+    double count = 0;
+    for (std::size_t i = 0; i < map_.soils().size(); ++i) {
+      if (!comparison_.soils_driven()[i]) continue;
+      sum += values_of(bearing_by(map_.soils()[i].soil, -kBearing_log));
+      ++count;
+    }
+    return sum / std::max(count, 1.0);
   }
 
   std::vector<WindowZone> zones() const {
@@ -277,47 +294,99 @@ class EffectSearch {
     return noise;
   }
 
-  /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
-  /// their means change what everything else does. Steps that are long are shortened. Soils far off
-  /// are no longer linear, so that steps may lead away again: the likeliest of where they led
-  /// counts.
-  void settle() {
-    constexpr double kSettled = 0.05, kLongest = 1.5;  // deviations
-    constexpr double kZoneLongest = 3, kZoneFarthest = 12;
-    const int rounds = fit_.zones.empty() ? 6 : 10;
-    ContestFit best;
-    Eigen::MatrixXd best_shifts;
-    double least = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < rounds; ++round) {
-      const Eigen::MatrixXd shifts = shifts_;
-      const Linearised here = linearise();
-      ContestFit next = fit_contest(contest_);
-      const double nats = here.nats + prior_nats(contest_, fit_);
-      if (round == 0 || nats < least) {
-        least = nats;
-        best = fit_;
-        best.parameters_std = next.parameters_std;
-        best.zones_std = next.zones_std;
-        best_shifts = shifts;
-      }
-      const double longest = longest_of_sound(next.parameters - fit_.parameters);
-      if (longest > kLongest) {
-        next.parameters =
-            fit_.parameters + kLongest / longest * (next.parameters - fit_.parameters);
-      }
-      for (std::size_t z = 0; z < next.zones.size(); ++z) {
-        const Eigen::VectorXd step = next.zones[z] - fit_.zones[z];
-        const double length = step.cwiseAbs().maxCoeff();
-        if (length > kZoneLongest) next.zones[z] = fit_.zones[z] + kZoneLongest / length * step;
-        next.zones[z] = next.zones[z].cwiseMax(-kZoneFarthest).cwiseMin(kZoneFarthest);
-      }
-      fit_ = std::move(next);
-      if (longest < kSettled && fit_.zones.empty()) break;
-    }
-    if (fit_.zones.empty()) return;
-    fit_ = std::move(best);
-    shifts_ = std::move(best_shifts);
+  /// A fit, and by how many nats what it leaves is unlikely.
+  struct Settled {
+    ContestFit fit;
+    Eigen::MatrixXd shifts;
+    double nats = std::numeric_limits<double>::infinity();
+  };
+
+  void go_on_from(Settled settled) {
+    fit_ = std::move(settled.fit);
+    shifts_ = std::move(settled.shifts);
     comparison_.shift_inputs(shifts_);
+  }
+
+  /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
+  /// their means change what everything else does.
+  void settle() {
+    constexpr int kRounds = 6;
+    for (int round = 0; round < kRounds; ++round) {
+      linearise();
+      if (step() < kSettled) break;
+    }
+  }
+
+  void settle_with(const EffectFound& effect) {
+    if (effect.is_zone) {
+      settle_zone();
+    } else if (fit_.zones.empty()) {
+      settle();
+    } else {
+      go_on_from(settled_from_here());
+    }
+  }
+
+  /// The same with zones. Soils far off are no longer linear, so that steps may lead away again,
+  /// and lead elsewhere from a soil like the map's than from one far weaker: the likeliest of where
+  /// they led counts.
+  void settle_zone() {
+    const Settled start{.fit = fit_, .shifts = shifts_};
+    Settled best = settled_from_here();
+    go_on_from(start);
+    fit_.zones.back() = contest_.wide_directions[0] + contest_.wide_directions[1];
+    Settled weak = settled_from_here();
+    if (weak.nats < best.nats) best = std::move(weak);
+    go_on_from(std::move(best));
+  }
+
+  /// Steps are taken where they lead to what is likelier, and else shortened.
+  Settled settled_from_here() {
+    constexpr int kRounds = 10;
+    constexpr double kShorter = 0.4;
+    Settled best;
+    ContestFit towards;
+    double share = 1;
+    for (int round = 0; round < kRounds; ++round) {
+      const Settled here{.fit = fit_, .shifts = shifts_};
+      const double nats = linearise().nats + prior_nats(contest_, fit_);
+      if (round == 0 || nats < best.nats) {
+        best = {.fit = here.fit, .shifts = here.shifts, .nats = nats};
+        step();
+        towards = fit_;
+        best.fit.parameters_std = towards.parameters_std;
+        best.fit.zones_std = towards.zones_std;
+        share = std::min(1.0, share / kShorter);
+      } else {
+        share *= kShorter;
+        shifts_ = best.shifts;
+      }
+      fit_ = towards;
+      fit_.parameters = best.fit.parameters + share * (towards.parameters - best.fit.parameters);
+      for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+        fit_.zones[z] = best.fit.zones[z] + share * (towards.zones[z] - best.fit.zones[z]);
+      }
+    }
+    return best;
+  }
+
+  /// To the most likely parameters as the contest is linearised; steps that are long are shortened.
+  /// \returns the longest part of it, in deviations of what a sound vehicle and its soils are off
+  double step() {
+    constexpr double kLongest = 1.5, kZoneLongest = 4, kZoneFarthest = 24;  // deviations
+    ContestFit next = fit_contest(contest_);
+    const double longest = longest_of_sound(next.parameters - fit_.parameters);
+    if (longest > kLongest) {
+      next.parameters = fit_.parameters + kLongest / longest * (next.parameters - fit_.parameters);
+    }
+    for (std::size_t z = 0; z < next.zones.size(); ++z) {
+      const Eigen::VectorXd off = next.zones[z] - fit_.zones[z];
+      const double length = off.cwiseAbs().maxCoeff();
+      if (length > kZoneLongest) next.zones[z] = fit_.zones[z] + kZoneLongest / length * off;
+      next.zones[z] = next.zones[z].cwiseMax(-kZoneFarthest).cwiseMin(kZoneFarthest);
+    }
+    fit_ = std::move(next);
+    return longest;
   }
 
   /// Of a step, how far it takes whatever a sound vehicle and its soils may be off.

@@ -288,6 +288,13 @@ SoilNumbers weaker_by(double deviations) {
   return numbers;
 }
 
+SoilNumbers bearing_by(const UncertainSoil& soil, double log_factor) {
+  Soil other = soil.mean;
+  other.kc *= std::exp(log_factor);
+  other.kphi *= std::exp(log_factor);
+  return deviations_between(soil, other);
+}
+
 Soil weaker(const UncertainSoil& soil, double deviations) {
   return deviating(soil, weaker_by(deviations));
 }

@@ -31,6 +31,8 @@ SoilNumbers deviations_between(const UncertainSoil& soil, const Soil& other);
 
 /// So many standard deviations less of friction, cohesion and bearing moduli.
 SoilNumbers weaker_by(double deviations);
+/// Deviations that multiply kc and kphi of a soil by exp(`log_factor`).
+SoilNumbers bearing_by(const UncertainSoil& soil, double log_factor);
 Soil weaker(const UncertainSoil& soil, double deviations);
 
 /// Where the search for a motion starts.
