@@ -169,6 +169,20 @@ double TerrainMap::max_height_m(double x_min_m, double x_max_m, double y_min_m,
   return unknown ? kNotKnown_m : highest;
 }
 
+TerrainMap TerrainMap::forbidding(const std::vector<std::string>& soils) const {
+  Ground ground = *ground_;
+  const auto forbid = [&](std::int16_t& soil) {
+    if (soil == kNoSoil) return;
+    const std::string& name = soils_.soils[static_cast<std::size_t>(soil)].name;
+    if (std::ranges::find(soils, name) != soils.end()) soil = kNoSoil;
+  };
+  std::ranges::for_each(ground.soil_of_cell, forbid);
+  forbid(ground.soil_elsewhere);
+  TerrainMap map = *this;
+  map.ground_ = std::make_shared<const Ground>(std::move(ground));
+  return map;
+}
+
 TerrainMap TerrainMap::with_soils(std::vector<MapSoil> soils) const {
   const auto same_name = [](const MapSoil& a, const MapSoil& b) { return a.name == b.name; };
   if (!std::ranges::equal(soils, soils_.soils, same_name)) {

@@ -106,6 +106,9 @@ class TerrainMap {
   /// \throws InputError where names or order differ
   TerrainMap with_soils(std::vector<MapSoil> soils) const;
 
+  /// The same terrain where ground of these soils, named, is forbidden.
+  TerrainMap forbidding(const std::vector<std::string>& soils) const;
+
  private:
   static constexpr std::int16_t kNoSoil = -1;
 

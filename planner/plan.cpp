@@ -8,7 +8,9 @@
 
 #include "planner/certificate/relaxed_problem.h"
 #include "planner/certificate/undecided.h"
+#include "planner/chart/doubtful_soils.h"
 #include "planner/driving/crash_ahead.h"
+#include "planner/problem/changed_problem.h"
 #include "planner/problem/rejection_text.h"
 #include "planner/relaxation.h"
 #include "planner/stages/draws_stage.h"
@@ -51,12 +53,21 @@ class Planning {
     }
     announcements_.stage("preparing", 0);
     const World searched(problem_, WorldUse::kSearch, problem_.search.threads);
-    const PlanUnderway plan{.problem = problem_,
-                            .verdict = verdict_,
-                            .searched = searched,
-                            .budget = budget_,
-                            .stop = session_.stop,
-                            .announcements = announcements_};
+    result_.doubtful_soils = doubtful_soils(problem_);
+    std::optional<PlanningProblem> off_doubt;
+    std::optional<World> searched_off_doubt;
+    if (!result_.doubtful_soils.empty()) {
+      off_doubt = with_soils_forbidden(problem_, result_.doubtful_soils);
+      searched_off_doubt.emplace(*off_doubt, WorldUse::kSearch, problem_.search.threads);
+    }
+    const PlanUnderway plan{
+        .problem = problem_,
+        .verdict = verdict_,
+        .searched = searched,
+        .searched_off_doubt = searched_off_doubt ? &*searched_off_doubt : nullptr,
+        .budget = budget_,
+        .stop = session_.stop,
+        .announcements = announcements_};
     const double search_start_s = budget_.elapsed_s();
     SearchResult found = search_and_verify(plan, result_);
     result_.planning_time_s = found.ended_s - search_start_s;

@@ -1,6 +1,7 @@
 #include "app/plan/plan_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,13 @@ std::vector<std::string> lead_sentences(const PlanResult& result) {
   if (!result.candidates.empty()) sentences.push_back(soil_sentence(result.candidates.front()));
   if (std::string sentence = gap_sentence(result); !sentence.empty())
     sentences.push_back(std::move(sentence));
+  if (!result.doubtful_soils.empty()) {
+    sentences.push_back(fmt::format(
+        "More than one in twenty draws of {} would not bear the vehicle on its usual slopes: "
+        "every other search kept off {}.",
+        fmt::join(result.doubtful_soils, " and of "),
+        result.doubtful_soils.size() == 1 ? "it" : "them"));
+  }
   for (const WhatIf& what_if : result.what_ifs) sentences.push_back(what_if_sentence(what_if));
   if (!result.overturned.empty())
     sentences.push_back(fmt::format(

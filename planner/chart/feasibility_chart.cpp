@@ -168,6 +168,24 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings) {
   return chart;
 }
 
+ChartSettings chart_settings(const PlanningProblem& problem) {
+  return {.vehicle = problem.vehicle,
+          .soils = problem.map.soils(),
+          .wheel_variant = problem.wheel_variant,
+          .mechanisms = problem.mechanisms,
+          .generic = problem.generic,
+          .gravity_mps2 = problem.gravity_mps2,
+          .limits = problem.limits,
+          .speeds_mps = {},
+          .slopes_rad = {},
+          .slope_max_rad = problem.limits.slope_max_rad,
+          .threads = problem.search.threads};
+}
+
+double straight_on_margin(const ChartSettings& settings, std::size_t soil, double slope_rad) {
+  return margin_of_any_heading(Plane(settings, soil), slope_rad);
+}
+
 std::optional<double> straight_on_limit_rad(const ChartSettings& settings, std::size_t soil) {
   const Plane plane(settings, soil);
   const auto holds = [&](int degree) {

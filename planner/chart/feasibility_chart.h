@@ -24,6 +24,9 @@ struct ChartSettings {
   int threads = 2;
 };
 
+/// Vehicle, soils, wheel model, gravity and limits of a problem; no speeds and no slopes.
+ChartSettings chart_settings(const PlanningProblem& problem);
+
 /// The largest path curvature that is safe at a speed, on the ground that rises to one side: safe
 /// to both sides, as are all smaller ones.
 struct SafeCurvature {
@@ -57,6 +60,10 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings);
 /// are allowed; NaN where not even level ground is.
 std::vector<double> side_slope_limits_rad(const FeasibilityChart& chart,
                                           const ChartSettings& settings);
+
+/// The smallest stability margin of driving slowly straight on over a slope, whatever the heading;
+/// -1 where no trim does.
+double straight_on_margin(const ChartSettings& settings, std::size_t soil, double slope_rad);
 
 /// The steepest slope, in whole degrees up to `slope_max_rad`, on which driving straight on keeps
 /// the least margin in every direction; nothing where not even level ground does. Sought by

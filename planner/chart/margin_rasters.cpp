@@ -17,18 +17,8 @@ constexpr int kSideMax = 1024;
 constexpr double kSpeedShares[] = {0.25, 0.5, 0.75, 1};
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-ChartSettings chart_settings(const PlanningProblem& problem) {
-  ChartSettings settings{.vehicle = problem.vehicle,
-                         .soils = problem.map.soils(),
-                         .wheel_variant = problem.wheel_variant,
-                         .mechanisms = problem.mechanisms,
-                         .generic = problem.generic,
-                         .gravity_mps2 = problem.gravity_mps2,
-                         .limits = problem.limits,
-                         .speeds_mps = {},
-                         .slopes_rad = {},
-                         .slope_max_rad = problem.limits.slope_max_rad,
-                         .threads = problem.search.threads};
+ChartSettings raster_settings(const PlanningProblem& problem) {
+  ChartSettings settings = chart_settings(problem);
   for (const double share : kSpeedShares) {
     settings.speeds_mps.push_back(share * problem.speed_max_mps);
   }
@@ -87,12 +77,6 @@ GridFrame raster_frame(const TerrainMap& map) {
   return frame;
 }
 
-bool is_uncertain(const MapSoil& soil) {
-  return std::ranges::any_of(soil_parameters(), [&soil](const SoilParameter& parameter) {
-    return soil.soil.standard_deviation.*parameter.member > 0;
-  });
-}
-
 /// The ground of a cell.
 struct Cell {
   std::size_t soil = 0;
@@ -133,7 +117,7 @@ std::vector<float> raster_of(const std::vector<Cell>& cells, const std::vector<O
 }  // namespace
 
 TerrainRasters terrain_rasters(const PlanningProblem& problem) {
-  const ChartSettings settings = chart_settings(problem);
+  const ChartSettings settings = raster_settings(problem);
   const FeasibilityChart chart = feasibility_chart(settings);
   TerrainRasters rasters{.frame = raster_frame(problem.map),
                          .margin = {},
@@ -153,7 +137,7 @@ std::vector<float> straight_on_probability(const PlanningProblem& problem) {
   const std::size_t soils = problem.map.soils().size();
   constexpr std::size_t kDraws = 20;
   const std::size_t count = std::ranges::any_of(problem.map.soils(), is_uncertain) ? kDraws : 1;
-  std::vector<ChartSettings> draws(count, chart_settings(problem));
+  std::vector<ChartSettings> draws(count, raster_settings(problem));
   for (std::size_t k = 0; k < count; ++k) {
     const SoilDraw draw = soil_draw(problem, problem.search.seed, static_cast<int>(k));
     for (std::size_t soil = 0; soil < soils; ++soil) draws[k].soils[soil].soil.mean = draw[soil];

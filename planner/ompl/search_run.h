@@ -26,6 +26,8 @@ struct SearchRun {
   SearchGuidance guidance;
   std::optional<double> time_s;
   std::optional<std::int64_t> iterations;
+  /// Where doubtful soils are forbidden; who makes the run hands it that world.
+  bool off_doubtful_soils = false;
 };
 
 /// What a run came to.

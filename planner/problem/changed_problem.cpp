@@ -9,6 +9,12 @@ PlanningProblem with_soils(PlanningProblem problem, std::vector<MapSoil> soils) 
   return problem;
 }
 
+PlanningProblem with_soils_forbidden(PlanningProblem problem,
+                                     const std::vector<std::string>& soils) {
+  problem.map = problem.map.forbidding(soils);
+  return problem;
+}
+
 PlanningProblem with_speed_max(PlanningProblem problem, double speed_max_mps) {
   problem.speed_max_mps = speed_max_mps;
   return problem;

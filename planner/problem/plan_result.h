@@ -81,6 +81,7 @@ struct Candidate {
   int rank = 0;  ///< from 1; 0 of a path that was not ranked
   std::string planner;
   std::uint64_t seed = 0;
+  bool off_doubtful_soils = false;  ///< searched where the map's doubtful soils are forbidden
   std::vector<ControlSegment> controls;
   std::optional<Improvement> improvement;  ///< where it is not as the search found it
   std::vector<TrajectoryPoint> points;     ///< of the replay
@@ -122,8 +123,10 @@ struct PlanResult {
   PlanStatus status = PlanStatus::kUndecided;
   std::string reason;
   std::optional<std::string> certificate;
-  std::vector<Candidate> candidates;   ///< verified, in rank order
-  std::vector<Candidate> overturned;   ///< found, but failed verification
+  std::vector<Candidate> candidates;  ///< verified, in rank order
+  std::vector<Candidate> overturned;  ///< found, but failed verification
+  /// Soils that may not bear the vehicle (`doubtful_soils`): every other search kept off them.
+  std::vector<std::string> doubtful_soils;
   std::vector<WhatIf> what_ifs;        ///< of the best candidate
   std::vector<RelaxedAnswer> relaxed;  ///< without a path: what would open the way, and would not
   std::array<std::int64_t, kRejectionCount> rejected{};  ///< states, by first reason

@@ -32,10 +32,13 @@ double variety_of(int number) {
 }  // namespace
 
 std::optional<SearchRun> RunSchedule::next(int found, double left_s) {
-  SearchRun run{.planner = planner_of(search_, number_),
+  // Each kind of run twice where soils are doubtful: at the means, then off them.
+  const int kind = has_doubtful_soils_ ? number_ / 2 : number_;
+  SearchRun run{.planner = planner_of(search_, kind),
                 .guidance = {.seed = search_.seed * 1000003 + static_cast<std::uint64_t>(number_),
-                             .margin_min = margin_min_ + reserve_of(number_),
-                             .variety = variety_of(number_)}};
+                             .margin_min = margin_min_ + reserve_of(kind),
+                             .variety = variety_of(kind)},
+                .off_doubtful_soils = has_doubtful_soils_ && number_ % 2 == 1};
   if (search_.iterations) {
     if (number_ >= wanted()) return std::nullopt;
     run.iterations = search_.iterations;

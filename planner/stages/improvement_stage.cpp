@@ -22,7 +22,9 @@ std::vector<VerifiedPath> improved_choice(const PlanUnderway& plan,
     const std::size_t i = next++;
     return Piece{.work =
                      [&plan, &chosen, i] {
-                       const auto path = improved_path(plan.verdict, plan.searched, chosen[i]);
+                       const auto path = improved_path(
+                           plan.verdict,
+                           plan.searched_world(chosen[i].candidate.off_doubtful_soils), chosen[i]);
                        return path ? bytes_of(*path) : std::vector<char>();
                      },
                  .time_limit_s = left_s,

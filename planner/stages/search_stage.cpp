@@ -19,6 +19,14 @@ struct RunResult {
   bool found() const { return outcome && !outcome->controls.empty(); }
 };
 
+void count_rejected(const SearchOutcome& outcome, PlanResult& result) {
+  for (std::size_t i = 0; i < outcome.rejected.size(); ++i) {
+    result.rejected[i] += outcome.rejected[i];
+  }
+  result.rejected_states.insert(result.rejected_states.end(), outcome.rejected_states.begin(),
+                                outcome.rejected_states.end());
+}
+
 double duration_s(const std::vector<ControlSegment>& controls) {
   double sum = 0;
   for (const ControlSegment& segment : controls) sum += segment.duration_s;
@@ -33,13 +41,13 @@ class SearchStage {
         search_end_s_(plan.budget.elapsed_s()) {}
 
   void run() {
-    RunSchedule schedule(plan_.problem.search, plan_.problem.limits.margin_min);
+    RunSchedule schedule(plan_.problem.search, plan_.problem.limits.margin_min,
+                         plan_.searched_off_doubt != nullptr);
     work_off(plan_, [&]() -> std::optional<Piece> {
       const double runs = timed_ ? plan_.announcements.found() : schedule.given();
       plan_.announcements.stage("searching", std::min(1.0, runs / schedule.wanted()));
       if (auto piece = verification_of_most_promising()) return piece;
-      const double left_s =
-          plan_.budget.left_s(plan_.announcements.verified() > 0 ? kSearchShare : kFirstPathShare);
+      const double left_s = plan_.budget.left_s(has_what_counts() ? kSearchShare : kFirstPathShare);
       const auto run = schedule.next(plan_.announcements.found(), left_s);
       if (!run) return std::nullopt;
       return search_piece(*run, schedule.wanted());
@@ -50,12 +58,8 @@ class SearchStage {
     SearchResult searched{.end = search_end(), .ended_s = search_end_s_};
     for (const RunResult& run : runs_) {
       if (!run.outcome) continue;
-      for (std::size_t i = 0; i < run.outcome->rejected.size(); ++i) {
-        result.rejected[i] += run.outcome->rejected[i];
-      }
-      result.rejected_states.insert(result.rejected_states.end(),
-                                    run.outcome->rejected_states.begin(),
-                                    run.outcome->rejected_states.end());
+      // What keeping off doubtful soils forbids is no limit of the problem.
+      if (!run.run.off_doubtful_soils) count_rejected(*run.outcome, result);
       result.propagations += run.outcome->propagations;
       if (!run.path) continue;
       if (run.path->candidate.verified.passed) {
@@ -68,11 +72,22 @@ class SearchStage {
   }
 
  private:
+  /// A verified path; where soils are doubtful, one searched off them.
+  bool has_what_counts() const {
+    if (plan_.searched_off_doubt == nullptr) return plan_.announcements.verified() > 0;
+    return std::ranges::any_of(runs_, [](const RunResult& run) {
+      return run.run.off_doubtful_soils && run.path && run.path->candidate.verified.passed;
+    });
+  }
+
   Piece search_piece(const SearchRun& run, int wanted) {
     const std::size_t number = runs_.size();
     runs_.push_back({.run = run, .outcome = {}, .path = {}});
     return {
-        .work = [this, run] { return bytes_of(search(plan_.searched, run)); },
+        .work =
+            [this, run] {
+              return bytes_of(search(plan_.searched_world(run.off_doubtful_soils), run));
+            },
         .time_limit_s = plan_.budget.left_s(kFirstVerifyShare),
         .take =
             [this, number](const std::optional<std::vector<char>>& bytes) {
@@ -86,8 +101,7 @@ class SearchStage {
 
   /// The shortest of what is found and not judged yet.
   std::optional<Piece> verification_of_most_promising() {
-    const double left_s =
-        plan_.budget.left_s(plan_.announcements.verified() > 0 ? kVerifyShare : kFirstVerifyShare);
+    const double left_s = plan_.budget.left_s(has_what_counts() ? kVerifyShare : kFirstVerifyShare);
     if (left_s <= 0) return std::nullopt;
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
@@ -102,20 +116,24 @@ class SearchStage {
     result.state = RunResult::kUnderway;
     const FoundPath path{.planner = result.run.planner,
                          .seed = result.run.guidance.seed,
-                         .controls = result.outcome->controls};
-    return Piece{
-        .work = [this, path] { return bytes_of(verify(plan_.verdict, plan_.searched, path)); },
-        .time_limit_s = plan_.budget.left_s(kFirstVerifyShare),
-        .take =
-            [this, number = *best](const std::optional<std::vector<char>>& bytes) {
-              RunResult& judged = runs_[number];
-              if (bytes) judged.path = from_bytes<VerifiedPath>(*bytes);
-              if (!judged.path) return;
-              judged.state = RunResult::kJudged;
-              if (judged.path->candidate.verified.passed) {
-                plan_.announcements.path_verified(judged.path->candidate);
-              }
-            }};
+                         .controls = result.outcome->controls,
+                         .off_doubtful_soils = result.run.off_doubtful_soils};
+    return Piece{.work =
+                     [this, path] {
+                       const World& searched = plan_.searched_world(path.off_doubtful_soils);
+                       return bytes_of(verify(plan_.verdict, searched, path));
+                     },
+                 .time_limit_s = plan_.budget.left_s(kFirstVerifyShare),
+                 .take =
+                     [this, number = *best](const std::optional<std::vector<char>>& bytes) {
+                       RunResult& judged = runs_[number];
+                       if (bytes) judged.path = from_bytes<VerifiedPath>(*bytes);
+                       if (!judged.path) return;
+                       judged.state = RunResult::kJudged;
+                       if (judged.path->candidate.verified.passed) {
+                         plan_.announcements.path_verified(judged.path->candidate);
+                       }
+                     }};
   }
 
   SearchEnd search_end() const {

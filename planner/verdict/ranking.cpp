@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -29,6 +30,35 @@ bool differ(const Candidate& path, const Candidate& other) {
   return apart >= std::max(kLeast_m, kShareOfWay * other.length_m);
 }
 
+/// Puts the one with the largest margin first, then the fastest, then the rest by margin.
+void widest_and_fastest_first(std::vector<VerifiedPath>& paths) {
+  std::stable_sort(paths.begin(), paths.end(), [](const VerifiedPath& a, const VerifiedPath& b) {
+    return a.candidate.margin_min > b.candidate.margin_min;
+  });
+  if (paths.size() < 3) return;
+  const auto fastest = std::min_element(paths.begin() + 1, paths.end(),
+                                        [](const VerifiedPath& a, const VerifiedPath& b) {
+                                          return a.candidate.duration_s < b.candidate.duration_s;
+                                        });
+  std::rotate(paths.begin() + 1, fastest, fastest + 1);
+}
+
+/// The first two of those searched off doubtful soils, then the first two of all that are left.
+std::vector<VerifiedPath> in_order_of_choice(std::vector<VerifiedPath> paths) {
+  constexpr std::size_t kBeforeAll = 2;
+  std::vector<VerifiedPath> ordered, off_doubt, rest;
+  for (VerifiedPath& path : paths) {
+    (path.candidate.off_doubtful_soils ? off_doubt : rest).push_back(std::move(path));
+  }
+  widest_and_fastest_first(off_doubt);
+  for (std::size_t i = 0; i < off_doubt.size(); ++i) {
+    (i < kBeforeAll ? ordered : rest).push_back(std::move(off_doubt[i]));
+  }
+  widest_and_fastest_first(rest);
+  std::move(rest.begin(), rest.end(), std::back_inserter(ordered));
+  return ordered;
+}
+
 Standing standing_of(const Candidate& candidate) {
   Standing standing{.value = candidate.margin_min,
                     .high = candidate.margin_min,
@@ -43,19 +73,8 @@ Standing standing_of(const Candidate& candidate) {
 }  // namespace
 
 std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most) {
-  const auto wider = [](const VerifiedPath& a, const VerifiedPath& b) {
-    return a.candidate.margin_min > b.candidate.margin_min;
-  };
-  const auto faster = [](const VerifiedPath& a, const VerifiedPath& b) {
-    return a.candidate.duration_s < b.candidate.duration_s;
-  };
-  std::stable_sort(paths.begin(), paths.end(), wider);
-  if (paths.size() > 2) {
-    const auto fastest = std::min_element(paths.begin() + 1, paths.end(), faster);
-    std::rotate(paths.begin() + 1, fastest, fastest + 1);
-  }
   std::vector<VerifiedPath> chosen;
-  for (VerifiedPath& path : paths) {
+  for (VerifiedPath& path : in_order_of_choice(std::move(paths))) {
     if (static_cast<int>(chosen.size()) == most) break;
     const auto differs = [&](const VerifiedPath& other) {
       return differ(path.candidate, other.candidate);

@@ -8,7 +8,8 @@ namespace regoplan {
 
 /// Of paths that passed, at most so many that really differ: each strays from every other by at
 /// least 2 m and 4 % of the way somewhere. The one with the largest margin comes first, then the
-/// fastest, then the others from the largest margin down.
+/// fastest, then the others from the largest margin down. Where some were searched off doubtful
+/// soils, the first two of these come before all: what the others cross is doubtful.
 std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most);
 
 /// Ranks by `rank_order`: by the soils' draws; paths without draws come last, by their margin at

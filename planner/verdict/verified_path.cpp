@@ -43,9 +43,11 @@ void describe(Candidate& candidate, const Replay& replayed) {
 VerifiedPath verify(const World& verdict, const World& searched, const FoundPath& path) {
   const ReplaySteps fine = verification_steps(verdict);
   const Replay as_searched = replay(searched, path.controls, {.coarse_s = fine.coarse_s}, false);
-  VerifiedPath verified{
-      .candidate = {.planner = path.planner, .seed = path.seed, .controls = path.controls},
-      .replay = replay(verdict, path.controls, fine)};
+  VerifiedPath verified{.candidate = {.planner = path.planner,
+                                      .seed = path.seed,
+                                      .off_doubtful_soils = path.off_doubtful_soils,
+                                      .controls = path.controls},
+                        .replay = replay(verdict, path.controls, fine)};
   if (!passes(verified.replay)) {
     verified.candidate.controls = steered_back(verdict, fine, path.controls, as_searched.coarse);
     verified.replay = replay(verdict, verified.candidate.controls, fine);
@@ -60,9 +62,11 @@ std::optional<VerifiedPath> improved_path(const World& verdict, const World& sea
   const Candidate& before = path.candidate;
   const std::optional<ImprovedPath> found = improved(searched, before.controls);
   if (!found) return std::nullopt;
-  VerifiedPath after =
-      verify(verdict, searched,
-             {.planner = before.planner, .seed = before.seed, .controls = found->controls});
+  VerifiedPath after = verify(verdict, searched,
+                              {.planner = before.planner,
+                               .seed = before.seed,
+                               .controls = found->controls,
+                               .off_doubtful_soils = before.off_doubtful_soils});
   if (!after.candidate.verified.passed || after.candidate.margin_min < before.margin_min) {
     return std::nullopt;
   }

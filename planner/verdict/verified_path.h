@@ -15,6 +15,7 @@ struct FoundPath {
   std::string planner;
   std::uint64_t seed = 0;
   std::vector<ControlSegment> controls;
+  bool off_doubtful_soils = false;  ///< where the map's doubtful soils are forbidden
 };
 
 /// A candidate with the replay that judged it; `candidate.verified` says whether it passed.
@@ -28,7 +29,8 @@ struct VerifiedPath {
 /// that does not pass is steered back to where the search had it and judged once more: errors of
 /// the search's tables and steps grow with the way, and its controls alone would end metres aside
 /// of a long one.
-/// \param verdict, searched the two worlds of one problem
+/// \param verdict, searched the two worlds of one problem, the latter without doubtful soils
+/// where the path was found off them
 VerifiedPath verify(const World& verdict, const World& searched, const FoundPath& path);
 
 /// A path that passed, improved (`improved`); nothing where that gains nothing, does not pass
@@ -43,6 +45,7 @@ void each_field(Archive& archive, Path& path) {
   archive(candidate.rank);
   archive(candidate.planner);
   archive(candidate.seed);
+  archive(candidate.off_doubtful_soils);
   archive(candidate.controls);
   archive(candidate.improvement);
   archive(candidate.points);

@@ -92,6 +92,20 @@ TEST(DifferentPaths, KeepTheWidestThenTheFastestAndNoneTwice) {
   EXPECT_EQ(names, "widest fast slow ");
 }
 
+TEST(DifferentPaths, WhereSoilsAreDoubtfulTwoOfThoseSearchedOffThemComeFirst) {
+  const auto off = [](VerifiedPath made) {
+    made.candidate.off_doubtful_soils = true;
+    return made;
+  };
+  const std::vector<VerifiedPath> chosen = different_paths(
+      {path("fast", 0.08, 50, 10), path("widest", 0.30, 80, 20), off(path("w-slow", 0.05, 99, 30)),
+       off(path("w-fast", 0.04, 90, 40)), off(path("w-wide", 0.06, 95, 50))},
+      4);
+  std::string names;
+  for (const VerifiedPath& one : chosen) names += one.candidate.planner + " ";
+  EXPECT_EQ(names, "w-wide w-fast widest fast ");
+}
+
 TEST(DifferentPaths, APathThatMakesADetourDiffersFromTheOneThatItOtherwiseFollows) {
   // Every point of the straight path lies on the other one, which strays by 10 m on its way.
   VerifiedPath detour = path("detour", 0.2, 70);
