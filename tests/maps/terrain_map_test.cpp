@@ -227,5 +227,21 @@ TEST(TerrainMap, OtherSoilsOfTheSameNamesShareTheTerrain) {
   EXPECT_THROW(map.with_soils(drawn), InputError);
 }
 
+TEST(TerrainMap, GroundOfASoilCanBeForbiddenWithinTheRasterAndBeyondIt) {
+  std::vector<std::int32_t> codes(flat().height_m.size(), -3);
+  codes.front() = 77;  // on no list: unmapped, the first soil
+  const TerrainMap map(flat(), ClassRaster{kFrame, codes}, two_soils(0), {});
+  const double west_m = x_of(0), north_m = y_of(0);
+  ASSERT_EQ(map.soil_index(west_m, north_m), 0);
+  ASSERT_EQ(map.soil_index(x_of(5), y_of(5)), 1);
+  const TerrainMap without_second = map.forbidding({map.soils()[1].name});
+  EXPECT_EQ(without_second.soil_index(west_m, north_m), 0);
+  EXPECT_EQ(without_second.soil_index(x_of(5), y_of(5)), std::nullopt);
+  const TerrainMap without_first = map.forbidding({map.soils()[0].name});
+  EXPECT_EQ(without_first.soil_index(west_m, north_m), std::nullopt);
+  EXPECT_EQ(without_first.soil_index(x_of(5), y_of(5)), 1);
+  EXPECT_EQ(map.soil_index(x_of(5), y_of(5)), 1) << "the map itself stays";
+}
+
 }  // namespace
 }  // namespace regoplan
