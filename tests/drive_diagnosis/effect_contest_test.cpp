@@ -67,7 +67,7 @@ EffectContest with_a_fault(double standard_errors, double scatter) {
       .claimable = {true, true},
       .soil = Eigen::MatrixXd::Zero(kMeasured, kWindows),
       .soil_numbers = 1,
-      .common_direction = Eigen::VectorXd::Ones(1),
+      .wide_directions = {Eigen::VectorXd::Ones(1)},
       .follows = std::vector<bool>(kWindows, true)};
   return contest;
 }
