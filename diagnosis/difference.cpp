@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "diagnosis/bed/compared_recordings.h"
@@ -277,6 +278,7 @@ class Differing {
     found_.fit = proof.fit;
     found_.held_out_by = proof.families.by;
     found_.share_explained = proof.share_explained;
+    found_.differences = differences(difference, fit);
     CondensedRecording whole = difference.recording();
     restore(t, whole);
     const CalibratedRecording measured(std::move(whole));
@@ -290,6 +292,31 @@ class Differing {
     found_.corrected_model = std::move(correction.model);
     found_.corrected_soil = correction.soil;
     found_.residuals = std::move(correction.residuals);
+  }
+
+  /// Of every run from what test and references share, and what a fit makes of it.
+  static std::vector<RunDifference> differences(const CalibratedRecording& calibrated,
+                                                const CandidateFit& fit) {
+    const TestBed& bed = calibrated.bed();
+    const Eigen::VectorXd& base = calibrated.base().prediction;
+    std::vector<RunDifference> all;
+    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+      const ChannelData& data = bed.channels[c];
+      for (Eigen::Index i = 0; i < data.mean.size(); ++i) {
+        const Eigen::Index row = bed.offset(c) + i;
+        const std::size_t k = data.conditions[static_cast<std::size_t>(i)];
+        for (const std::size_t run : bed.conditions[k].runs) {
+          const double left = calibrated.recording().adjusted[c][run];
+          if (!std::isfinite(left)) continue;
+          all.push_back({.run = run,
+                         .channel = data.channel,
+                         .difference = left - base[row],
+                         .standard_deviation = std::sqrt(data.noise(i, i)),
+                         .by_names = fit.prediction[row] - base[row]});
+        }
+      }
+    }
+    return all;
   }
 
   /// Puts back what the references share.

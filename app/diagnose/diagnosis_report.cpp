@@ -65,6 +65,18 @@ json residuals_json(const Diagnosis& diagnosis, const std::vector<Channel>& chan
   return all;
 }
 
+/// Test less reference, for a diagnosis that was given one.
+json differences_json(const Diagnosis& diagnosis) {
+  json all = json::object();
+  for (const RunDifference& at : diagnosis.differences) {
+    all[std::string(name(at.channel))].push_back({{"run", at.run},
+                                                  {"difference", at.difference},
+                                                  {"noise", at.standard_deviation},
+                                                  {"by_names", at.by_names}});
+  }
+  return all;
+}
+
 /// What the claimed mechanisms say, in the words of the catalogue.
 json forms_json(const Diagnosis& diagnosis) {
   json forms = json::array();
@@ -95,6 +107,7 @@ json report_data(const DiagnosisRun& run) {
   const Recording& recording = run.recording.recording;
   data["run_columns"] = runs_json(recording);
   data["run_residuals"] = residuals_json(run.diagnosis, recording.channels);
+  data["run_differences"] = differences_json(run.diagnosis);
   data["forms"] = forms_json(run.diagnosis);
   data["formulas"] = formulas_json();
   const DiagnosisSetup& setup = run.setup.setup;

@@ -125,6 +125,15 @@ struct RunResidual {
   double held_out_standard_deviation = 0;
 };
 
+/// One row of the test less what the references share with it, the calibrated base model included.
+struct RunDifference {
+  std::size_t run = 0;
+  Channel channel = Channel::kFx;
+  double difference = 0;
+  double standard_deviation = 0;  ///< of its condition's mean, what is shared included
+  double by_names = 0;            ///< what the claims make of it, no remainder added
+};
+
 /// Everything that a diagnosis finds.
 struct Diagnosis {
   Verdict verdict = Verdict::kUndecided;
@@ -141,6 +150,7 @@ struct Diagnosis {
   std::vector<Experiment> next_experiments;
   std::vector<SmallestDetectable> smallest_detectable;
   std::vector<RunResidual> residuals;
+  std::vector<RunDifference> differences;  ///< with references only
   WheelModelSpec corrected_model;  ///< calibrated soil, the claim's mechanisms, or `generic`
   UncertainSoil corrected_soil;
   std::vector<NameStep> names_added;    ///< of the claims, first to last

@@ -61,6 +61,32 @@ TEST_F(DiagnosisReportInTheBrowser, DrawsEveryVerdictWithoutAnError) {
   EXPECT_NE(unexplained.find("gaussian_bumps"), std::string::npos);
 }
 
+TEST_F(DiagnosisReportInTheBrowser, MapsTestMinusReferenceBesideWhatTheNamesMakeOfIt) {
+  DiagnosisRun run = claimed_diagnosis();
+  EXPECT_EQ(drawn(diagnosis_report(run)).find("by the names claimed"), std::string::npos);
+  for (const RunResidual& at : run.diagnosis.residuals) {
+    run.diagnosis.differences.push_back({.run = at.run,
+                                         .channel = at.channel,
+                                         .difference = 6 * at.noise,
+                                         .standard_deviation = at.noise,
+                                         .by_names = 5 * at.noise});
+  }
+  const std::string page = drawn(diagnosis_report(run));
+  expect_drawn_without_error(page);
+  for (const char* text : {"Test minus reference", "By the names claimed", "rms 6.0", "rms 5.0"}) {
+    EXPECT_NE(page.find(text), std::string::npos) << text;
+  }
+}
+
+TEST_F(DiagnosisReportInTheBrowser, SaysWhatAReferenceOrARepeatWouldDecide) {
+  DiagnosisRun run = claimed_diagnosis();
+  run.diagnosis.claims[0].equivalent = {"cohesion_drift"};
+  const std::string page = drawn(diagnosis_report(run));
+  EXPECT_NE(page.find("A reference (same rig and soil"), std::string::npos);
+  EXPECT_NE(page.find("at another time, in another order, would tell cohesion drift"),
+            std::string::npos);
+}
+
 TEST_F(DiagnosisReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   DiagnosisRun run = claimed_diagnosis();

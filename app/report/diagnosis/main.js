@@ -10,6 +10,7 @@ if (DIAGNOSIS.ignored_columns.length)
       element('li', {}, `Columns kept and not used: ${DIAGNOSIS.ignored_columns.join(', ')}.`));
 byId('notes-section').hidden = !byId('notes').children.length;
 whereTable(byId('where'));
+differenceMaps(byId('differences'), byId('differences-section'));
 residualMaps(byId('maps'));
 curves(byId('curves'));
 shareBar(byId('shares'));

@@ -60,20 +60,25 @@ const othersOf = run => OTHERS
 /// Groups of a channel's residuals: d3.nest is what d3 5 offers.
 const grouped = (rows, key) => d3.nest().key(key).entries(rows).map(entry => entry.values);
 
-/// Mean residuals of a channel by condition, in units of the noise.
-function conditions(channel, model) {
-  const rows = DIAGNOSIS.run_residuals[channel].filter(
-      r => isKnown(r.measured) && isKnown(r[model]) && r.noise > 0);
-  return grouped(rows, r => `${SLIP_OF[r.run]}|${ANGLE_OF[r.run]}|${othersOf(r.run)}`)
+/// Means of a value of the runs by condition, in units of the noise too.
+function byCondition(rows, value) {
+  return grouped(
+             rows.filter(r => isKnown(value(r)) && r.noise > 0),
+             r => `${SLIP_OF[r.run]}|${ANGLE_OF[r.run]}|${othersOf(r.run)}`)
       .map(group => ({
              slip: SLIP_OF[group[0].run],
              angle: ANGLE_OF[group[0].run],
              others: othersOf(group[0].run),
              count: group.length,
-             z: d3.mean(group, r => (r.measured - r[model]) / r.noise),
-             difference: d3.mean(group, r => r.measured - r[model]),
+             z: d3.mean(group, r => value(r) / r.noise),
+             difference: d3.mean(group, value),
            }));
 }
+
+/// Mean residuals of a channel by condition.
+const conditions = (channel, model) => byCondition(
+    DIAGNOSIS.run_residuals[channel].filter(r => isKnown(r.measured) && isKnown(r[model])),
+    r => r.measured - r[model]);
 
 const degreesText = value_deg => fixed(value_deg, 1) + '\u00b0';
 /// Ids as words: "load_transfer+slip_sinkage" as "load transfer + slip sinkage".

@@ -2,12 +2,9 @@
 // the mark's direction which way.
 const BEYOND_NOISE = 2;
 
-/// One scale for all maps: from what the first model misses most.
-function residualScale() {
-  const sizes = [];
-  for (const channel of DIAGNOSIS.channels)
-    for (const model of SHOWN_MODELS)
-      sizes.push(...conditions(channel, model.key).map(c => Math.abs(c.z)));
+/// One scale for all maps. \param all marks of each
+function mapScale(all) {
+  const sizes = [].concat(...all).map(c => Math.abs(c.z));
   const most = d3.quantile(sizes.sort(d3.ascending), 0.95) || 4;
   return Math.min(30, Math.max(4, Math.ceil(most)));
 }
@@ -32,7 +29,8 @@ function residualMaps(host) {
     host.append(element('p', {}, 'There are no residuals to show.'));
     return;
   }
-  const most = residualScale();
+  const most = mapScale([].concat(
+      ...channels.map(channel => SHOWN_MODELS.map(({key}) => conditions(channel, key)))));
   host.append(
       element(
           'p', {class: 'note'},
@@ -40,7 +38,8 @@ function residualMaps(host) {
       residualLegend(most));
   for (const channel of channels) {
     const row = element('div', {class: 'maps'});
-    for (const model of SHOWN_MODELS) row.append(residualMap(channel, model, most));
+    for (const model of SHOWN_MODELS)
+      row.append(signedMap(channel, model.name, conditions(channel, model.key), most, 'residuals'));
     host.append(element('h3', {}, channelOf(channel).title), row);
   }
 }
@@ -66,22 +65,23 @@ function residualLegend(most) {
   return legend;
 }
 
-function residualMap(channel, model, most) {
-  const marks = conditions(channel, model.key), {title} = channelOf(channel);
+/// Marks over slip ratio and slip angle. \param what residuals or differences
+function signedMap(channel, name, marks, most, what) {
+  const {title} = channelOf(channel), column = what.slice(0, -1);
   const beyond = marks.filter(m => Math.abs(m.z) >= BEYOND_NOISE).length;
   const rms = Math.sqrt(d3.mean(marks, m => m.z * m.z) || 0);
   const said = `rms ${fixed(rms, 1)}; ${beyond} of ${marks.length} conditions beyond two`;
   const made = figure(
       {
-        title: capital(model.name),
+        title: capital(name),
         level: 4,
-        name: () => `${title}, residuals, ${model.name}`,
+        name: () => `${title}, ${what}, ${name}`,
         shared_keys: () => residualKeys(most),
-        said: () => `${title}, residuals over slip ratio and slip angle: ${said}.`,
+        said: () => `${title}, ${what} over slip ratio and slip angle: ${said}.`,
         data: () => ({
           columns: [
-            'slip_ratio', 'slip_angle_deg', 'other_conditions', 'runs', `residual_${channel}`,
-            'residual_in_standard_deviations'
+            'slip_ratio', 'slip_angle_deg', 'other_conditions', 'runs', `${column}_${channel}`,
+            `${column}_in_standard_deviations`
           ],
           rows: marks.map(m => [m.slip, m.angle, m.others, m.count, m.difference, m.z])
         })

@@ -2,7 +2,7 @@
 // it every share with its range over ways to hold out.
 function shareBar(host) {
   const claims = DIAGNOSIS.mechanisms.filter(claim => claim.share && claim.share.explained > 0);
-  if (DIAGNOSIS.verdict !== 'partly' || !claims.length) return;
+  if (!claims.length) return;
   const parts = claims.map((claim, k) => ({
                              name: [claim.id, ...claim.equivalent].map(idText).join(' or '),
                              share: claim.share.explained,
@@ -37,7 +37,7 @@ function shareBar(host) {
   host.append(
       element(
           'p', {class: 'note'},
-          'Share of the excess misfit that each name alone explains on conditions held out of the fit, and its range over ways to hold out; members of a class stand in for each other.'),
+          'Share of the excess misfit that each name explains on conditions held out of the fit, and its range over ways to hold out; members of a class stand in for each other.'),
       svg.node(),
       scrolled(
           'Table of shares',

@@ -238,9 +238,28 @@ function fitTable(host) {
             percent(Math.min(1, DIAGNOSIS.share_explained))}.`));
 }
 
+/// What comparing recordings would decide, where something was found that it may.
+function furtherRecordings() {
+  const {verdict, references, mechanisms} = DIAGNOSIS;
+  const said = [];
+  if (['partly', 'class', 'unexplained'].includes(verdict) && !references.length)
+    said.push(
+        'A reference (same rig and soil, without the effect that is looked for) would tell what this test adds from what the base model lacks anyway: with --reference only the difference is explained.');
+  const by_time = ['cohesion_drift', 'sensor_gain', 'soil_zone', 'multi_pass'];
+  const in_question =
+      mechanisms.flatMap(m => [m.id, ...m.equivalent]).filter(id => by_time.includes(id));
+  if (in_question.length)
+    said.push(
+        `A repeat of the same conditions at another time, in another order, would tell ${
+            in_question.map(idText).join(' and ')} from physics of slip, slip angle and load.`);
+  return said;
+}
+
 function nextTable(host, section) {
+  const further = furtherRecordings();
+  host.append(...further.map(text => element('p', {}, text)));
   if (!DIAGNOSIS.next_experiment.length) {
-    section.hidden = true;
+    section.hidden = !further.length;
     return;
   }
   const rows = DIAGNOSIS.next_experiment.map((e, k) => {
