@@ -346,9 +346,11 @@ class Contest {
       best.size = products_(k, 0) / length;
       best.std = std::sqrt(std::max(1e-12, 1 / length - 1));  // without its own prior
     }
-    // What is left tells how wide the noise is, which inputs are told to have more or less than.
-    const double wide = std::max(
-        kNarrowest, std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
+    // What is left tells how wide the noise is, which inputs are told to have more or less than. A
+    // zone has none narrower: one of chance takes what goes on from window to window out of it.
+    const double wide =
+        std::max(best.is_zone ? 1 : kNarrowest,
+                 std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
     const bool is_first = contest_.zones_known.empty() && contest_.faults_known.empty();
     const double asked = best.chance + (is_first && !best.is_zone ? kToSpareFault : kToSpare);
     best.std *= wide;
