@@ -8,7 +8,7 @@
 namespace regoplan {
 namespace {
 
-constexpr double kHalfTrack_m = 0.4;
+constexpr double kRobotHalfTrack_m = 0.4;
 
 /// What a side takes in a window, by the name of its term.
 struct Taken {
@@ -17,7 +17,7 @@ struct Taken {
 
 Taken taken(int side, const CurrentWindow& window) {
   const auto [rest, constant, direction, gravity, braking, turn, either] =
-      CurrentModel::terms(side, window, kHalfTrack_m);
+      CurrentModel::terms(side, window, kRobotHalfTrack_m);
   return {rest, constant, direction, gravity, braking, turn, either};
 }
 
