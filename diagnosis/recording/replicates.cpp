@@ -49,7 +49,8 @@ std::optional<Rounds> rounds_as_days(const Recording& recording,
   if (tells_days || most < 2) return std::nullopt;
   Rounds rounds{recording, most};
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    rounds.recording.runs[i].day = static_cast<double>(i * most / runs.size());
+    const std::size_t round = i * most / runs.size();
+    rounds.recording.runs[i].day = static_cast<double>(round);
   }
   return rounds;
 }

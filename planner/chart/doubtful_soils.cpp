@@ -21,8 +21,8 @@ std::vector<double> median_slopes_rad(const PlanningProblem& problem) {
   const GridFrame& frame = problem.map.elevation().frame;
   std::vector<std::vector<double>> slopes_rad(problem.map.soils().size());
   for (int i = 0; i < kPlacesASide * kPlacesASide; ++i) {
-    const double east = (i % kPlacesASide + 0.5) / kPlacesASide;
-    const double south = (i / kPlacesASide + 0.5) / kPlacesASide;
+    const int column = i % kPlacesASide, row = i / kPlacesASide;
+    const double east = (column + 0.5) / kPlacesASide, south = (row + 0.5) / kPlacesASide;
     const double x_m = frame.west_m + east * frame.columns * frame.cell_width_m;
     const double y_m = frame.north_m - south * frame.rows * frame.cell_height_m;
     const std::optional<int> soil = problem.map.soil_index(x_m, y_m);
