@@ -10,9 +10,6 @@
 namespace regoplan {
 namespace {
 
-constexpr std::size_t kDraws = 20;
-constexpr std::ptrdiff_t kMostBroken = kDraws / 20;
-
 /// The median slope of each soil's ground where it is known and no steeper than allowed, on a grid
 /// of places over the map; 0 of a soil that lies at none of them.
 std::vector<double> median_slopes_rad(const PlanningProblem& problem) {
@@ -43,6 +40,8 @@ std::vector<double> median_slopes_rad(const PlanningProblem& problem) {
 }  // namespace
 
 std::vector<std::string> doubtful_soils(const PlanningProblem& problem) {
+  constexpr std::size_t kDraws = 20;
+  constexpr std::ptrdiff_t kMostBroken = kDraws / 20;
   const std::vector<MapSoil>& soils = problem.map.soils();
   std::vector<std::size_t> uncertain;
   for (std::size_t i = 0; i < soils.size(); ++i) {
