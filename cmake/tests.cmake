@@ -3,7 +3,8 @@
 include(GoogleTest)
 
 # Each test is one of CTest, run by itself. Suites of <folder>_suites are one of CTest each: their
-# tests look at what SetUpTestSuite has made once, which takes longer than they do.
+# tests look at what SetUpTestSuite has made once, which takes longer than they do. Under sanitizers
+# every suite is: a program of theirs takes .1 s to start, and ends with a search for leaks.
 set(app_suites CompareProgram Export PlanAgain)
 function(regoplan_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
@@ -17,6 +18,14 @@ function(regoplan_tests folder)
   endif()
   # What takes time is in the libraries; tests compile a third faster so.
   target_compile_options(${folder}_tests PRIVATE -O1)
+  if(REGOPLAN_DEV)
+    file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/${folder}_suites.cmake CONTENT
+         "include(${CMAKE_SOURCE_DIR}/cmake/suites.cmake)
+regoplan_add_suites($<TARGET_FILE:${folder}_tests> ${folder} ${CMAKE_SOURCE_DIR})\n")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES
+                 ${CMAKE_BINARY_DIR}/${folder}_suites.cmake)
+    return()
+  endif()
   set(but_suites "")
   if(${folder}_suites)
     list(JOIN ${folder}_suites ".*:" but_suites)
