@@ -3,9 +3,10 @@
 include(GoogleTest)
 
 # Each test is one of CTest, run by itself. Suites of <folder>_suites are one of CTest each: their
-# tests look at what SetUpTestSuite has made once, which takes longer than they do. Under sanitizers
+# tests look at what was made once (SetUpTestSuite, a static), which takes longer than they do. Under sanitizers
 # every suite is: a program of theirs takes .1 s to start, and ends with a search for leaks.
 set(app_suites CompareProgram Export PlanAgain)
+set(terramech_suites SupplyTable)
 function(regoplan_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
   add_executable(${folder}_tests ${sources})
