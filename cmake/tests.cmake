@@ -92,3 +92,6 @@ if(NOT REGOPLAN_DEV)
                    ${CMAKE_BINARY_DIR}/package/newer_ompl -DREGOPLAN_SOURCE=${CMAKE_SOURCE_DIR})
   set_tests_properties(package.newer_ompl PROPERTIES LABELS package)
 endif()
+
+# After the tests that their programs list, which are read in the same way.
+set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_SOURCE_DIR}/cmake/long_tests.cmake)
