@@ -11,6 +11,7 @@
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/names/calibrated_recording.h"
 #include "diagnosis/names/claim.h"
+#include "diagnosis/names/claim_shares.h"
 #include "diagnosis/names/claimed_place.h"
 #include "diagnosis/names/correction.h"
 #include "diagnosis/names/name_contest.h"
@@ -180,6 +181,8 @@ class Diagnosing {
       const bool single = std::ranges::all_of(
           claim->names, [](const NameClass& names) { return names.ids.size() == 1; });
       found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
+      measure_shares(calibrated_, scored_, claim->fit, options_.threads, found_.claims);
+      found_.remainder_share = remainder_share(found_.claims);
       take_places_of(claim->fit);
       take(
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));

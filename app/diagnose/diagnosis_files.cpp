@@ -37,8 +37,9 @@ Json channels_json(const std::vector<Channel>& channels) {
   return list_json(channels, [](Channel channel) { return name(channel); });
 }
 
-Json share_json(const Share& share) {
-  return {{"explained", share.explained}, {"low", share.low}, {"high", share.high}};
+Json share_json(const std::optional<Share>& share) {
+  if (!share) return {{"explained", nullptr}, {"low", nullptr}, {"high", nullptr}};
+  return {{"explained", share->explained}, {"low", share->low}, {"high", share->high}};
 }
 
 Json claim_json(const Claim& claim) {

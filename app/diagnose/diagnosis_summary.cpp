@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "app/diagnose/diagnosis_report.h"
+#include "diagnosis/findings/sentence.h"
 
 namespace regoplan {
 namespace {
@@ -31,6 +32,41 @@ std::string conditions_text(const Experiment& experiment) {
   return text;
 }
 
+std::string names_text(const Claim& claim) {
+  std::string text = claim.id;
+  for (const std::string& id : claim.equivalent) text += " or " + id;
+  return text;
+}
+
+/// The probability of each claim, alone or beside others, and its share where that was measured.
+std::string claims_text(const Diagnosis& diagnosis) {
+  std::string text;
+  for (const Claim& claim : diagnosis.claims) {
+    text += fmt::format("{:>8} {}, {}", text.empty() ? "what:" : "", names_text(claim),
+                        probability_words(claim.probability));
+    if (claim.share) {
+      text += fmt::format("; share {:.1f} % ({:.1f} to {:.1f})", 100 * claim.share->explained,
+                          100 * claim.share->low, 100 * claim.share->high);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+/// The candidates that compete, each the whole of what is missing; they sum to 1, and a claim's
+/// probability is the sum of those that hold one of its names.
+std::string candidates_text(const Diagnosis& diagnosis) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, diagnosis.ranking.size()); ++i) {
+    const auto& [id, probability, evidence_nats] = diagnosis.ranking[i];
+    const bool alone =
+        std::ranges::find(diagnosis.claims, id, &Claim::id) != diagnosis.claims.end();
+    text += fmt::format("{:>8} {:>5.1f} % {}{}\n", i == 0 ? "of it:" : "", 100 * probability, id,
+                        alone ? " alone" : "");
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string diagnosis_summary(const DiagnosisRun& run) {
@@ -42,17 +78,7 @@ std::string diagnosis_summary(const DiagnosisRun& run) {
     text += fmt::format("{:>8} {} off by {:.3g} ({:.3g} to {:.3g}) at {}\n", i == 0 ? "where:" : "",
                         name(at.channel), at.effect, at.ci95[0], at.ci95[1], region_text(at));
   }
-  for (std::size_t i = 0; i < std::min(kShown, diagnosis.ranking.size()); ++i) {
-    const ScoredCandidate& candidate = diagnosis.ranking[i];
-    text += fmt::format("{:>8} {:>5.1f} % {}\n", i == 0 ? "what:" : "", 100 * candidate.probability,
-                        candidate.id);
-  }
-  for (const Claim& claim : diagnosis.claims) {
-    text +=
-        fmt::format("{:>8} {:>5.1f} % ({:.1f} to {:.1f}) {}\n",
-                    &claim == diagnosis.claims.data() ? "share:" : "", 100 * claim.share.explained,
-                    100 * claim.share.low, 100 * claim.share.high, claim.id);
-  }
+  text += claims_text(diagnosis) + candidates_text(diagnosis);
   if (!diagnosis.fit.empty()) {
     text +=
         fmt::format("{:>8} {:>11} {:>9} {:>9} {:>10} {:>9}   on runs held out by {}\n", "rmse:", "",

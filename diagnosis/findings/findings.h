@@ -43,10 +43,10 @@ struct Claim {
   std::string form;        ///< the one that fits best; empty for instruments
   double probability = 0;  ///< of the class
   std::map<std::string, Estimate> parameters;
-  std::vector<std::string> equivalent;         ///< further ids that these data cannot tell apart
-  std::vector<Channel> channels;               ///< in which it shows
-  double evidence_nats = 0;                    ///< over the best score without it
-  Share share;                                 ///< that it adds to those before it
+  std::vector<std::string> equivalent;  ///< further ids that these data cannot tell apart
+  std::vector<Channel> channels;        ///< in which it shows
+  double evidence_nats = 0;             ///< over the best score without it
+  std::optional<Share> share;  ///< that it adds to those before it, where there is an excess
   std::map<std::string, Share> member_shares;  ///< of a class: what each id explains in its place
 };
 

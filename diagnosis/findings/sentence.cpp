@@ -101,11 +101,6 @@ std::string experiment_words(const Diagnosis& diagnosis) {
   return fmt::format(" To decide, measure at {}.", at);
 }
 
-/// No more certain than it can be told apart from certainty.
-std::string percent(double probability) {
-  return probability > 0.99 ? "over 99 %" : fmt::format("{:.0f} %", 100 * probability);
-}
-
 std::string share_words(const Share& share) {
   std::string text = fmt::format("{:.0f} %", 100 * share.explained);
   if (share.high - share.low > 0.02) {
@@ -126,7 +121,7 @@ std::string partial_words(const Diagnosis& diagnosis) {
   std::string what;
   for (const Claim& claim : diagnosis.claims) {
     what += fmt::format("{}{} explains {} of it", what.empty() ? "" : "; ",
-                        list_of(names_of(claim)), share_words(claim.share));
+                        list_of(names_of(claim)), share_words(claim.share.value_or(Share{})));
   }
   return what + fmt::format("; {:.0f} % has no name.", 100 * diagnosis.remainder_share);
 }
@@ -158,7 +153,7 @@ std::string named_words(const Diagnosis& diagnosis) {
   std::string what;
   for (const Claim& claim : diagnosis.claims) {
     what += fmt::format("{}{}, {}", what.empty() ? "" : "; and ", list_of(names_of(claim)),
-                        percent(claim.probability));
+                        probability_words(claim.probability));
   }
   std::string text = "the data say " + what + ".";
   const double left = 1 - diagnosis.share_explained;
@@ -177,6 +172,10 @@ std::string class_words(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+std::string probability_words(double probability) {
+  return probability > 0.99 ? "over 99 %" : fmt::format("{:.0f} %", 100 * probability);
+}
 
 std::string sentence_of(const Diagnosis& diagnosis) {
   std::string where;

@@ -130,8 +130,10 @@ std::string objection_to_class(const std::vector<std::string>& ids) {
 }
 
 double remainder_share(const std::vector<Claim>& claims) {
+  if (std::ranges::none_of(claims, [](const Claim& claim) { return claim.share.has_value(); }))
+    return 0;
   double explained = 0;
-  for (const Claim& claim : claims) explained += claim.share.explained;
+  for (const Claim& claim : claims) explained += claim.share ? claim.share->explained : 0;
   return std::clamp(1 - explained, 0.0, 1.0);
 }
 

@@ -33,7 +33,7 @@ double reached_by_chance(const std::vector<ByChance>& reached);
 /// Why names that fit alike are no class; empty where they are.
 std::string objection_to_class(const std::vector<std::string>& ids);
 
-/// What claims leave of the excess misfit.
+/// What claims leave of the excess misfit; nothing where no share of it was measured.
 double remainder_share(const std::vector<Claim>& claims);
 
 /// A claim for the first of a class, its members' shares beside it.

@@ -44,6 +44,17 @@ class Diagnose : public testing::Test {
   ScratchFolder folder_;
 };
 
+TEST_F(Diagnose, ThePersonReadsOneProbabilityOfAClaim) {
+  const ProgramRun run = diagnose(kScenario + "recording.csv", kScenario + "setup.yaml");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.output.find("the data say slip_sinkage, over 99 %"), std::string::npos)
+      << run.output;
+  EXPECT_NE(run.output.find("what: slip_sinkage, over 99 %; share "), std::string::npos)
+      << run.output;
+  // What is scored is the whole of what is missing: this name and no other.
+  EXPECT_NE(run.output.find("% slip_sinkage alone\n"), std::string::npos) << run.output;
+}
+
 TEST_F(Diagnose, TheBuiltInRecordingIsExplainedTheSameWhateverTheThreads) {
   const ProgramRun run =
       diagnose(kScenario + "recording.csv", kScenario + "setup.yaml", "--json --threads 2");
@@ -56,9 +67,22 @@ TEST_F(Diagnose, TheBuiltInRecordingIsExplainedTheSameWhateverTheThreads) {
   std::vector<std::string> ids = d["mechanisms"][0]["equivalent"];
   ids.push_back(d["mechanisms"][0]["id"]);
   EXPECT_NE(std::ranges::find(ids, "slip_sinkage"), ids.end()) << d["mechanisms"].dump();
-  double sum = 0;
-  for (const auto& candidate : d["ranking"]) sum += candidate["probability"].get<double>();
+  double sum = 0, with_the_name = 0;
+  for (const auto& candidate : d["ranking"]) {
+    const double probability = candidate["probability"];
+    sum += probability;
+    for (const std::string& id : ids) {
+      if (candidate["id"].get<std::string>().find(id) == std::string::npos) continue;
+      with_the_name += probability;
+      break;
+    }
+  }
   EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_NEAR(d["mechanisms"][0]["probability"].get<double>(), with_the_name, 1e-9);
+  const auto& share = d["mechanisms"][0]["share"];
+  EXPECT_GT(share["explained"], 0.9);
+  EXPECT_LE(share["low"], share["explained"]);
+  EXPECT_GE(share["high"], share["explained"]);
   for (const auto& [channel, fit] : d["fit"].items()) {
     EXPECT_LT(fit["corrected_rmse"], 1.3 * fit["noise_floor"].get<double>()) << channel;
   }

@@ -58,9 +58,10 @@ TEST(Difference, ThatOneEffectMakesHasItsNameAndItsShare) {
       << found.sentence;
   EXPECT_NE(found.sentence.find("above the reference at slip ratio"), std::string::npos)
       << found.sentence;
-  EXPECT_GT(claim.share.explained, 0.5);
-  EXPECT_LE(claim.share.low, claim.share.explained);
-  EXPECT_GE(claim.share.high, claim.share.explained);
+  ASSERT_TRUE(claim.share);
+  EXPECT_GT(claim.share->explained, 0.5);
+  EXPECT_LE(claim.share->low, claim.share->explained);
+  EXPECT_GE(claim.share->high, claim.share->explained);
 }
 
 TEST(Difference, AFurtherPassOfOneSeriesAloneIsNoDifferenceBetweenTwo) {

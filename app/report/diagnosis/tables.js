@@ -137,7 +137,7 @@ function candidateTable(host) {
         'tr', {},
         element(
             'th', {scope: 'row'}, idText(id),
-            claimed.has(id) ? element('span', {class: 'note'}, ' (claimed)') : null),
+            claimed.has(id) ? element('span', {class: 'note'}, ' alone (claimed)') : null),
         element('td', {class: 'bar-cell'}, bar), element('td', {class: 'number'}, probability(p)));
   });
   const rest = ranking.slice(SHOWN);
@@ -152,7 +152,7 @@ function candidateTable(host) {
           'table', {class: 'bars wide-bars'},
           element(
               'caption', {},
-              `Every candidate that was scored, most probable first${
+              `Every candidate that was scored, each as the whole of what is missing, most probable first; a claim has the probabilities of all that hold its name${
                   rest.length ?
                       `; ${rest.length} others have ${
                           probability(d3.sum(rest, c => c.probability))} together` :

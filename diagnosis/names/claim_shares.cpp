@@ -1,0 +1,46 @@
+#include "diagnosis/names/claim_shares.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "diagnosis/names/name_share.h"
+
+namespace regoplan {
+namespace {
+
+const CandidateFit* fit_of(const std::set<std::string>& ids, const std::vector<ScoredId>& scored) {
+  const auto found = std::ranges::find_if(
+      scored, [&](const ScoredId& s) { return !ids.empty() && s.account.effects == ids; });
+  return found == scored.end() ? nullptr : &found->fit;
+}
+
+}  // namespace
+
+void measure_shares(const CalibratedRecording& calibrated, const std::vector<ScoredId>& scored,
+                    const CandidateFit& fit, int threads, std::vector<Claim>& claims) {
+  if (calibrated.held_out({.fit = &fit}, threads).excess <= 0) return;
+  const auto share = [&](const CandidateFit& with, const CandidateFit* without) {
+    return without == nullptr ? name_share(calibrated, with, threads).share
+                              : added_share(calibrated, with, *without, threads).share;
+  };
+  std::set<std::string> before;
+  for (Claim& claim : claims) {
+    const CandidateFit* without = fit_of(before, scored);
+    std::set<std::string> names = before;
+    names.insert(claim.id);
+    const CandidateFit* with = names.size() == claims.size() ? &fit : fit_of(names, scored);
+    if (with == nullptr) return;
+    claim.share = share(*with, without);
+    claim.member_shares[claim.id] = *claim.share;
+    for (const std::string& id : claim.equivalent) {
+      std::set<std::string> instead = before;
+      instead.insert(id);
+      const CandidateFit* other = fit_of(instead, scored);
+      if (other != nullptr) claim.member_shares[id] = share(*other, without);
+    }
+    before = std::move(names);
+  }
+}
+
+}  // namespace regoplan
