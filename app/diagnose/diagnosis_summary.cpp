@@ -56,12 +56,13 @@ std::string claims_text(const Diagnosis& diagnosis) {
 /// The candidates that compete, each the whole of what is missing; they sum to 1, and a claim's
 /// probability is the sum of those that hold one of its names.
 std::string candidates_text(const Diagnosis& diagnosis) {
+  const std::string_view first = diagnosis.claims.empty() ? "what:" : "of it:";
   std::string text;
   for (std::size_t i = 0; i < std::min(kShown, diagnosis.ranking.size()); ++i) {
     const auto& [id, probability, evidence_nats] = diagnosis.ranking[i];
     const bool alone =
         std::ranges::find(diagnosis.claims, id, &Claim::id) != diagnosis.claims.end();
-    text += fmt::format("{:>8} {:>5.1f} % {}{}\n", i == 0 ? "of it:" : "", 100 * probability, id,
+    text += fmt::format("{:>8} {:>5.1f} % {}{}\n", i == 0 ? first : "", 100 * probability, id,
                         alone ? " alone" : "");
   }
   return text;
