@@ -37,7 +37,7 @@ function shareBar(host) {
   host.append(
       element(
           'p', {class: 'note'},
-          'Share of the excess misfit that each name explains on conditions held out of the fit, and its range over ways to hold out; members of a class stand in for each other.'),
+          'Share of the excess misfit that each name explains on conditions held out of the fit, and its range over ways to hold out; members of a class stand in for each other. Above 100 % the rest is less than the noise leads one to expect.'),
       svg.node(),
       scrolled(
           'Table of shares',
