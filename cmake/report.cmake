@@ -22,7 +22,8 @@ report_files(map_scripts map terrain.js model.js path_colours.js ground_layers.j
 report_files(evaluation_scripts evaluation spreads.js courses.js)
 report_files(benchmark_scripts benchmark planners.js tables.js profiles.js spread.js progress.js paths.js
              main.js)
-report_files(diagnosis_scripts diagnosis model.js residual_maps.js difference_maps.js curves.js tables.js shares.js main.js)
+report_files(diagnosis_scripts diagnosis model.js residual_maps.js residuals_in_time.js difference_maps.js
+             curves.js tables.js shares.js main.js)
 
 regoplan_embed(
   regoplan_app app/page/report_assets.h

@@ -39,6 +39,9 @@ json runs_json(const Recording& recording) {
     columns["speed_mps"] =
         column(runs, [](const WheelRun& run) { return run.conditions.speed_mps; });
   }
+  if (recording.columns.time) {
+    columns["time_s"] = column(runs, [](const WheelRun& run) { return run.conditions.time_s; });
+  }
   if (recording.columns.wheel) {
     columns["wheel"] = column(runs, [](const WheelRun& run) { return run.wheel; });
   }

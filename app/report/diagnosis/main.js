@@ -12,6 +12,7 @@ byId('notes-section').hidden = !byId('notes').children.length;
 whereTable(byId('where'));
 differenceMaps(byId('differences'), byId('differences-section'));
 residualMaps(byId('maps'));
+residualsInTime(byId('in-time'));
 curves(byId('curves'));
 shareBar(byId('shares'));
 claimList(byId('claims'));
