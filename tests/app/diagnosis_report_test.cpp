@@ -42,13 +42,13 @@ TEST_F(DiagnosisReportInTheBrowser, DrawsAClaimFromTheFindingDownToTheNumbers) {
                            "n = n0 + n1 s + n2 s^2 (s &gt; 0)"}) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
-  // two channels: three maps and a panel for each of the two slip angles
+  // two channels: three maps, two panels in time and one for each of the two slip angles
   std::size_t pictures = 0;
   for (std::size_t at = page.find("role=\"img\""); at != std::string::npos;
        at = page.find("role=\"img\"", at + 1)) {
     ++pictures;
   }
-  EXPECT_EQ(pictures, 2u * (3 + 2));
+  EXPECT_EQ(pictures, 2u * (3 + 2 + 2));
 }
 
 TEST_F(DiagnosisReportInTheBrowser, DrawsEveryVerdictWithoutAnError) {
