@@ -33,13 +33,12 @@ ResidualNoise::ResidualNoise(ResidualParts parts) : parts_(std::move(parts)) {
   const double freedom = std::max(0.3, 1 - static_cast<double>(parts_.columns.size()) /
                                                (windows * static_cast<double>(residuals.cols())));
   input_scale_.assign(parts_.inputs.size(), 1);
-  constexpr int kRounds = 15, kShareAt = 6;  // once the scales are nearly what they will be
+  constexpr int kRounds = 15;
   Eigen::MatrixXd left = residuals;
   for (int round = 0; round < kRounds; ++round) {
     factor();
     left = fitted_residuals();
-    if (round == 0) start_alike(left);
-    if (round == kShareAt) choose_share(left);
+    if (round == 0) choose_shares(left);
     update(left, freedom);
     update_inputs(left, freedom);
   }
@@ -172,9 +171,17 @@ void ResidualNoise::update(const Eigen::MatrixXd& left, double freedom) {
     seen_alike += seen[k];
     due_alike += due[k];
   }
-  // Neighbouring samples say at least how far a mean scatters: what goes together over some of them
-  // makes it more.
+  // Where the inputs' scatter hides theirs, neighbouring samples say what it is: worth so many
+  // windows of one wheel.
+  constexpr double kSamplesWorth = 30;
   const double sampled = sampled_scale();
+  for (Eigen::Index k = 0; k < left.cols(); ++k) {
+    if (!is_alike(k) || !(sampled > 0)) continue;
+    const double ratio = sampled / scale_[static_cast<std::size_t>(k)];
+    seen_alike += kSamplesWorth * ratio * ratio;
+    due_alike += kSamplesWorth;
+    break;  // alike channels have one scale
+  }
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     if (is_alike(k)) {
       seen[k] = seen_alike;
@@ -183,8 +190,7 @@ void ResidualNoise::update(const Eigen::MatrixXd& left, double freedom) {
     constexpr double kLeast = 1e-6;  // of a channel's unit
     double& scale = scale_[static_cast<std::size_t>(k)];
     scale = std::max(kLeast, scale * std::sqrt(seen[k] / (due[k] * freedom)));
-    scale =
-        std::max(scale, is_alike(k) ? sampled : parts_.sampled_std[static_cast<std::size_t>(k)]);
+    if (!is_alike(k)) scale = std::max(scale, parts_.sampled_std[static_cast<std::size_t>(k)]);
   }
 }
 
@@ -220,52 +226,37 @@ double ResidualNoise::sampled_scale() const {
   return scales.empty() ? 0 : median_value(scales);
 }
 
-/// Alike channels begin with one scale, that which all of their residuals have.
-void ResidualNoise::start_alike(const Eigen::MatrixXd& left) {
-  std::vector<double> sizes;
-  for (Eigen::Index k = 0; k < left.cols(); ++k) {
-    if (!is_alike(k)) continue;
-    for (Eigen::Index w = 0; w < left.rows(); ++w) sizes.push_back(std::abs(left(w, k)));
-  }
-  if (sizes.empty()) return;
-  constexpr double kLeast = 1e-9;
-  const double scale = std::max(kLeast, median_value(sizes) / kMad);
-  for (Eigen::Index k = 0; k < left.cols(); ++k) {
-    if (is_alike(k)) scale_[static_cast<std::size_t>(k)] = scale;
-  }
-}
-
 /// How far the scatter of alike channels goes with their size: what makes the residuals most
-/// likely beside the scatter of inputs, which is often far larger; the scale goes along so that the
-/// mean square stays.
-void ResidualNoise::choose_share(const Eigen::MatrixXd& left) {
-  double square = 0, count = 0;
+/// likely.
+void ResidualNoise::choose_shares(const Eigen::MatrixXd& left) {
+  double best = std::numeric_limits<double>::infinity(), chosen = 0, chosen_scale = 1;
+  for (const double share : {0.0, 0.5, 1.0, 2.0, 6.0}) {
+    std::vector<double> sizes;
+    double misfit = 0;
+    for (Eigen::Index k = 0; k < left.cols(); ++k) {
+      if (!is_alike(k)) continue;
+      for (Eigen::Index w = 0; w < left.rows(); ++w) {
+        const double wide = std::hypot(1, share * parts_.reference(w, k));
+        sizes.push_back(std::abs(left(w, k)) / wide);
+        misfit += std::log(wide);
+      }
+    }
+    if (sizes.empty()) return;
+    const double scale = std::max(1e-9, median_value(sizes) / kMad);
+    for (const double size : sizes) {
+      const double z = size / scale;
+      misfit += std::log(scale) + (z < kFar ? z * z / 2 : kFar * (z - kFar / 2));
+    }
+    if (misfit >= best) continue;
+    best = misfit;
+    chosen = share;
+    chosen_scale = scale;
+  }
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     if (!is_alike(k)) continue;
-    square += parts_.reference.col(k).squaredNorm();
-    count += static_cast<double>(left.rows());
+    share_[static_cast<std::size_t>(k)] = chosen;
+    scale_[static_cast<std::size_t>(k)] = chosen_scale;
   }
-  if (count == 0) return;
-  const std::vector<double> scales = scale_, shares = share_;
-  const auto set = [&](double share) {
-    for (std::size_t k = 0; k < scales.size(); ++k) {
-      if (!is_alike(static_cast<Eigen::Index>(k))) continue;
-      const double mean_square = square / count;
-      scale_[k] = scales[k] * std::sqrt((1 + shares[k] * shares[k] * mean_square) /
-                                        (1 + share * share * mean_square));
-      share_[k] = share;
-    }
-    factor();
-  };
-  double least = std::numeric_limits<double>::infinity(), chosen = 0;
-  for (const double share : {0.0, 0.5, 1.0, 2.0, 6.0}) {
-    set(share);
-    const double unlikely = nats(left);
-    if (unlikely >= least) continue;
-    least = unlikely;
-    chosen = share;
-  }
-  set(chosen);
 }
 
 void ResidualNoise::widen_what_goes_on(const Eigen::MatrixXd& left) {

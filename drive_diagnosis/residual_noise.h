@@ -51,8 +51,7 @@ class ResidualNoise {
   Eigen::MatrixXd fitted_residuals() const;
   void update(const Eigen::MatrixXd& left, double freedom);
   void update_inputs(const Eigen::MatrixXd& left, double freedom);
-  void start_alike(const Eigen::MatrixXd& left);
-  void choose_share(const Eigen::MatrixXd& left);
+  void choose_shares(const Eigen::MatrixXd& left);
   void widen_what_goes_on(const Eigen::MatrixXd& left);
   Eigen::VectorXd variances(Eigen::Index window) const;
   double sampled_scale() const;

@@ -36,35 +36,6 @@ ResidualNoise noise_of(const Eigen::MatrixXd& residuals) {
                         .sampled_std = std::vector<double>(kChannelsMeasured, 0.0)});
 }
 
-TEST(ResidualNoise, GoesWithTheSizeOfTorquesBesideInputsThatScatterMore) {
-  constexpr double kShare = 0.4, kSampled = 0.1;
-  constexpr Eigen::Index kMany = 200;
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> normal;
-  Eigen::MatrixXd residuals(kMany, 2), reference(kMany, 2);
-  Eigen::MatrixXd input = Eigen::MatrixXd::Constant(kMany, 2, 2);
-  input.col(1) *= -1;
-  for (Eigen::Index w = 0; w < kMany; ++w) {
-    reference.row(w).setConstant(w % 2 == 0 ? 1.8 : 0.2);
-    const double off = normal(random);
-    for (Eigen::Index k = 0; k < 2; ++k) {
-      residuals(w, k) = off * input(w, k) + kShare * reference(w, k) * normal(random);
-    }
-  }
-  const ResidualNoise noise({.residuals = residuals,
-                             .columns = {},
-                             .may_be_wrong = {},
-                             .inputs = {input},
-                             .scatters_unknown = {false},
-                             .follows = std::vector<bool>(kMany, true),
-                             .reference = reference,
-                             .sampled_std = {kSampled, kSampled}});
-  const Eigen::VectorXd white = noise.whitened(Eigen::MatrixXd::Ones(kMany, 2));
-  const auto std_of = [&](Eigen::Index w) { return std::sqrt(2) / white.segment(2 * w, 2).norm(); };
-  EXPECT_NEAR(std_of(0), kShare * 1.8, 0.15 * kShare * 1.8);
-  EXPECT_LT(std_of(1), 2 * kShare * 0.2);
-}
-
 TEST(ResidualNoise, IsAsWideAsEachChannelScatters) {
   // Residuals that go on from window to window by chance widen a scale: the middle of many counts.
   std::vector<std::vector<double>> ratios(kChannelsMeasured);
