@@ -1,0 +1,334 @@
+#include "drive_diagnosis/effect_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drive_diagnosis/slope_errors.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kSettled = 0.05;  ///< deviations
+/// How far another soil may be from that of the map, in standard deviations of the map's: weaker in
+/// all; and in the logarithm of its bearing, which of sands and regoliths spans two decades (kphi
+/// of 1e4 to 1e6) where tests of one soil know it to a quarter.
+constexpr double kFarWeaker = 6, kBearing_log = 1.5;
+
+}  // namespace
+
+EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
+                     const std::vector<VehicleTrial>& trials, const std::vector<LikelySoil>& likely,
+                     const std::stop_token& stop)
+    : comparison_(comparison),
+      map_(map),
+      trials_(trials),
+      stop_(stop),
+      fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials.size()))} {
+  shifts_ = Eigen::MatrixXd::Zero(comparison.measured().rows(),
+                                  static_cast<Eigen::Index>(comparison.inputs()));
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    const bool varies = std::ranges::any_of(
+        map.soils(), [k](const MapSoil& soil) { return soil_spread(soil.soil).at(k) > 0; });
+    if (varies) numbers_.push_back(k);
+  }
+  for (std::size_t i = 0; i < comparison.size(); ++i) {
+    contest_.follows.push_back(comparison.consecutive(i));
+  }
+  for (const VehicleTrial& trial : trials_) contest_.claimable.push_back(!trial.id.empty());
+  contest_.soil_numbers = numbers_.size();
+  contest_.wide_directions = {values_of(weaker_by(kFarWeaker)), other_bearing()};
+  for (const LikelySoil& soil : likely) {
+    constexpr double kFarthest = 6;
+    contest_.likely_soils.push_back(
+        values_of(soil.numbers).cwiseMax(-kFarthest).cwiseMin(kFarthest));
+  }
+}
+
+EffectFound EffectFit::strongest(std::uint64_t seed) {
+  const Linearised here = linearise();
+  EffectFound strongest = strongest_effect(contest_, seed);
+  if (strongest.stands_out || !strongest.is_zone) return strongest;
+  // A zone that is there has widened the noise that it was held against.
+  std::vector<Eigen::VectorXd> zones = contest_.zones_known;
+  zones.push_back(strongest.share);
+  whiten(here, zones);
+  return strongest_effect(contest_, seed);
+}
+
+void EffectFit::add(const EffectFound& effect) {
+  if (effect.is_zone) {
+    contest_.zones_known.push_back(effect.share);
+    fit_.zones.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size())));
+  } else {
+    contest_.faults_known.push_back(effect.parameter);
+  }
+}
+
+VehicleDeviation EffectFit::deviation() const {
+  VehicleDeviation sum;
+  for (std::size_t k = 0; k < trials_.size(); ++k) {
+    const double size = fit_.parameters[static_cast<Eigen::Index>(k)];
+    if (size != 0) sum.add(trials_[k].deviation, size);
+  }
+  return sum;
+}
+
+SoilNumbers EffectFit::numbers_of(const Eigen::VectorXd& values) const {
+  SoilNumbers numbers{};
+  for (std::size_t k = 0; k < numbers_.size(); ++k) {
+    numbers.at(numbers_[k]) = values[static_cast<Eigen::Index>(k)];
+  }
+  return numbers;
+}
+
+/// Of the numbers that vary.
+Eigen::VectorXd EffectFit::values_of(const SoilNumbers& numbers) const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(numbers_.size()));
+  for (std::size_t k = 0; k < numbers_.size(); ++k) {
+    values[static_cast<Eigen::Index>(k)] = numbers.at(numbers_[k]);
+  }
+  return values;
+}
+
+/// Soils of another bearing, in the mean of those driven on.
+Eigen::VectorXd EffectFit::other_bearing() const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size()));
+  double count = 0;
+  for (std::size_t i = 0; i < map_.soils().size(); ++i) {
+    if (!comparison_.soils_driven()[i]) continue;
+    sum += values_of(bearing_by(map_.soils()[i].soil, -kBearing_log));
+    ++count;
+  }
+  return sum / std::max(count, 1.0);
+}
+
+std::vector<WindowZone> EffectFit::zones() const {
+  std::vector<WindowZone> result;
+  for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+    const Eigen::VectorXd& share = contest_.zones_known[z];
+    result.push_back({.share = {share.begin(), share.end()},
+                      .soil = soil_of(share),
+                      .numbers = numbers_of(fit_.zones[z])});
+  }
+  return result;
+}
+
+Eigen::MatrixXd EffectFit::predicted() const {
+  const Eigen::MatrixXd nothing =
+      Eigen::MatrixXd::Zero(comparison_.measured().rows(), comparison_.measured().cols());
+  return comparison_.predicted(deviation(), zones(), comparison_.predicted({}, {}, nothing, stop_),
+                               stop_);
+}
+
+/// Columns and data about the present fit: what is measured less what is predicted there, plus
+/// what the parameters there stand for.
+EffectFit::Linearised EffectFit::linearise() {
+  const VehicleDeviation here = deviation();
+  const std::vector<WindowZone> zones_here = zones();
+  comparison_.shift_inputs(shifts_);
+  const Eigen::MatrixXd base = predicted();
+  std::vector<Eigen::MatrixXd> columns;
+  // Told of the measured inputs, to first order about the likely ones.
+  const std::vector<Eigen::MatrixXd> inputs = comparison_.of_inputs(here, base, stop_);
+  Eigen::MatrixXd data = comparison_.measured() - base;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    data += shifts_.col(static_cast<Eigen::Index>(k)).asDiagonal() * inputs[k];
+  }
+  const Eigen::MatrixXd left = data;
+  for (std::size_t k = 0; k < trials_.size(); ++k) {
+    VehicleDeviation there = here;
+    there.add(trials_[k].deviation, 1);
+    columns.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
+    data += fit_.parameters[static_cast<Eigen::Index>(k)] * columns.back();
+  }
+  std::vector<Eigen::MatrixXd> soil;
+  for (const std::size_t number : numbers_) {
+    VehicleDeviation there = here;
+    there.soils.resize(map_.soils().size());
+    for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
+    soil.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
+  }
+  for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+    for (Eigen::Index w = 0; w < data.rows(); ++w) {
+      for (std::size_t k = 0; k < numbers_.size(); ++k) {
+        data.row(w) += contest_.zones_known[z][w] * fit_.zones[z][static_cast<Eigen::Index>(k)] *
+                       soil[k].row(w);
+      }
+    }
+  }
+  Linearised result{.data = std::move(data),
+                    .base = base,
+                    .columns = std::move(columns),
+                    .soil = std::move(soil),
+                    .inputs = inputs};
+  const ResidualNoise noise = whiten(result, contest_.zones_known);
+  shifts_ = noise.inputs_given(left);
+  result.nats = noise.nats(left);
+  return result;
+}
+
+/// Makes data and columns of the contest white.
+/// \param zones stretches whose soil is no noise
+ResidualNoise EffectFit::whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones) {
+  const auto& [data, base, columns, soil, inputs, nats] = here;
+  Eigen::MatrixXd reference = Eigen::MatrixXd::Zero(base.rows(), base.cols());
+  for (Eigen::Index k = 0; k < base.cols(); ++k) {
+    if (!comparison_.scales(static_cast<std::size_t>(k))) continue;
+    const double mean = base.col(k).cwiseAbs().mean();
+    if (mean > 0) reference.col(k) = base.col(k) / mean;
+  }
+  std::vector<Eigen::MatrixXd> global = columns;
+  std::vector<bool> may_be_wrong = contest_.claimable;
+  for (const Eigen::VectorXd& share : zones) {
+    for (const Eigen::MatrixXd& number : soil) {
+      global.emplace_back(share.asDiagonal() * number);
+      may_be_wrong.push_back(true);
+    }
+  }
+  std::vector<bool> unknown;
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    unknown.push_back(k >= comparison_.slope_along());
+  }
+  ResidualNoise noise({.residuals = data,
+                       .columns = std::move(global),
+                       .may_be_wrong = std::move(may_be_wrong),
+                       .inputs = inputs,
+                       .scatters_unknown = unknown,
+                       .follows = contest_.follows,
+                       .reference = std::move(reference),
+                       .sampled_std = comparison_.sampled_std()});
+  noise_ = noise.scales();
+  contest_.data = noise.whitened(data);
+  contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    contest_.parameters.col(static_cast<Eigen::Index>(k)) = noise.whitened(columns[k]);
+  }
+  contest_.soil.resize(contest_.data.size(),
+                       base.rows() * static_cast<Eigen::Index>(numbers_.size()));
+  for (Eigen::Index w = 0; w < base.rows(); ++w) {
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(base.rows(), base.cols());
+      alone.row(w) = soil[k].row(w);
+      contest_.soil.col(w * static_cast<Eigen::Index>(numbers_.size()) +
+                        static_cast<Eigen::Index>(k)) = noise.whitened(alone);
+    }
+  }
+  const std::size_t along = comparison_.slope_along();
+  const auto white = [&](std::size_t input) {
+    return Eigen::VectorXd(noise.input_scales()[input] * noise.whitened(here.inputs[input]));
+  };
+  contest_.ground = likely_slope_errors(
+      contest_, {.along = white(along), .across = white(along + 1), .channels = base.cols()},
+      comparison_.channel("pitch_rad"));
+  return noise;
+}
+
+void EffectFit::go_on_from(Settled settled) {
+  fit_ = std::move(settled.fit);
+  shifts_ = std::move(settled.shifts);
+  comparison_.shift_inputs(shifts_);
+}
+
+void EffectFit::settle() {
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    linearise();
+    if (step() < kSettled) break;
+  }
+}
+
+void EffectFit::settle_with(const EffectFound& effect) {
+  if (effect.is_zone) {
+    settle_zone();
+  } else if (fit_.zones.empty()) {
+    settle();
+  } else {
+    go_on_from(settled_from_here());
+  }
+}
+
+void EffectFit::settle_zone() {
+  const Settled start{.fit = fit_, .shifts = shifts_};
+  Settled best = settled_from_here();
+  go_on_from(start);
+  fit_.zones.back() = contest_.wide_directions[0] + contest_.wide_directions[1];
+  Settled weak = settled_from_here();
+  if (weak.nats < best.nats) best = std::move(weak);
+  go_on_from(std::move(best));
+}
+
+/// Steps are taken where they lead to what is likelier, and else shortened.
+EffectFit::Settled EffectFit::settled_from_here() {
+  constexpr int kRounds = 10;
+  constexpr double kShorter = 0.4;
+  Settled best;
+  ContestFit towards;
+  double share = 1;
+  for (int round = 0; round < kRounds; ++round) {
+    const Settled here{.fit = fit_, .shifts = shifts_};
+    const double nats = linearise().nats + prior_nats(contest_, fit_);
+    if (round == 0 || nats < best.nats) {
+      best = {.fit = here.fit, .shifts = here.shifts, .nats = nats};
+      step();
+      towards = fit_;
+      best.fit.parameters_std = towards.parameters_std;
+      best.fit.zones_std = towards.zones_std;
+      share = std::min(1.0, share / kShorter);
+    } else {
+      share *= kShorter;
+      shifts_ = best.shifts;
+    }
+    fit_ = towards;
+    fit_.parameters = best.fit.parameters + share * (towards.parameters - best.fit.parameters);
+    for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+      fit_.zones[z] = best.fit.zones[z] + share * (towards.zones[z] - best.fit.zones[z]);
+    }
+  }
+  return best;
+}
+
+/// To the most likely parameters as the contest is linearised; steps that are long are shortened.
+/// \returns the longest part of it, in deviations of what a sound vehicle and its soils are off
+double EffectFit::step() {
+  constexpr double kLongest = 1.5, kZoneLongest = 4, kZoneFarthest = 24;  // deviations
+  ContestFit next = fit_contest(contest_);
+  const double longest = longest_of_sound(next.parameters - fit_.parameters);
+  if (longest > kLongest) {
+    next.parameters = fit_.parameters + kLongest / longest * (next.parameters - fit_.parameters);
+  }
+  for (std::size_t z = 0; z < next.zones.size(); ++z) {
+    const Eigen::VectorXd off = next.zones[z] - fit_.zones[z];
+    const double length = off.cwiseAbs().maxCoeff();
+    if (length > kZoneLongest) next.zones[z] = fit_.zones[z] + kZoneLongest / length * off;
+    next.zones[z] = next.zones[z].cwiseMax(-kZoneFarthest).cwiseMin(kZoneFarthest);
+  }
+  fit_ = std::move(next);
+  return longest;
+}
+
+/// Of a step, how far it takes whatever a sound vehicle and its soils may be off.
+double EffectFit::longest_of_sound(const Eigen::VectorXd& step) const {
+  double longest = 0;
+  for (std::size_t k = 0; k < trials_.size(); ++k) {
+    const auto& known = contest_.faults_known;
+    if (std::ranges::find(known, k) != known.end()) continue;
+    longest = std::max(longest, std::abs(step[static_cast<Eigen::Index>(k)]));
+  }
+  return longest;
+}
+
+int EffectFit::soil_at(std::size_t i) const {
+  const WindowPart& middle = comparison_.input(i).places[DriveWindow::kParts / 2].part;
+  return map_.soil_index(middle.x_m, middle.y_m).value_or(0);
+}
+
+/// The soil of the map that most of a zone is said to be.
+int EffectFit::soil_of(const Eigen::VectorXd& share) const {
+  std::vector<double> lies_on(map_.soils().size());
+  for (std::size_t i = 0; i < comparison_.size(); ++i) {
+    lies_on[static_cast<std::size_t>(soil_at(i))] += share[static_cast<Eigen::Index>(i)];
+  }
+  return static_cast<int>(std::ranges::max_element(lies_on) - lies_on.begin());
+}
+
+}  // namespace regoplan

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <stop_token>
+#include <vector>
+
+#include "drive_diagnosis/effect_contest.h"
+#include "drive_diagnosis/likely_soils.h"
+#include "drive_diagnosis/residual_noise.h"
+#include "drive_diagnosis/vehicle_trials.h"
+#include "drive_diagnosis/window_comparison.h"
+
+namespace regoplan {
+
+/// Fits all that may be otherwise to a drive's windows, linearised anew about each fit: parameters
+/// of a sound vehicle and its soils, and the faults and zones that were found.
+class EffectFit {
+ public:
+  /// All must outlive it. \param likely soils that a zone may well have
+  EffectFit(WindowComparison& comparison, const TerrainMap& map,
+            const std::vector<VehicleTrial>& trials, const std::vector<LikelySoil>& likely,
+            const std::stop_token& stop);
+
+  /// The strongest effect of those that are not known yet, about the present fit.
+  EffectFound strongest(std::uint64_t seed);
+  /// An effect is known from now on.
+  void add(const EffectFound& effect);
+  /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
+  /// their means change what everything else does.
+  void settle();
+  /// The same with the effect that was added last. Soils far off are no longer linear, so that
+  /// steps may lead away again, and lead elsewhere from a soil like the map's than from one far
+  /// weaker: the likeliest of where they led counts.
+  void settle_with(const EffectFound& effect);
+
+  const ContestFit& fit() const { return fit_; }
+  /// How far each channel scatters.
+  const std::vector<double>& noise() const { return noise_; }
+  /// Indices of soils' numbers that vary.
+  const std::vector<std::size_t>& numbers() const { return numbers_; }
+  SoilNumbers numbers_of(const Eigen::VectorXd& values) const;
+  /// The parameters as they are fitted.
+  VehicleDeviation deviation() const;
+  /// What the model says of each window with them and the known zones.
+  Eigen::MatrixXd predicted() const;
+  /// The soil of the map that most of a zone is said to be. \param share of each window
+  int soil_of(const Eigen::VectorXd& share) const;
+  /// The soil of the map in the middle of a window.
+  int soil_at(std::size_t window) const;
+
+ private:
+  /// What is measured and what changes it, about the present fit.
+  struct Linearised {
+    Eigen::MatrixXd data, base;
+    std::vector<Eigen::MatrixXd> columns, soil, inputs;
+    double nats = 0;  ///< by which what the fit leaves is unlikely
+  };
+
+  /// A fit, and by how many nats what it leaves is unlikely.
+  struct Settled {
+    ContestFit fit;
+    Eigen::MatrixXd shifts;
+    double nats = std::numeric_limits<double>::infinity();
+  };
+  Eigen::VectorXd values_of(const SoilNumbers& numbers) const;
+  Eigen::VectorXd other_bearing() const;
+  std::vector<WindowZone> zones() const;
+  Linearised linearise();
+  ResidualNoise whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones);
+  void go_on_from(Settled settled);
+  void settle_zone();
+  Settled settled_from_here();
+  double step();
+  double longest_of_sound(const Eigen::VectorXd& step) const;
+
+  WindowComparison& comparison_;
+  const TerrainMap& map_;
+  const std::vector<VehicleTrial>& trials_;
+  const std::stop_token& stop_;
+  Eigen::MatrixXd shifts_;            ///< of the inputs that were linearised about
+  std::vector<std::size_t> numbers_;  ///< of soil, that vary
+  EffectContest contest_;
+  ContestFit fit_;
+  std::vector<double> noise_;
+};
+
+}  // namespace regoplan
