@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/checks/bed_memory.h"
 #include "diagnosis/checks/detection.h"
 #include "diagnosis/checks/instrument_checks.h"
 #include "diagnosis/checks/location.h"
@@ -102,6 +103,11 @@ class Diagnosing {
       unfit_ = true;
       beyond_doubt_ = true;
     }
+    if (deviations_of_memory(calibrated_.problem(), base) > Thresholds::kMemory_deviations) {
+      found_.notes.push_back("what soil numbers leave follows the slip of the run before");
+      unfit_ = true;
+      beyond_doubt_ = true;
+    }
     stands_out_ =
         p_value_along(recording, remainder, directions(), options_.seed) < Thresholds::kLackOfFit_p;
     rejected_ = unfit_ || stands_out_;
@@ -156,7 +162,9 @@ class Diagnosing {
     const double parameters = scored_as(Account::Kind::kParameters, scored_).score;
     double named = -INFINITY;
     for (const ScoredId& s : scored_) {
-      if (s.account.kind == Account::Kind::kEffects) named = std::max(named, s.score);
+      if (s.account.kind != Account::Kind::kEffects) continue;
+      const double prior = s.account.effects.size() > 1 ? Thresholds::kPair_log_prior : 0;
+      named = std::max(named, s.score + prior);
     }
     rejected_ = unfit_ || stands_out_ || named > parameters + Thresholds::kUnprompted_nats;
     weigh(scored_, plain_model());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
@@ -85,12 +84,6 @@ bool side_is_turned(const Recording& recording, const std::vector<std::size_t>& 
     (fy * run.slip_angle_rad > 0 ? against : along) += std::abs(fy);
   }
   return along > 3 * against;
-}
-
-std::size_t days_of(const Recording& recording) {
-  std::set<double> days;
-  for (const WheelRun& run : recording.runs) days.insert(run.day);
-  return days.size();
 }
 
 /// Between its smallest and its largest value.
@@ -363,7 +356,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   result.condition = std::move(grouped.condition);
   for (ChannelRuns& runs : grouped.channels) result.adjusted.push_back(std::move(runs.adjusted));
   if (result.noise.empty()) throw InputError("recording: no channel is measured");
-  share_day_offsets(result.noise, days_of(recording));
+  share_day_offsets(result.noise);
   for (std::size_t c = 0; c < result.noise.size(); ++c) {
     result.notes.push_back(noise_note(recording, result.noise[c]));
     bed.channels.push_back(

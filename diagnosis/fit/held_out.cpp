@@ -144,6 +144,14 @@ Families merged(Families families, std::size_t most) {
   return families;
 }
 
+/// Appends the families of one column where there are enough of them.
+void add_bands(const TestBed& bed, const std::string& column, const std::string& by,
+               std::size_t most, std::vector<Families>& all) {
+  Families families = merged(by_axis(bed, column), most);
+  families.by = by;
+  if (families.count >= kFewestFamilies) all.push_back(std::move(families));
+}
+
 /// By how much one prediction's misfit falls below another's, and what noise makes of it.
 struct Fall {
   double misfit = 0, spread = 0;
@@ -169,15 +177,19 @@ Fall fall_of(const TestBed& bed, std::size_t channel, const Eigen::VectorXd& bet
 
 std::vector<Families> all_families(const TestBed& bed) {
   std::vector<Families> all;
-  for (const auto& [column, by, most] : {std::tuple{"slip_angle_deg", "slip angle", 2 * kMostBands},
-                                         std::tuple{"slip_ratio", "slip band", kMostBands},
-                                         std::tuple{"load_n", "load band", kMostBands}}) {
-    Families families = merged(by_axis(bed, column), most);
-    families.by = by;
-    if (families.count >= kFewestFamilies) all.push_back(std::move(families));
-  }
+  add_bands(bed, "slip_angle_deg", "slip angle", 2 * kMostBands, all);
+  add_bands(bed, "slip_ratio", "slip band", kMostBands, all);
+  add_bands(bed, "load_n", "load band", kMostBands, all);
   if (Families days = by_day(bed); days.count >= kFewestFamilies) all.push_back(std::move(days));
   if (all.empty()) all.push_back(families_of(bed));
+  return all;
+}
+
+std::vector<Families> families_of_all_columns(const TestBed& bed) {
+  std::vector<Families> all = all_families(bed);
+  add_bands(bed, "speed_mps", "speed", kMostBands, all);
+  add_bands(bed, "pass", "pass", kMostBands, all);
+  add_bands(bed, "position_m", "stretch", kMostBands, all);
   return all;
 }
 

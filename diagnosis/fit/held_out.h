@@ -21,6 +21,10 @@ Families families_of(const TestBed& bed);
 /// of them; families_of() where there is none.
 std::vector<Families> all_families(const TestBed& bed);
 
+/// These, and speeds, passes and stretches of the bed: what acts along one of them is seen only
+/// where it is held out; elsewhere a remainder carries it from neighbour to neighbour.
+std::vector<Families> families_of_all_columns(const TestBed& bed);
+
 /// The model that is to prove itself.
 struct CorrectedModel {
   const CandidateFit* fit = nullptr;  ///< with the claim's effects; null: the calibrated base

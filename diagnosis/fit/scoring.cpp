@@ -27,6 +27,17 @@ ScoredId base(Account::Kind kind, const FitProblem& problem, const SettingWeight
   return scored({.kind = kind}, {*fit}, 1);
 }
 
+/// Soil numbers as their tests have them, or off by more than these say: one is as likely as the
+/// other beforehand. The first is what effects are fitted with, so that what they gain over it is
+/// theirs.
+ScoredId other_soil(const FitProblem& problem, const FitProblem& wide) {
+  Forms forms;
+  for (const FitProblem* soil : {&problem, &wide}) {
+    forms.push_back(*fit_candidate(*soil, {}, SettingWeights::of_none(), start_of(*soil, {})));
+  }
+  return scored({.kind = Account::Kind::kParameters}, forms, forms.size());
+}
+
 /// Score of a fit with another effect added, to first order from its starting point.
 double quick_score(const FitProblem& problem, const CandidateFit& single, const Effect& effect,
                    const std::vector<std::size_t>& settings) {
@@ -184,7 +195,7 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
   const Eigen::MatrixXd nothing_free(problem.bed.size(), 0);
   const FitProblem fixed{problem.bed, known, problem.discrepancy, nothing_free};
   all.push_back(base(Account::Kind::kNone, fixed, SettingWeights::of_none()));
-  all.push_back(base(Account::Kind::kParameters, wide, SettingWeights::of_none()));
+  all.push_back(other_soil(problem, wide));
   // what is on no list may well look like other soil numbers than can be: nothing is kept clear
   const FitProblem anything{problem.bed, problem.soil, problem.discrepancy, nothing_free};
   all.push_back(base(Account::Kind::kUnexplained, anything, SettingWeights::of_unexplained()));
@@ -208,6 +219,7 @@ void weigh(std::vector<ScoredId>& scored, PlainModel plain) {
     double prior = s.account.effects.size() > 1 ? Thresholds::kPair_log_prior : 0;
     if (s.account.kind == Account::Kind::kUnexplained) prior = Thresholds::kUnexplained_log_prior;
     if (is_plain && plain == PlainModel::kHolds) prior = Thresholds::kHolds_log_prior;
+    if (is_plain && plain == PlainModel::kDoubted) prior = Thresholds::kDoubted_log_prior;
     const bool out = s.given_up || (is_plain && plain == PlainModel::kRefuted);
     terms.push_back(out ? -INFINITY : s.score / temperature + prior);
   }

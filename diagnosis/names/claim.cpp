@@ -16,13 +16,13 @@ struct Weighted {
   double probability = 0;
 };
 
-/// The smallest greedy set of ids such that a candidate contains one of them with probability 0.9.
-NameClass cover(const std::vector<Weighted>& candidates) {
+/// The smallest greedy set of ids such that a candidate contains one of them with this probability.
+NameClass cover(const std::vector<Weighted>& candidates, double sure) {
   NameClass chosen;
   const auto hit = [&](const Weighted& w) {
     return std::ranges::any_of(chosen.ids, [&](const auto& id) { return w.ids.contains(id); });
   };
-  while (chosen.probability < Thresholds::kSure && chosen.ids.size() < Thresholds::kLargestClass) {
+  while (chosen.probability < sure && chosen.ids.size() < Thresholds::kLargestClass) {
     std::map<std::string, double> gain;
     for (const Weighted& w : candidates) {
       if (hit(w)) continue;
@@ -42,7 +42,7 @@ NameClass cover(const std::vector<Weighted>& candidates) {
 std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
   std::vector<Weighted> all;
   for (const ScoredId& s : scored) all.push_back({s.account.effects, s.probability});
-  const NameClass first = cover(all);
+  const NameClass first = cover(all, Thresholds::kSure);
   if (first.probability < Thresholds::kSure) return {};
   std::vector<NameClass> claimed{first};
   // given the first effect: is there a second?
@@ -56,9 +56,15 @@ std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
     whole += w.probability;
     partners.push_back(partner);
   }
-  for (Weighted& w : partners) w.probability /= whole;
-  const NameClass second = cover(partners);
-  if (second.probability >= Thresholds::kSure) claimed.push_back(second);
+  double any = 0;  // of the names that a second may have
+  for (Weighted& w : partners) {
+    w.probability /= whole;
+    if (!w.ids.empty()) any += w.probability;
+  }
+  if (any <= Thresholds::kLikelySecond) return claimed;
+  const double sure = Thresholds::kSure * any;
+  const NameClass second = cover(partners, sure);
+  if (second.probability >= sure) claimed.push_back(second);
   return claimed;
 }
 

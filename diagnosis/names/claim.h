@@ -11,8 +11,9 @@ struct NameClass {
   double probability = 0;  ///< that one of them is at work
 };
 
-/// The claim that the probabilities bear: for each effect the smallest set of names that together
-/// reach 0.9, of at most 4; none where nothing reaches it.
+/// The claim that the probabilities bear: the smallest set of names that together reach 0.9, of at
+/// most 4, or none where nothing reaches it; then the same for a second effect, if one beside the
+/// first is likelier than none, of all that it may be.
 std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored);
 
 /// Whether a candidate consists of one effect of each class.

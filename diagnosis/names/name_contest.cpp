@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "diagnosis/checks/bed_memory.h"
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/recording/thresholds.h"
 
@@ -33,6 +34,18 @@ Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
   return {.gain = gain_in_errors(calibrated.bed(), proof.corrected, proof.calibrated, back),
           .share = (proof.share_explained * excess + back) / std::max(excess + back, 1e-12),
           .slack = std::sqrt(2.0 * size) / (excess + back + 1)};
+}
+
+double log_odds(double probability) {
+  return std::log(probability / std::max(1 - probability, 1e-12));
+}
+
+/// Whether a second effect is sure enough by its probability and by what it adds held out together.
+bool is_borne_out(double probability, double errors) {
+  const double needed =
+      log_odds(Thresholds::kSure) + Thresholds::kClear_errors * Thresholds::kClear_errors / 2;
+  return errors > Thresholds::kLeastOfSecond_errors &&
+         log_odds(probability) + errors * errors / 2 > needed;
 }
 
 }  // namespace
@@ -65,10 +78,10 @@ std::optional<ProvenClaim> NameContest::decide() {
 }
 
 /// Of two effects each must do its part on held-out conditions, whatever the kind of families:
-/// scores take what one mechanism's form leaves for a second mechanism. Pairs that do not are
-/// given up, and the rest is weighed anew.
+/// scores take what one mechanism's form leaves for a second mechanism. A pair that does not is
+/// given up, and pairs that are less likely with it; the rest is weighed anew.
 std::vector<NameClass> NameContest::proven_one_by_one() {
-  constexpr int kMostPairs = 3;
+  constexpr int kMostPairs = 5;
   for (int tried = 0;; ++tried) {
     std::vector<NameClass> claimed = claimed_names(scored_);
     if (claimed.size() < 2) return claimed;
@@ -79,9 +92,12 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
         "errors only: the pair is given up",
         claimed[0].ids.front(), claimed[1].ids.front(), claimed[idle->effect].ids.front(),
         idle->gain));
+    const ScoredId idle_pair = *best_of(scored_, claimed);
     for (ScoredId& s : scored_) {
-      const bool pair_too_many = tried + 1 == kMostPairs && s.account.effects.size() > 1;
-      s.given_up = s.given_up || pair_too_many || is_of(s, claimed);
+      if (s.account.effects.size() < 2) continue;
+      const bool less_likely = s.score < idle_pair.score - Thresholds::kAsGood_nats;
+      s.given_up = s.given_up || less_likely || tried + 1 == kMostPairs ||
+                   s.account.effects == idle_pair.account.effects;
     }
     weigh(scored_, plain_);
   }
@@ -91,6 +107,10 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
 /// forms that nobody knows and may leave one.
 std::string NameContest::doubt_about(const CandidateFit& fit) const {
   std::string doubt = objection(calibrated_.problem(), fit);
+  if (doubt.empty() &&
+      deviations_of_memory(calibrated_.problem(), fit) > Thresholds::kMemory_deviations) {
+    doubt = "what it leaves follows the slip of the run before";
+  }
   const bool exact = std::ranges::all_of(fit.candidate.effects,
                                          [](const Effect& effect) { return has_one_form(effect); });
   if (!doubt.empty() || !exact) return doubt;
@@ -137,7 +157,7 @@ std::optional<NameContest::IdleEffect> NameContest::idle_effect(
     return calibrated_.held_out(model, families, threads_).corrected;
   };
   std::array<double, 2> gain{-INFINITY, -INFINITY};
-  for (const Families& families : all_families(calibrated_.bed())) {
+  for (const Families& families : families_of_all_columns(calibrated_.bed())) {
     const Eigen::VectorXd both = proof(pair->fit, families);
     for (const std::size_t left_out : {0, 1}) {
       const ScoredId* single = best_of(scored_, {claimed[1 - left_out]});
@@ -148,7 +168,7 @@ std::optional<NameContest::IdleEffect> NameContest::idle_effect(
     }
   }
   const std::size_t least = gain[0] < gain[1] ? 0 : 1;
-  if (gain[least] > Thresholds::kClear_errors) return std::nullopt;
+  if (is_borne_out(claimed[1].probability, gain[least])) return std::nullopt;
   return IdleEffect{least, gain[least]};
 }
 

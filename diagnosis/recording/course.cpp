@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/recording/replicate_contrasts.h"
+#include "diagnosis/recording/replicates.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 
@@ -74,23 +75,6 @@ double gain_nats(const ChannelContrasts& contrasts, const std::vector<std::vecto
   return gain;
 }
 
-/// The recording with a day for each round of its replicates; nothing where it tells days itself.
-std::optional<Recording> with_rounds_as_days(const Recording& recording,
-                                             const std::vector<Condition>& conditions) {
-  const std::vector<WheelRun>& runs = recording.runs;
-  const bool tells_days =
-      std::ranges::any_of(runs, [&](const WheelRun& run) { return run.day != runs.front().day; });
-  std::size_t most = 0;
-  for (const Condition& at : conditions) most = std::max(most, at.runs.size());
-  if (tells_days || most < 2) return std::nullopt;
-  Recording in_rounds = recording;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const std::size_t round = i * most / runs.size();
-    in_rounds.runs[i].day = static_cast<double>(round);
-  }
-  return in_rounds;
-}
-
 }  // namespace
 
 std::optional<Course> course_of(const Recording& recording,
@@ -122,8 +106,9 @@ std::optional<Course> course_of(const Recording& recording,
   }
   // Time that is told leaves no days untold.
   if (!best || !best->in_time() || recording.columns.time) return best;
-  if (const auto in_rounds = with_rounds_as_days(recording, conditions)) {
-    const ChannelContrasts of_rounds = contrasts_of(*in_rounds, conditions, channels, setup, stop);
+  if (const auto rounds = rounds_as_days(recording, conditions)) {
+    const ChannelContrasts of_rounds =
+        contrasts_of(rounds->recording, conditions, channels, setup, stop);
     best->may_be_days = gain_nats(of_rounds, best->trend) < Thresholds::kCourse_nats;
   }
   return best;

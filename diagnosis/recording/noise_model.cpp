@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -16,6 +17,10 @@ namespace regoplan {
 namespace {
 
 constexpr int kFewest = 4;  // degrees of freedom to trust replicates
+
+/// Shares of the constant part that the other parts are tried at. Nothing and even factors: weighed
+/// alike, nearly a half-Cauchy prior about a run's scatter (Gelman 2006, Bayesian Analysis 1, 515).
+constexpr std::array kSteps{0.0, 0.35, 0.7, 1.4, 2.8};
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -68,7 +73,8 @@ struct Explained {
   const std::stop_token& stop;
 };
 
-/// Restricted maximum likelihood of the constant part, and of the others over it on a grid.
+/// Restricted maximum likelihood of the constant part, and of the others over it on a grid; beside
+/// it the likelihood of each step of what days may differ by.
 void fit_variances(const Recording& recording, const Replicates& replicates,
                    const std::vector<double>& value, const Explained& by, ChannelNoise& noise) {
   const ReplicateRows rows = rows_of(recording, replicates, value);
@@ -85,13 +91,15 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
                                     (signal.asDiagonal() * rows.same_day * signal.asDiagonal()) *
                                     contrasts.transpose();
   double best = -INFINITY;
-  const std::vector<double> grid{0, 0.35, 0.7, 1.4, 2.8};
+  const std::vector<double> grid(kSteps.begin(), kSteps.end());
   const std::vector<double> day_grid = by.days ? grid : std::vector<double>{0};
+  noise.day_log_likelihood.assign(by.days ? kSteps.size() : 0, -INFINITY);
   for (const double p : grid) {
     const Eigen::VectorXd variance =
         (inverse_weight.array() * (1 + p * p * signal.array().square())).matrix();
     const Eigen::MatrixXd own = contrasts * variance.asDiagonal() * contrasts.transpose();
-    for (const double d : day_grid) {
+    for (std::size_t k = 0; k < day_grid.size(); ++k) {
+      const double d = day_grid[k];
       for (const double g : day_grid) {
         throw_if_stopped(by.stop);
         const Eigen::LLT<Eigen::MatrixXd> factor(own + d * d * offset_part + g * g * gain_part);
@@ -101,8 +109,12 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
         const double s2 = (e.dot(factor.solve(e)) - factor_of_trend * e.dot(solved)) /
                           static_cast<double>(e.size());
         const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
-        const double cost = 0.5 * ((p > 0) + (d > 0) + (g > 0));
-        const double score = -0.5 * (static_cast<double>(e.size()) * std::log(s2) + log_det) - cost;
+        const double others =
+            -0.5 * (static_cast<double>(e.size()) * std::log(s2) + log_det + (p > 0) + (g > 0));
+        const double score = others - 0.5 * (d > 0);
+        if (by.days) {
+          noise.day_log_likelihood[k] = std::max(noise.day_log_likelihood[k], others);
+        }
         if (!(score > best)) continue;
         best = score;
         noise.trend = factor_of_trend;
@@ -162,6 +174,43 @@ bool several_days(const Recording& recording) {
 void assume_a_day(ChannelNoise& noise) {
   noise.day_assumed = true;
   noise.day_offset = noise.constant / 2;
+}
+
+/// Days that are not told come and go with the rounds of replicates; what these differ by, the mean
+/// of all of them is off by as well. Where only some conditions were run again, the others were not
+/// in every round, and no mean over rounds is theirs.
+void seek_untold_days(const Recording& recording, const std::vector<Condition>& conditions,
+                      const std::vector<double>& value, const std::stop_token& stop,
+                      ChannelNoise& noise) {
+  if (recording.columns.time) return;  // time that is told leaves no days untold
+  const auto rounds = rounds_as_days(recording, conditions);
+  if (!rounds || rounds->share_repeated < Thresholds::kInRounds_share) return;
+  const std::vector<double> no_trend;
+  ChannelNoise of_rounds = noise;
+  fit_variances(rounds->recording, replicates_of(conditions, value), value,
+                {.days = true, .trend = no_trend, .stop = stop}, of_rounds);
+  noise.day_log_likelihood = std::move(of_rounds.day_log_likelihood);
+  noise.untold_days = rounds->count;
+}
+
+/// Mean square of what days differ by, over a run's scatter, that a channel and half of what every
+/// other channel says leave likely.
+double day_ratio_squared(const std::vector<ChannelNoise>& noise, std::size_t channel) {
+  constexpr double kOthers = 0.5;
+  std::vector<double> sums(kSteps.size(), 0.0);
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    if (noise[c].day_log_likelihood.empty()) continue;
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+      sums[k] += (c == channel ? 1 : kOthers) * noise[c].day_log_likelihood[k];
+    }
+  }
+  const double top = std::ranges::max(sums);
+  double square = 0, whole = 0;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    square += std::exp(sums[k] - top) * kSteps[k] * kSteps[k];
+    whole += std::exp(sums[k] - top);
+  }
+  return square / whole;
 }
 
 }  // namespace
@@ -230,29 +279,27 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   };
   weigh_outliers(replicates, beside, whole_deviation, noise.weight);
   fit();
-  if (!days_seen) assume_a_day(noise);
+  if (!days_seen) {
+    assume_a_day(noise);
+    seek_untold_days(recording, conditions, adjusted, stop, noise);
+  }
   for (std::size_t run = 0; run < noise.weight.size(); ++run) {
     if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
   }
   return noise;
 }
 
-void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days) {
-  constexpr double kSharedDegrees = 2;
-  double sum = 0, channels = 0;
-  for (const ChannelNoise& one : noise) {
-    if (one.source != NoiseSource::kReplicates || one.day_assumed) continue;
-    sum += std::pow(one.day_offset / one.constant, 2);
-    ++channels;
-  }
-  if (days < 2 || channels < 2) return;
-  const auto own_degrees = static_cast<double>(days - 1);
-  for (ChannelNoise& one : noise) {
-    if (one.source != NoiseSource::kReplicates || one.day_assumed) continue;
-    const double own = std::pow(one.day_offset / one.constant, 2);
-    one.day_offset =
-        one.constant * std::sqrt((own_degrees * own + kSharedDegrees * sum / channels) /
-                                 (own_degrees + kSharedDegrees));
+void share_day_offsets(std::vector<ChannelNoise>& noise) {
+  for (std::size_t c = 0; c < noise.size(); ++c) {
+    ChannelNoise& one = noise[c];
+    if (one.day_log_likelihood.empty()) continue;
+    const double ratio_squared = day_ratio_squared(noise, c);
+    if (one.day_assumed) {
+      const auto days = static_cast<double>(one.untold_days);
+      one.day_offset = std::hypot(one.day_offset, one.constant * std::sqrt(ratio_squared / days));
+    } else {
+      one.day_offset = one.constant * std::sqrt(ratio_squared);
+    }
   }
 }
 

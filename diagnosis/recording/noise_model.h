@@ -24,6 +24,10 @@ struct ChannelNoise {
   /// No condition was run on two days, as far as the recording says: half of the scatter was taken,
   /// of every day that it names or of all of it.
   bool day_assumed = false;
+  /// Days that a recording which tells neither days nor times may have had: rounds of replicates.
+  std::size_t untold_days = 0;
+  /// What replicates say of each step of days' differences, told or not; empty: nothing.
+  std::vector<double> day_log_likelihood = {};
   int degrees_of_freedom = 0;
   std::vector<double> weight;         ///< per run, in [0, 1]: below 1 for outliers
   std::vector<std::size_t> outliers;  ///< runs
@@ -49,10 +53,11 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
                             const std::vector<double>& trend = {},
                             const std::stop_token& stop = {});
 
-/// Days are few, so that a channel may by chance not show what the bed did to all of them: moves
-/// each channel's day offset, over its scatter, toward the mean square of all, as if that were
-/// known from three days.
-void share_day_offsets(std::vector<ChannelNoise>& noise, std::size_t days);
+/// Days are few, and what a few happen to show says little of what they do to all runs alike; a
+/// channel may by chance not show what the bed did to all of them. Gives each channel the mean
+/// square of day offsets that its replicates and those of the other channels leave likely, not the
+/// likeliest one; where no days are told, what the mean of the days there may have been is off by.
+void share_day_offsets(std::vector<ChannelNoise>& noise);
 
 /// Standard deviation of one run that measures y, without its day's part.
 double run_deviation(const ChannelNoise& noise, double y);

@@ -39,6 +39,25 @@ Replicates replicates_of(const std::vector<Condition>& conditions,
   return all;
 }
 
+std::optional<Rounds> rounds_as_days(const Recording& recording,
+                                     const std::vector<Condition>& conditions) {
+  const std::vector<WheelRun>& runs = recording.runs;
+  const bool tells_days =
+      std::ranges::any_of(runs, [&](const WheelRun& run) { return run.day != runs.front().day; });
+  std::size_t most = 0;
+  for (const Condition& at : conditions) most = std::max(most, at.runs.size());
+  if (tells_days || most < 2) return std::nullopt;
+  Rounds rounds{recording, most};
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const std::size_t round = i * most / runs.size();
+    rounds.recording.runs[i].day = static_cast<double>(round);
+  }
+  const auto repeated = [](const Condition& at) { return at.runs.size() > 1; };
+  rounds.share_repeated = static_cast<double>(std::ranges::count_if(conditions, repeated)) /
+                          static_cast<double>(conditions.size());
+  return rounds;
+}
+
 double centre(const std::vector<std::size_t>& group, const std::vector<double>& value) {
   std::vector<double> values;
   for (const std::size_t run : group) values.push_back(value[run]);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/recording/condition_groups.h"
@@ -16,6 +17,18 @@ struct Replicates {
 /// \param value of one channel per run, NaN where it was not measured
 Replicates replicates_of(const std::vector<Condition>& conditions,
                          const std::vector<double>& value);
+
+/// A recording with a day for each round of its replicates.
+struct Rounds {
+  Recording recording;
+  std::size_t count = 0;
+  double share_repeated = 0;  ///< of the conditions: run more than once
+};
+
+/// Equal parts of the order of the runs, as many as any condition has replicates, taken for days;
+/// nothing where the recording tells days itself or no condition was run twice.
+std::optional<Rounds> rounds_as_days(const Recording& recording,
+                                     const std::vector<Condition>& conditions);
 
 /// Where the signal of a group lies, robustly.
 double centre(const std::vector<std::size_t>& group, const std::vector<double>& value);

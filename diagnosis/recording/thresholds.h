@@ -27,6 +27,9 @@ struct Thresholds {
   /// Standard deviations by which a recording must break a law that no soil can break: chosen far
   /// out, as the finding accuses an instrument.
   static constexpr double kImpossible_deviations = 4;
+  /// Standard deviations by which what a fit leaves must follow the run before to speak against it:
+  /// of ten ways that are tried, one recording in a thousand and less.
+  static constexpr double kMemory_deviations = 4;
 
   // What replicates say.
 
@@ -37,6 +40,9 @@ struct Thresholds {
   /// wider. The second where its own runs are at odds as well.
   static constexpr double kStray_deviations = 4;
   static constexpr double kDoubtfulStray_deviations = 2.5;
+  /// Share of the conditions that were run more than once in a recording that counts as a series
+  /// repeated in rounds: chosen, the greater part.
+  static constexpr double kInRounds_share = 0.5;
   /// That a course must gain over days and scatter: chosen above what 25 columns and kinds tried on
   /// replicates without a course reach (Course tests).
   static constexpr double kCourse_nats = 12;
@@ -56,18 +62,28 @@ struct Thresholds {
   /// Before any evidence, over a single name, fitted to the log likelihood of the true names of 420
   /// generated challenges (pairs -5.8, unexplained 3.3): names are a little likelier here, as
   /// held-out conditions try them once more. Each pair; what is on no list, of which there is much;
-  /// the plain model where no test speaks against it (chosen, above what names gain by chance).
+  /// the plain model where no test speaks against it (chosen, above what names gain by chance), and
+  /// where one does, but none that refutes it (chosen: a name alone is no likelier than what it
+  /// replaces).
   static constexpr double kPair_log_prior = -5;
   static constexpr double kUnexplained_log_prior = 3;
-  static constexpr double kHolds_log_prior = 12;
+  static constexpr double kHolds_log_prior = 10;
+  static constexpr double kDoubted_log_prior = 2;
   /// Of the amplitude that an unnamed remainder alone needs, what it may have beside a name:
   /// chosen; without a cap it swallows every name.
   static constexpr double kCapShare = 1.0 / 3.0;
-  /// Over `parameters`, where no test spoke up: chosen from 420 generated challenges.
-  static constexpr double kUnprompted_nats = 9;
+  /// Over `parameters`, where no test spoke up: chosen above the 3 nats that a name or pair gains
+  /// by chance in 16 of 17 generated recordings without mismatch; 120 others had no name by it.
+  static constexpr double kUnprompted_nats = 6;
   /// Together the names of a claim must reach it; a class of more names says nothing.
   static constexpr double kSure = 0.9;
   static constexpr std::size_t kLargestClass = 4;
+  /// That there is a second effect beside the first: likelier than not, as held-out conditions try
+  /// it once more. There the second must add more than this, and its log odds with the nats of what
+  /// it adds, z^2/2, must reach those of kSure with kClear_errors: the surer it is by the evidence,
+  /// the less it has to prove, and the other way round.
+  static constexpr double kLikelySecond = 0.5;
+  static constexpr double kLeastOfSecond_errors = 1;
   /// Share of the excess misfit on held-out conditions that is worth a correction, or a name that
   /// stands alone: a third is worth a name, a thousandth is not.
   static constexpr double kWorthCorrecting = 1.0 / 3.0;

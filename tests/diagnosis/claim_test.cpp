@@ -55,6 +55,14 @@ TEST(Claim, ASureEffectStandsAloneWhereItsPartnerIsNot) {
   EXPECT_EQ(claimed[0].ids, std::vector<std::string>{"grousers"});
 }
 
+TEST(Claim, ASecondEffectThatIsLikelierThanNoneIsClaimedForHeldOutConditionsToTry) {
+  const auto claimed = claimed_names(
+      scored({{"grousers+multi_pass", 0.5}, {"grousers", 0.3}, {"grousers+rear_contact", 0.2}}));
+  ASSERT_EQ(claimed.size(), 2);
+  EXPECT_EQ(claimed[1].ids, (std::vector<std::string>{"multi_pass", "rear_contact"}));
+  EXPECT_NEAR(claimed[1].probability, 0.7, 1e-12);
+}
+
 TEST(Claim, IsNotBelievedWithASoilNumberFarFromItsTests) {
   const DiagnosisSetup setup = simulant_setup();
   const CalibratedBed bed(record({}, setup, setup.soil.mean, {}, 1), setup);

@@ -67,18 +67,70 @@ TEST(NoiseModel, TellsDaysFromScatter) {
 }
 
 TEST(NoiseModel, WhatDaysDoToOtherChannelsIsHeldPossibleForAChannelThatDoesNotShowIt) {
-  std::vector<ChannelNoise> noise{{.constant = 2, .day_offset = 0},
-                                  {.constant = 0.1, .day_offset = 0.1},
-                                  {.constant = 5, .day_offset = 5}};
-  share_day_offsets(noise, 3);
-  EXPECT_NEAR(noise[0].day_offset, 2 * std::sqrt(1.0 / 3), 1e-12);
-  EXPECT_NEAR(noise[1].day_offset, 0.1 * std::sqrt(5.0 / 6), 1e-12);
+  const ChannelNoise silent = noise_of(bed(40, 3, 0.5, 0, 0, 8)),
+                     shown = noise_of(bed(40, 3, 0.5, 0, 1, 3));
+  std::vector<ChannelNoise> alone{silent}, beside{silent, shown, shown};
+  share_day_offsets(alone);
+  share_day_offsets(beside);
+  EXPECT_GT(beside[0].day_offset, 1.5 * alone[0].day_offset);
+  EXPECT_LT(beside[0].day_offset, beside[1].day_offset);
+}
 
-  std::vector<ChannelNoise> many = noise;
-  share_day_offsets(many, 1000);  // then every channel speaks for itself
-  for (std::size_t c = 0; c < noise.size(); ++c) {
-    EXPECT_NEAR(many[c].day_offset, noise[c].day_offset, 0.01 * noise[c].constant);
+TEST(NoiseModel, WhatDaysDoNotHappenToShowIsHeldPossibleTheMoreTheFewerTheyAre) {
+  std::vector<ChannelNoise> few{noise_of(bed(40, 3, 0.5, 0, 0, 8))},
+      many{noise_of(bed(40, 12, 0.5, 0, 0, 8))};
+  share_day_offsets(few);
+  share_day_offsets(many);
+  EXPECT_GT(few[0].day_offset, 1.5 * many[0].day_offset);
+  EXPECT_LT(few[0].day_offset, few[0].constant);
+  EXPECT_GT(many[0].day_offset, 0);
+}
+
+TEST(NoiseModel, DaysThatAreNotToldAreSoughtInTheRoundsOfReplicates) {
+  const auto untold = [](double day_deviation) {
+    Bed made = bed(40, 3, 0.5, 0, day_deviation, 3);
+    // a round of replicates after the other, and no column of days
+    Recording rounds = made.recording;
+    std::vector<double> value;
+    for (std::size_t day = 0; day < 3; ++day) {
+      for (std::size_t k = 0; k < made.conditions.size(); ++k) {
+        const std::size_t run = made.conditions[k].runs[day];
+        rounds.runs[value.size()] = made.recording.runs[run];
+        rounds.runs[value.size()].day = 0;
+        value.push_back(made.value[run]);
+      }
+    }
+    for (std::size_t k = 0; k < made.conditions.size(); ++k) {
+      for (std::size_t day = 0; day < 3; ++day) {
+        made.conditions[k].runs[day] = day * made.conditions.size() + k;
+      }
+    }
+    made.recording = rounds;
+    made.value = value;
+    std::vector<ChannelNoise> noise{noise_of(made)};
+    share_day_offsets(noise);
+    return noise[0];
+  };
+  const ChannelNoise quiet = untold(0), moved = untold(1.5);
+  EXPECT_TRUE(moved.day_assumed);
+  EXPECT_EQ(moved.untold_days, 3);
+  EXPECT_GT(moved.day_offset, 1.5 * quiet.day_offset);
+  EXPECT_GE(quiet.day_offset, quiet.constant / 2);
+}
+
+TEST(NoiseModel, NoDaysAreSoughtWhereOnlySomeConditionsWereRunAgain) {
+  Bed made = bed(40, 1, 0.5, 0, 0, 5);
+  for (std::size_t k = 0; k < 10; ++k) {
+    const double again = made.value[k] + (k % 2 == 0 ? 0.4 : -0.4);
+    made.conditions[k].runs.push_back(made.value.size());
+    made.value.push_back(again);
+    made.recording.runs.push_back(made.recording.runs[k]);
+    made.recording.runs.back().measured[0] = again;
   }
+  const ChannelNoise noise = noise_of(made);
+  EXPECT_TRUE(noise.day_assumed);
+  EXPECT_EQ(noise.untold_days, 0);
+  EXPECT_TRUE(noise.day_log_likelihood.empty());
 }
 
 TEST(NoiseModel, AnOutlierIsNamedAndDoesNotSpoilTheScatter) {
