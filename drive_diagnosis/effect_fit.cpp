@@ -171,12 +171,6 @@ EffectFit::Linearised EffectFit::linearise() {
 /// \param zones stretches whose soil is no noise
 ResidualNoise EffectFit::whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones) {
   const auto& [data, base, columns, soil, inputs, nats] = here;
-  Eigen::MatrixXd reference = Eigen::MatrixXd::Zero(base.rows(), base.cols());
-  for (Eigen::Index k = 0; k < base.cols(); ++k) {
-    if (!comparison_.scales(static_cast<std::size_t>(k))) continue;
-    const double mean = base.col(k).cwiseAbs().mean();
-    if (mean > 0) reference.col(k) = base.col(k) / mean;
-  }
   std::vector<Eigen::MatrixXd> global = columns;
   std::vector<bool> may_be_wrong = contest_.claimable;
   for (const Eigen::VectorXd& share : zones) {
@@ -195,7 +189,7 @@ ResidualNoise EffectFit::whiten(const Linearised& here, const std::vector<Eigen:
                        .inputs = inputs,
                        .scatters_unknown = unknown,
                        .follows = contest_.follows,
-                       .reference = std::move(reference),
+                       .sizes = comparison_.sizes(),
                        .sampled_std = comparison_.sampled_std()});
   noise_ = noise.scales();
   contest_.data = noise.whitened(data);

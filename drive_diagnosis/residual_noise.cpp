@@ -14,36 +14,74 @@ constexpr double kMad = 0.6745;     ///< median of |x| of a normal x
 constexpr double kFar = 2.5;        ///< beyond, a residual counts less
 constexpr double kOfNormal = 0.92;  ///< mean of min(x^2, kFar^2) of a normal x
 
+/// How much there is of a source of scatter, and how much is due if it is as it is told.
+class Evidence {
+ public:
+  /// \param along what is seen \param known its variance, as it is told \param weight of it
+  void add(double along, double known, double weight = 1) {
+    seen_ += weight * std::min(along * along, kFar * kFar * known) / kOfNormal;
+    due_ += weight * known;
+  }
+  /// By what the source's deviation is to be multiplied.
+  double factor() const { return due_ > 0 ? std::sqrt(seen_ / due_) : 1; }
+
+ private:
+  double seen_ = 0, due_ = 0;
+};
+
 }  // namespace
 
 ResidualNoise::ResidualNoise(ResidualParts parts) : parts_(std::move(parts)) {
+  start();
+  constexpr int kRounds = 40;
+  constexpr double kSettled = 0.01;  // of a deviation
+  for (int round = 0; round < kRounds; ++round) {
+    factor();
+    if (update(fitted()) < kSettled) break;
+  }
+  factor();
+  widen_what_goes_on(fitted().left);
+  factor();
+}
+
+/// Floors begin with how residuals change from window to window, the share with that of a whole.
+void ResidualNoise::start() {
   const Eigen::MatrixXd& residuals = parts_.residuals;
-  share_.assign(static_cast<std::size_t>(residuals.cols()), 0);
+  input_scale_.assign(parts_.inputs.size(), 1);
+  widened_.assign(static_cast<std::size_t>(residuals.cols()), 1);
+  double alike = 0, size = 0;
+  Eigen::Index channels_alike = 0;
   for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
     std::vector<double> steps;
     for (Eigen::Index i = 1; i < residuals.rows(); ++i) {
       if (!parts_.follows[static_cast<std::size_t>(i)]) continue;
       steps.push_back(std::abs(residuals(i, k) - residuals(i - 1, k)));
     }
-    constexpr double kLeast = 1e-9;
-    scale_.push_back(steps.empty() ? 1
-                                   : std::max(kLeast, median_value(steps) / kMad / std::sqrt(2)));
+    const double scale = steps.empty() ? 1 : median_value(steps) / kMad / std::sqrt(2);
+    floor_.push_back(std::max(least_floor(k), scale));
+    if (!is_alike(k)) continue;
+    ++channels_alike;
+    alike += scale;
+    size += parts_.sizes.col(k).mean();
   }
-  const auto windows = static_cast<double>(residuals.rows());
-  const double freedom = std::max(0.3, 1 - static_cast<double>(parts_.columns.size()) /
-                                               (windows * static_cast<double>(residuals.cols())));
-  input_scale_.assign(parts_.inputs.size(), 1);
-  constexpr int kRounds = 15;
-  Eigen::MatrixXd left = residuals;
-  for (int round = 0; round < kRounds; ++round) {
-    factor();
-    left = fitted_residuals();
-    if (round == 0) choose_shares(left);
-    update(left, freedom);
-    update_inputs(left, freedom);
+  for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
+    if (!is_alike(k)) continue;
+    floor_[static_cast<std::size_t>(k)] =
+        std::max(least_floor(k), alike / static_cast<double>(channels_alike));
+    share_ = alike / size;
   }
-  widen_what_goes_on(left);
-  factor();
+}
+
+/// The least floor of a channel: what neighbouring samples say of it or, of alike channels, say in
+/// the median. What goes together over some samples makes a mean scatter more.
+double ResidualNoise::least_floor(Eigen::Index channel) const {
+  constexpr double kLeast = 1e-6;  // of a channel's unit
+  std::vector<double> sampled;
+  for (Eigen::Index k = 0; k < parts_.residuals.cols(); ++k) {
+    if (k != channel && !(is_alike(k) && is_alike(channel))) continue;
+    sampled.push_back(parts_.sampled_std[static_cast<std::size_t>(k)]);
+  }
+  return std::max(kLeast, median_value(sampled));
 }
 
 Eigen::VectorXd ResidualNoise::variances(Eigen::Index window) const {
@@ -51,10 +89,17 @@ Eigen::VectorXd ResidualNoise::variances(Eigen::Index window) const {
   for (Eigen::Index k = 0; k < result.size(); ++k) {
     const auto channel = static_cast<std::size_t>(k);
     const double scale =
-        scale_[channel] * std::hypot(1, share_[channel] * parts_.reference(window, k));
+        widened_[channel] * std::hypot(floor_[channel], share_ * parts_.sizes(window, k));
     result[k] = scale * scale;
   }
   return result;
+}
+
+std::vector<double> ResidualNoise::scales() const {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(parts_.residuals.cols());
+  for (Eigen::Index w = 0; w < parts_.residuals.rows(); ++w) mean += variances(w);
+  mean = (mean / static_cast<double>(parts_.residuals.rows())).cwiseSqrt();
+  return {mean.begin(), mean.end()};
 }
 
 void ResidualNoise::factor() {
@@ -116,9 +161,8 @@ Eigen::MatrixXd ResidualNoise::inputs_given(const Eigen::MatrixXd& residuals) co
   return result;
 }
 
-/// What is left of residuals when the parameters, wider than those of a sound vehicle, are fitted;
-/// far residuals count less.
-Eigen::MatrixXd ResidualNoise::fitted_residuals() const {
+/// The parameters are wider than those of a sound vehicle; far residuals count less.
+ResidualNoise::Fitted ResidualNoise::fitted() const {
   const auto count = static_cast<Eigen::Index>(parts_.columns.size());
   const auto wider = [this](Eigen::Index c) {
     constexpr double kWider = 10;  // a fault of the vehicle is no noise
@@ -130,133 +174,71 @@ Eigen::MatrixXd ResidualNoise::fitted_residuals() const {
   }
   const Eigen::VectorXd data = whitened(parts_.residuals, root_);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(data.size()), x = Eigen::VectorXd::Zero(count);
+  Eigen::LLT<Eigen::MatrixXd> normal;
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     const Eigen::MatrixXd weighted = weights.asDiagonal() * design;
-    const Eigen::LLT<Eigen::MatrixXd> normal(design.transpose() * weighted +
-                                             Eigen::MatrixXd::Identity(count, count));
+    normal.compute(design.transpose() * weighted + Eigen::MatrixXd::Identity(count, count));
     x = normal.solve(weighted.transpose() * data);
     const Eigen::VectorXd off = data - design * x;
     for (Eigen::Index i = 0; i < off.size(); ++i) {
       weights[i] = std::min(1.0, kFar / std::max(1e-12, std::abs(off[i])));
     }
   }
-  Eigen::MatrixXd left = parts_.residuals;
+  Fitted result{.left = parts_.residuals, .known = {}};
   for (Eigen::Index c = 0; c < count; ++c) {
-    left -= wider(c) * x[c] * parts_.columns[static_cast<std::size_t>(c)];
+    result.left -= wider(c) * x[c] * parts_.columns[static_cast<std::size_t>(c)];
   }
-  return left;
-}
-
-/// A channel's own variance: by how much more the residuals scatter, seen through all channels,
-/// than they would with it as it is.
-void ResidualNoise::update(const Eigen::MatrixXd& left, double freedom) {
-  Eigen::VectorXd seen = Eigen::VectorXd::Zero(left.cols()), due = seen;
-  for (Eigen::Index w = 0; w < left.rows(); ++w) {
+  const Eigen::MatrixXd taken = normal.matrixL().solve(design.transpose());
+  const Eigen::Index channels = parts_.residuals.cols();
+  for (Eigen::Index w = 0; w < parts_.residuals.rows(); ++w) {
     const Eigen::MatrixXd& root = root_[static_cast<std::size_t>(w)];
-    const Eigen::MatrixXd inverse = root.transpose() * root;
-    const Eigen::VectorXd solved = inverse * left.row(w).transpose();
-    const Eigen::VectorXd own = variances(w);
-    for (Eigen::Index k = 0; k < left.cols(); ++k) {
-      const double known = inverse(k, k);
-      seen[k] += own[k] * std::min(solved[k] * solved[k], kFar * kFar * known) / kOfNormal;
-      due[k] += own[k] * known;
-    }
+    const Eigen::MatrixXd of_fit = taken.middleCols(w * channels, channels) * root;
+    result.known.emplace_back(root.transpose() * root - of_fit.transpose() * of_fit);
   }
-  // Wheels' torques are measured alike: one ratio for all, as the inputs' scatter would else hide
-  // in any one of them.
-  double seen_alike = 0, due_alike = 0;
-  for (Eigen::Index k = 0; k < left.cols(); ++k) {
-    if (!is_alike(k)) continue;
-    seen_alike += seen[k];
-    due_alike += due[k];
-  }
-  // Where the inputs' scatter hides theirs, neighbouring samples say what it is: worth so many
-  // windows of one wheel.
-  constexpr double kSamplesWorth = 30;
-  const double sampled = sampled_scale();
-  for (Eigen::Index k = 0; k < left.cols(); ++k) {
-    if (!is_alike(k) || !(sampled > 0)) continue;
-    const double ratio = sampled / scale_[static_cast<std::size_t>(k)];
-    seen_alike += kSamplesWorth * ratio * ratio;
-    due_alike += kSamplesWorth;
-    break;  // alike channels have one scale
-  }
-  for (Eigen::Index k = 0; k < left.cols(); ++k) {
-    if (is_alike(k)) {
-      seen[k] = seen_alike;
-      due[k] = due_alike;
-    }
-    constexpr double kLeast = 1e-6;  // of a channel's unit
-    double& scale = scale_[static_cast<std::size_t>(k)];
-    scale = std::max(kLeast, scale * std::sqrt(seen[k] / (due[k] * freedom)));
-    if (!is_alike(k)) scale = std::max(scale, parts_.sampled_std[static_cast<std::size_t>(k)]);
-  }
+  return result;
 }
 
-/// The scatter of an input that nobody tells: by how much more the residuals scatter along what it
-/// changes than they would with it as it is.
-void ResidualNoise::update_inputs(const Eigen::MatrixXd& left, double freedom) {
+/// Every source of scatter, by how much more what is left scatters, seen through all channels, than
+/// it would with the source as it is told.
+/// \returns the largest relative change of a deviation
+double ResidualNoise::update(const Fitted& fitted) {
+  std::vector<Evidence> of_floor(floor_.size()), of_input(parts_.inputs.size());
+  Evidence of_share, of_alike;
+  for (Eigen::Index w = 0; w < fitted.left.rows(); ++w) {
+    const Eigen::MatrixXd& root = root_[static_cast<std::size_t>(w)];
+    const Eigen::MatrixXd& known = fitted.known[static_cast<std::size_t>(w)];
+    const Eigen::VectorXd solved = root.transpose() * (root * fitted.left.row(w).transpose());
+    for (Eigen::Index k = 0; k < fitted.left.cols(); ++k) {
+      const double size = parts_.sizes(w, k);
+      (is_alike(k) ? of_alike : of_floor[static_cast<std::size_t>(k)]).add(solved[k], known(k, k));
+      of_share.add(solved[k], known(k, k), size * size);
+    }
+    for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
+      const Eigen::VectorXd column = parts_.inputs[k].row(w).transpose();
+      of_input[k].add(column.dot(solved), column.dot(known * column));
+    }
+  }
+  double most = 0;
+  const auto multiply = [&most](double& deviation, double by, double least, double longest) {
+    const double before = deviation;
+    deviation = std::clamp(deviation * by, least, longest);
+    most = std::max(most, std::abs(deviation - before) / before);
+  };
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < floor_.size(); ++k) {
+    const auto channel = static_cast<Eigen::Index>(k);
+    const Evidence& evidence = is_alike(channel) ? of_alike : of_floor[k];
+    multiply(floor_[k], evidence.factor(), least_floor(channel), kAny);
+  }
+  constexpr double kLeastShare = 1e-4;
+  if (share_ > 0) multiply(share_, of_share.factor(), kLeastShare, kAny);
+  constexpr double kLeastInput = 0.01, kMostInput = 20;  // of what it was given by
   for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
     if (!parts_.scatters_unknown[k]) continue;
-    double seen = 0, due = 0;
-    for (Eigen::Index w = 0; w < left.rows(); ++w) {
-      const Eigen::MatrixXd& root = root_[static_cast<std::size_t>(w)];
-      const Eigen::VectorXd column = root * parts_.inputs[k].row(w).transpose();
-      const double known = column.squaredNorm(), along = column.dot(root * left.row(w).transpose());
-      seen += std::min(along * along, kFar * kFar * known) / kOfNormal;
-      due += known;
-    }
-    constexpr double kLeast = 0.01, kMost = 20;  // of what it was given by
-    if (due > 0) {
-      input_scale_[k] =
-          std::clamp(input_scale_[k] * std::sqrt(seen / (due * freedom)), kLeast, kMost);
-    }
+    multiply(input_scale_[k], of_input[k].factor(), kLeastInput, kMostInput);
   }
-}
-
-/// The scale of alike channels that neighbouring samples speak for; 0 where they say nothing.
-double ResidualNoise::sampled_scale() const {
-  std::vector<double> scales;
-  for (Eigen::Index k = 0; k < parts_.residuals.cols(); ++k) {
-    const auto channel = static_cast<std::size_t>(k);
-    if (!is_alike(k)) continue;
-    scales.push_back(parts_.sampled_std[channel] / std::hypot(1, share_[channel]));
-  }
-  return scales.empty() ? 0 : median_value(scales);
-}
-
-/// How far the scatter of alike channels goes with their size: what makes the residuals most
-/// likely.
-void ResidualNoise::choose_shares(const Eigen::MatrixXd& left) {
-  double best = std::numeric_limits<double>::infinity(), chosen = 0, chosen_scale = 1;
-  for (const double share : {0.0, 0.5, 1.0, 2.0, 6.0}) {
-    std::vector<double> sizes;
-    double misfit = 0;
-    for (Eigen::Index k = 0; k < left.cols(); ++k) {
-      if (!is_alike(k)) continue;
-      for (Eigen::Index w = 0; w < left.rows(); ++w) {
-        const double wide = std::hypot(1, share * parts_.reference(w, k));
-        sizes.push_back(std::abs(left(w, k)) / wide);
-        misfit += std::log(wide);
-      }
-    }
-    if (sizes.empty()) return;
-    const double scale = std::max(1e-9, median_value(sizes) / kMad);
-    for (const double size : sizes) {
-      const double z = size / scale;
-      misfit += std::log(scale) + (z < kFar ? z * z / 2 : kFar * (z - kFar / 2));
-    }
-    if (misfit >= best) continue;
-    best = misfit;
-    chosen = share;
-    chosen_scale = scale;
-  }
-  for (Eigen::Index k = 0; k < left.cols(); ++k) {
-    if (!is_alike(k)) continue;
-    share_[static_cast<std::size_t>(k)] = chosen;
-    scale_[static_cast<std::size_t>(k)] = chosen_scale;
-  }
+  return most;
 }
 
 void ResidualNoise::widen_what_goes_on(const Eigen::MatrixXd& left) {
@@ -275,7 +257,7 @@ void ResidualNoise::widen_what_goes_on(const Eigen::MatrixXd& left) {
     constexpr double kMost = 0.6;
     const double by_chance = 1 / std::sqrt(static_cast<double>(before.size()));
     const double rho = std::min(kMost, correlation(before, after));
-    if (rho > by_chance) scale_[static_cast<std::size_t>(k)] *= std::sqrt((1 + rho) / (1 - rho));
+    if (rho > by_chance) widened_[static_cast<std::size_t>(k)] = std::sqrt((1 + rho) / (1 - rho));
   }
 }
 

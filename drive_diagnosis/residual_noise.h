@@ -15,21 +15,22 @@ struct ResidualParts {
   std::vector<Eigen::MatrixXd> inputs;
   std::vector<bool> scatters_unknown;  ///< of each input: how far it scatters is estimated
   std::vector<bool> follows;           ///< whether a window follows the one before
-  /// Scatter that goes with a measurement goes with this; 0 where it does not.
-  Eigen::MatrixXd reference;
+  /// Of each window and channel whose scatter goes with its size, that size; 0 of other channels.
+  Eigen::MatrixXd sizes;
   /// What neighbouring samples say of the scatter of a window's measurement, of each channel of
   /// which they say any.
   std::vector<double> sampled_std;
 };
 
-/// How residuals scatter: each channel by a scale of its own, and all by what the inputs' scatter
-/// does to them. Makes them white but for what inputs of unknown scatter do: those may go together
-/// from window to window.
+/// How residuals scatter: each channel by a floor of its own, some by a share of their size as well
+/// (floor and share are common to them), and all by what the inputs' scatter does to them. Makes
+/// them white but for what inputs of unknown scatter do: those may go together from window to
+/// window.
 class ResidualNoise {
  public:
-  /// Estimates the scales by what is left when everything global is fitted (expectation
-  /// maximisation), robustly: a zone of the map, or a stray window, does not widen them. Residuals
-  /// that go on from window to window widen theirs.
+  /// Estimates floors, share and inputs together by what is left when everything global is fitted,
+  /// less what that fit takes (restricted maximum likelihood), robustly: a zone of the map, or a
+  /// stray window, does not widen them. Residuals that go on from window to window widen theirs.
   explicit ResidualNoise(ResidualParts parts);
 
   /// Window by window, its channels one behind the other.
@@ -40,26 +41,35 @@ class ResidualNoise {
   /// By how many nats residuals are unlikely as such noise, but for what all have in common; far
   /// ones count less. Fits of the same windows compare, each by the noise that it leaves.
   double nats(const Eigen::MatrixXd& residuals) const;
-  const std::vector<double>& scales() const { return scale_; }
+  /// Of each channel, the root mean square of its own scatter.
+  std::vector<double> scales() const;
+  /// By what share of their size channels scatter that do.
+  double share() const { return share_; }
   /// How far each input scatters, in what it was given by.
   const std::vector<double>& input_scales() const { return input_scale_; }
 
  private:
   static Eigen::VectorXd whitened(const Eigen::MatrixXd& by_window,
                                   const std::vector<Eigen::MatrixXd>& roots);
+  /// What is left of residuals when everything global is fitted.
+  struct Fitted {
+    Eigen::MatrixXd left;
+    /// Of each window: the covariance of what is left, seen through the inverse of the noise's.
+    std::vector<Eigen::MatrixXd> known;
+  };
+  void start();
   void factor();
-  Eigen::MatrixXd fitted_residuals() const;
-  void update(const Eigen::MatrixXd& left, double freedom);
-  void update_inputs(const Eigen::MatrixXd& left, double freedom);
-  void choose_shares(const Eigen::MatrixXd& left);
+  Fitted fitted() const;
+  double update(const Fitted& fitted);
   void widen_what_goes_on(const Eigen::MatrixXd& left);
   Eigen::VectorXd variances(Eigen::Index window) const;
-  double sampled_scale() const;
-  /// Whether a channel shares its scale with the others that go with their size.
-  bool is_alike(Eigen::Index channel) const { return !parts_.reference.col(channel).isZero(); }
+  double least_floor(Eigen::Index channel) const;
+  /// Whether a channel has floor and share in common with the others that go with their size.
+  bool is_alike(Eigen::Index channel) const { return !parts_.sizes.col(channel).isZero(); }
 
   ResidualParts parts_;
-  std::vector<double> scale_, share_;
+  std::vector<double> floor_, widened_;  ///< of each channel
+  double share_ = 0;
   std::vector<double> input_scale_;          ///< of each input, in that which it was given by
   std::vector<Eigen::MatrixXd> root_;        ///< of each window: inverse of its Cholesky factor
   std::vector<Eigen::MatrixXd> known_root_;  ///< the same without inputs of unknown scatter

@@ -138,6 +138,23 @@ double mean_std(const DriveRecording& drive, const DriveWindow& window, const st
   return steps == 0 || within == 0 ? 0 : std::sqrt(squares / (2.0 * steps * within));
 }
 
+/// Root mean square of a channel's samples in a window; 0 where it has none.
+double mean_size(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
+  const DriveChannel* channel = drive.channel(name);
+  if (!channel) return 0;
+  const auto begin = std::ranges::lower_bound(drive.time_s, window.start_s) - drive.time_s.begin();
+  double squares = 0;
+  int count = 0;
+  for (auto i = static_cast<std::size_t>(begin);
+       i < drive.size() && drive.time_s[i] <= window.end_s; ++i) {
+    const auto value = static_cast<double>(channel->values[i]);
+    if (std::isnan(value)) continue;
+    squares += value * value;
+    ++count;
+  }
+  return count == 0 ? 0 : std::sqrt(squares / count);
+}
+
 /// By how much an acceleration may be off: sinkage is that of steady motion at each place, and
 /// samples do not tell what happens between them.
 double acceleration_std(const WindowInput& input, double WindowInput::Place::*of, double least) {
@@ -182,6 +199,7 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
     measured_.row(static_cast<Eigen::Index>(i)) = rows[i];
   }
   estimate_sampled_std();
+  measure_sizes();
 }
 
 /// Takes a window in, or says why not.
@@ -224,6 +242,18 @@ void WindowComparison::estimate_sampled_std() {
       of_windows.push_back(mean_std(drives_[windows_[i].drive], windows_[i], channels_[k]));
     }
     if (!of_windows.empty()) sampled_std_[k] = median_value(of_windows);
+  }
+}
+
+void WindowComparison::measure_sizes() {
+  sizes_ = Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols());
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    if (!scales(k)) continue;
+    for (std::size_t i = 0; i < windows_of_.size(); ++i) {
+      const DriveWindow& window = windows_[windows_of_[i]];
+      sizes_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          mean_size(drives_[window.drive], window, channels_[k]);
+    }
   }
 }
 

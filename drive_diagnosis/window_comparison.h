@@ -81,6 +81,8 @@ class WindowComparison {
                                          const Eigen::MatrixXd& base,
                                          const std::stop_token& stop) const;
   /// What neighbouring samples say of the scatter of each channel's windows; 0 where nothing.
+  /// By window, the root mean square of the samples of each channel whose scatter goes with it.
+  const Eigen::MatrixXd& sizes() const { return sizes_; }
   const std::vector<double>& sampled_std() const { return sampled_std_; }
   /// How far a channel's scatter goes with what it measures: torques, by their mean.
   bool scales(std::size_t channel) const { return channels_[channel].starts_with("torque"); }
@@ -93,6 +95,7 @@ class WindowComparison {
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;
   void choose_channels();
   void estimate_sampled_std();
+  void measure_sizes();
 
   const std::vector<DriveRecording>& drives_;
   const std::vector<DriveWindow>& windows_;
@@ -108,6 +111,7 @@ class WindowComparison {
   std::vector<std::array<double, kMaxWheels>> rim_std_rad_s_;  ///< of the windows' means
   std::vector<bool> soils_driven_;
   std::vector<double> sampled_std_;
+  Eigen::MatrixXd sizes_;
   Eigen::MatrixXd measured_, shifts_;
   WindowsUsed used_;
 };
