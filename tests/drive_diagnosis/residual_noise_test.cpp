@@ -32,7 +32,7 @@ ResidualNoise noise_of(const Eigen::MatrixXd& residuals) {
                         .inputs = {},
                         .scatters_unknown = {},
                         .follows = std::vector<bool>(kWindowCount, true),
-                        .reference = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured),
+                        .sizes = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured),
                         .sampled_std = std::vector<double>(kChannelsMeasured, 0.0)});
 }
 
@@ -48,6 +48,88 @@ TEST(ResidualNoise, IsAsWideAsEachChannelScatters) {
   for (const std::vector<double>& of_channel : ratios) {
     EXPECT_NEAR(median_value(of_channel), 1, 0.12);
   }
+}
+
+/// Two channels that scatter by a floor and a share of their size, beside an input that scatters
+/// far more; the sizes change between large and small from window to window.
+struct OfTheirSize {
+  static constexpr Eigen::Index kMany = 200;
+  static constexpr double kLarge = 1.8, kSmall = 0.2;
+  double floor = 0, share = 0, sampled_std = 0;
+
+  ResidualNoise noise() const {
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    Eigen::MatrixXd residuals(kMany, 2), sizes(kMany, 2);
+    Eigen::MatrixXd input = Eigen::MatrixXd::Constant(kMany, 2, 2);
+    input.col(1) *= -1;
+    for (Eigen::Index w = 0; w < kMany; ++w) {
+      sizes.row(w).setConstant(w % 2 == 0 ? kLarge : kSmall);
+      const double off = normal(random);
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        residuals(w, k) =
+            off * input(w, k) + floor * normal(random) + share * sizes(w, k) * normal(random);
+      }
+    }
+    return ResidualNoise({.residuals = residuals,
+                          .columns = {},
+                          .may_be_wrong = {},
+                          .inputs = {input},
+                          .scatters_unknown = {false},
+                          .follows = std::vector<bool>(kMany, true),
+                          .sizes = sizes,
+                          .sampled_std = {sampled_std, sampled_std}});
+  }
+};
+
+/// Of what both channels have in common, which the input leaves alone.
+double std_told(const ResidualNoise& noise, Eigen::Index window) {
+  const Eigen::VectorXd white = noise.whitened(Eigen::MatrixXd::Ones(OfTheirSize::kMany, 2));
+  return std::sqrt(2) / white.segment(2 * window, 2).norm();
+}
+
+TEST(ResidualNoise, GoesWithTheSizeBesideInputsThatScatterMore) {
+  const OfTheirSize truth{.share = 0.4};
+  const ResidualNoise noise = truth.noise();
+  EXPECT_NEAR(noise.share(), truth.share, 0.15 * truth.share);
+  EXPECT_NEAR(std_told(noise, 0), truth.share * OfTheirSize::kLarge, 0.1);
+}
+
+TEST(ResidualNoise, HasAFloorThatDoesNotGoWithTheSize) {
+  const OfTheirSize truth{.floor = 0.3, .share = 0.4};
+  const ResidualNoise noise = truth.noise();
+  EXPECT_NEAR(std_told(noise, 1), std::hypot(truth.floor, truth.share * OfTheirSize::kSmall), 0.05);
+  EXPECT_NEAR(std_told(noise, 0), std::hypot(truth.floor, truth.share * OfTheirSize::kLarge), 0.1);
+}
+
+TEST(ResidualNoise, IsNowhereBelowWhatNeighbouringSamplesTell) {
+  const OfTheirSize truth{.share = 0.4, .sampled_std = 0.25};
+  EXPECT_GE(std_told(truth.noise(), 1), truth.sampled_std);
+}
+
+TEST(ResidualNoise, IsAsWideWhateverIsFitted) {
+  // What is left of a fit scatters less than the noise: by a third of its variance here.
+  constexpr Eigen::Index kParameters = 60;
+  std::vector<double> scales;
+  for (std::uint64_t seed = 1; seed <= 21; ++seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    ResidualParts parts{.residuals = scattered(seed),
+                        .columns = {},
+                        .may_be_wrong = std::vector<bool>(kParameters, true),
+                        .inputs = {},
+                        .scatters_unknown = {},
+                        .follows = std::vector<bool>(kWindowCount, false),
+                        .sizes = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured),
+                        .sampled_std = std::vector<double>(kChannelsMeasured, 0.0)};
+    for (Eigen::Index i = 0; i < kParameters; ++i) {
+      parts.columns.emplace_back(
+          Eigen::MatrixXd::NullaryExpr(kWindowCount, kChannelsMeasured,
+                                       [&](Eigen::Index, Eigen::Index) { return normal(random); }));
+    }
+    scales.push_back(ResidualNoise(std::move(parts)).scales()[0]);
+  }
+  EXPECT_NEAR(median_value(scales), 1, 0.12);
 }
 
 TEST(ResidualNoise, IsLikelierToHaveLeftLess) {

@@ -101,6 +101,17 @@ TEST(VehicleEffects, AWheelThatDragsIsNamed) {
   EXPECT_NEAR(found.size, 5, 3 * found.std + 0.5);
 }
 
+TEST(VehicleEffects, NothingElseIsClaimedBesideADragWhereTorqueScatters) {
+  for (std::uint64_t seed = 22; seed <= 23; ++seed) {
+    SimulatedDrive drive{.torque_scatter = 0.16, .seed = seed};
+    drive.deviation.wheel_drag_nm[3] = 7;
+    const Diagnosed dragging = diagnosed(drive);
+    ASSERT_TRUE(dragging.effects);
+    ASSERT_EQ(dragging.effects->found.size(), 1u) << said(*dragging.effects);
+    EXPECT_EQ(dragging.effects->found[0].id, "wheel_drag") << said(*dragging.effects);
+  }
+}
+
 TEST(VehicleEffects, ASteeringOffsetIsNamed) {
   SimulatedDrive drive{.seed = 31};
   const Vehicle vehicle = preset_vehicle("lrv");
