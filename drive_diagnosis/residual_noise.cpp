@@ -19,8 +19,9 @@ class Evidence {
  public:
   /// \param along what is seen \param known its variance, as it is told \param weight of it
   void add(double along, double known, double weight = 1) {
-    seen_ += weight * std::min(along * along, kFar * kFar * known) / kOfNormal;
-    due_ += weight * known;
+    const double due = std::max(0.0, known);  // far residuals may take more than there is
+    seen_ += weight * std::min(along * along, kFar * kFar * due) / kOfNormal;
+    due_ += weight * due;
   }
   /// By what the source's deviation is to be multiplied.
   double factor() const { return due_ > 0 ? std::sqrt(seen_ / due_) : 1; }
