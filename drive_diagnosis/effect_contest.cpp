@@ -19,9 +19,9 @@ constexpr double kOwn = 1.5;
 constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
 /// Twice nats beyond chance that a first effect is asked, and what comes after: what the fit of a
-/// known effect leaves looks like any. Of 36 drives without an effect (benchmarks/drives, sensors B,
-/// seeds 111 to 126 and 701 to 720) the two largest gains of a zone are 12.0 and 10.7, where chance
-/// gives one in twenty beyond 10.
+/// known effect leaves looks like any. Of 36 drives without an effect (benchmarks/drives, sensors
+/// B, seeds 111 to 126 and 701 to 720) the two largest gains of a zone are 12.0 and 10.7, where
+/// chance gives one in twenty beyond 10.
 constexpr double kToSpareFirst = 4, kToSpare = 12;
 constexpr double kNarrowest = 0.7;  ///< of the noise that is told, what there may be
 constexpr std::size_t kShortest = 2;
