@@ -5,7 +5,7 @@ set(browser_pages ${CMAKE_BINARY_DIR}/browser_pages)
 set(browser_driver ${CMAKE_SOURCE_DIR}/tests/browser/run.sh)
 add_test(NAME Browser.MakesThePages COMMAND ${browser_driver} node make_pages.mjs
                                             $<TARGET_FILE:regoplan> ${CMAKE_SOURCE_DIR} ${browser_pages})
-set_tests_properties(Browser.MakesThePages PROPERTIES FIXTURES_SETUP browser_pages)
+set_tests_properties(Browser.MakesThePages PROPERTIES FIXTURES_SETUP browser_pages COST 60)
 file(GLOB browser_tests CONFIGURE_DEPENDS tests/browser/*.test.mjs)
 foreach(file ${browser_tests})
   get_filename_component(name ${file} NAME)

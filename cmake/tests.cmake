@@ -85,7 +85,7 @@ if(NOT REGOPLAN_DEV)
     add_test(NAME package.${how}
              COMMAND ${CMAKE_SOURCE_DIR}/tests/package/run.sh ${how} ${CMAKE_BINARY_DIR}
                      ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/package/${how})
-    set_tests_properties(package.${how} PROPERTIES LABELS package TIMEOUT 900)
+    set_tests_properties(package.${how} PROPERTIES LABELS package TIMEOUT 900 COST 50)
   endforeach()
   add_test(NAME package.newer_ompl
            COMMAND ${CMAKE_COMMAND} -S ${CMAKE_SOURCE_DIR}/tests/package/newer_ompl -B
