@@ -49,6 +49,7 @@ class NameContest {
   std::vector<NameClass> proven_one_by_one();
   std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const;
   std::string doubt_about(const CandidateFit& fit) const;
+  void share_with_unlisted(std::vector<NameClass>& claimed);
   bool another_holds(const std::vector<NameClass>& refuted, const std::set<std::string>& best);
 
   const CalibratedRecording& calibrated_;
