@@ -190,6 +190,8 @@ class Diagnosing {
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
       return;
     }
+    std::erase_if(effects_in_part_,
+                  [&](const Effect& effect) { return contest.refuted().contains(effect.id); });
     if (unfit_ && named_in_part()) return;
     if (unfit_) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);

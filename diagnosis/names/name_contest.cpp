@@ -70,6 +70,11 @@ Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& 
   return left;
 }
 
+bool is_known_exactly(const CandidateFit& fit) {
+  return std::ranges::all_of(fit.candidate.effects,
+                             [](const Effect& effect) { return has_one_form(effect); });
+}
+
 double log_odds(double probability) {
   return std::log(probability / std::max(1 - probability, 1e-12));
 }
@@ -109,6 +114,7 @@ std::optional<ProvenClaim> NameContest::decide() {
         "on held-out conditions it explains {:.0f} % of the excess misfit, {:.1f} standard errors",
         100 * worth.share, worth.gain);
   }
+  if (is_known_exactly(best->fit)) refuted_ = best->account.effects;
   notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id(), doubt));
   return std::nullopt;
 }
@@ -162,21 +168,13 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
       deviations_of_memory(calibrated_.problem(), fit) > Thresholds::kMemory_deviations) {
     doubt = "what it leaves follows the slip of the run before";
   }
-  const bool exact = std::ranges::all_of(fit.candidate.effects,
-                                         [](const Effect& effect) { return has_one_form(effect); });
-  if (!doubt.empty() || !exact) return doubt;
+  if (!doubt.empty() || !is_known_exactly(fit)) return doubt;
   const LackOfFit left = lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(fit), seed_);
   if (left.f > left.critical) {
     return fmt::format("what it does is known exactly, and leaves a lack of fit (p = {:.2g})",
                        left.p_value);
   }
   const Leftover held_out = leftover_of(calibrated_, fit, threads_);
-  if (held_out.is_worth_correcting()) {
-    return fmt::format(
-        "what it does is known exactly, and leaves {:.0f} % of the excess misfit on held-out "
-        "conditions",
-        100 * held_out.share);
-  }
   if (held_out.errors < Thresholds::kBesideExact_errors) return "";
   return fmt::format(
       "what it does is known exactly, and a remainder beside it predicts held-out conditions "
