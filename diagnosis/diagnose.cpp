@@ -159,14 +159,8 @@ class Diagnosing {
                                {.threads = options_.threads, .progress = [&](double share) {
                                   tell("scoring what may be wrong", 0.15 + 0.7 * share);
                                 }});
-    const double parameters = scored_as(Account::Kind::kParameters, scored_).score;
-    double named = -INFINITY;
-    for (const ScoredId& s : scored_) {
-      if (s.account.kind != Account::Kind::kEffects) continue;
-      const double prior = s.account.effects.size() > 1 ? Thresholds::kPair_log_prior : 0;
-      named = std::max(named, s.score + prior);
-    }
-    rejected_ = unfit_ || stands_out_ || named > parameters + Thresholds::kUnprompted_nats;
+    found_.support = support_of(scored_, plain_model());
+    rejected_ = rejected_ || found_.support.best_gain_nats > Thresholds::kUnprompted_nats;
     weigh(scored_, plain_model());
   }
 
@@ -196,6 +190,8 @@ class Diagnosing {
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
       return;
     }
+    std::erase_if(effects_in_part_,
+                  [&](const Effect& effect) { return contest.refuted().contains(effect.id); });
     if (unfit_ && named_in_part()) return;
     if (unfit_) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);

@@ -165,6 +165,10 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
                                               {"probability", candidate.probability},
                                               {"evidence_nats", candidate.evidence_nats}};
                                 })},
+          {"support",
+           {{"tests", name(diagnosis.support.tests)},
+            {"best_gain_nats", diagnosis.support.best_gain_nats},
+            {"log_odds", diagnosis.support.log_odds}}},
           {"where", list_json(diagnosis.where, region_json)},
           {"fit", fit_json(diagnosis)},
           {"held_out_by", diagnosis.held_out_by},

@@ -67,6 +67,47 @@ HeldOut held_out(const std::vector<Scored>& all) {
           static_cast<int>(corrected.size())};
 }
 
+/// What names gain where no physics is missing: what thresholds on such gains are to exceed.
+struct ByChance {
+  std::string tests;
+  std::vector<double> best_gain_nats, log_odds;
+};
+
+std::vector<ByChance> by_chance(const std::vector<Scored>& all) {
+  std::vector<ByChance> nulls{{"holds"}, {"doubted"}, {"refuted"}};
+  for (const Scored& s : all) {
+    if (s.truth->stratum != Stratum::kNulls) continue;
+    for (ByChance& of : nulls) {
+      if (of.tests != s.outcome->tests) continue;
+      of.best_gain_nats.push_back(s.outcome->best_gain_nats);
+      of.log_odds.push_back(s.outcome->log_odds);
+    }
+  }
+  std::erase_if(nulls, [](const ByChance& of) { return of.log_odds.empty(); });
+  return nulls;
+}
+
+constexpr std::array<double, 5> kChanceQuantiles{0.5, 0.9, 0.95, 0.99, 1};
+
+std::array<double, 5> quantiles(const std::vector<double>& values) {
+  std::array<double, 5> all;
+  std::ranges::transform(kChanceQuantiles, all.begin(),
+                         [&](double share) { return quantile(values, share); });
+  return all;
+}
+
+std::string chance_table(const std::vector<Scored>& all) {
+  std::string text =
+      "\n## What names gain on nulls (median, 90, 95, 99 %, most)\n\n"
+      "| tests say of the plain model | nulls | best gain, nats | log odds |\n|---|---|---|---|\n";
+  for (const ByChance& of : by_chance(all)) {
+    text += fmt::format("| {} | {} | {:.1f} | {:.1f} |\n", of.tests, of.log_odds.size(),
+                        fmt::join(quantiles(of.best_gain_nats), ", "),
+                        fmt::join(quantiles(of.log_odds), ", "));
+  }
+  return text;
+}
+
 constexpr std::array<double, 8> kProbabilityBins{0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0000001};
 
 struct Bin {
@@ -332,7 +373,7 @@ std::string summary_markdown(const std::vector<CaseResult>& results, const std::
              label, results.size(), quantile(seconds, 0.5), quantile(seconds, 0.9),
              quantile(seconds, 1)) +
          measures_table(results) + held_out_table(results) + reliability_table(results) +
-         signal_table(all) + confusion_table(all) + failures_table(all);
+         signal_table(all) + chance_table(all) + confusion_table(all) + failures_table(all);
 }
 
 nlohmann::json summary_json(const std::vector<CaseResult>& results, const std::string& label) {
@@ -358,12 +399,21 @@ nlohmann::json summary_json(const std::vector<CaseResult>& results, const std::s
                        {"mean_probability", bin.mean},
                        {"right", bin.right}});
     }
+    nlohmann::json chance = nlohmann::json::array();
+    for (const ByChance& of : by_chance(all)) {
+      chance.push_back({{"tests", of.tests},
+                        {"nulls", of.log_odds.size()},
+                        {"quantiles", kChanceQuantiles},
+                        {"best_gain_nats", quantiles(of.best_gain_nats)},
+                        {"log_odds", quantiles(of.log_odds)}});
+    }
     const HeldOut h = held_out(all);
     const auto number = [](double v) {
       return std::isnan(v) ? nlohmann::json() : nlohmann::json(v);
     };
     json["methods"][method] = {{"measures", table},
                                {"reliability", curve},
+                               {"by_chance", chance},
                                {"held_out",
                                 {{"cases", h.cases},
                                  {"calibrated_median", number(h.calibrated_median)},

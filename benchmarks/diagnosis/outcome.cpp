@@ -23,6 +23,9 @@ Outcome outcome_of(const Diagnosis& diagnosis, std::size_t rows, double seconds)
                   .share_explained = diagnosis.share_explained,
                   .p_before = diagnosis.before.p_value,
                   .p_after = diagnosis.after.p_value,
+                  .tests = std::string(name(diagnosis.support.tests)),
+                  .best_gain_nats = diagnosis.support.best_gain_nats,
+                  .log_odds = diagnosis.support.log_odds,
                   .seconds = seconds,
                   .sentence = diagnosis.sentence,
                   .notes = diagnosis.notes};
@@ -77,6 +80,9 @@ nlohmann::json outcome_json(const Outcome& o) {
           {"share_explained", number(o.share_explained)},
           {"p_before", number(o.p_before)},
           {"p_after", number(o.p_after)},
+          {"tests", o.tests},
+          {"best_gain_nats", number(o.best_gain_nats)},
+          {"log_odds", number(o.log_odds)},
           {"seconds", o.seconds},
           {"sentence", o.sentence},
           {"notes", o.notes}};
@@ -92,6 +98,9 @@ Outcome outcome_from(const nlohmann::json& json) {
             .share_explained = number_from(json.at("share_explained")),
             .p_before = number_from(json.at("p_before")),
             .p_after = number_from(json.at("p_after")),
+            .tests = json.at("tests").get<std::string>(),
+            .best_gain_nats = number_from(json.at("best_gain_nats")),
+            .log_odds = number_from(json.at("log_odds")),
             .seconds = json.at("seconds").get<double>(),
             .sentence = json.at("sentence").get<std::string>(),
             .notes = json.at("notes").get<std::vector<std::string>>()};

@@ -30,7 +30,9 @@ struct Outcome {
   std::vector<std::string> further_sensors;  ///< that the next experiments ask for
   double share_explained = 0;
   double p_before = 1, p_after = 1;
-  double seconds = 0;  ///< of the processor
+  std::string tests;  ///< of the diagnosis: what they say of the calibrated model
+  double best_gain_nats = 0, log_odds = 0;  ///< as NameSupport has them
+  double seconds = 0;                       ///< of the processor
   std::string sentence;
   std::vector<std::string> notes;
 };

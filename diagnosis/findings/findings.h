@@ -50,6 +50,23 @@ struct Claim {
   std::map<std::string, Share> member_shares;  ///< of a class: what each id explains in its place
 };
 
+/// What the tests say of the calibrated model without any effect.
+enum class PlainModel {
+  kHolds,    ///< nothing speaks against it
+  kDoubted,  ///< no lack of fit, but the misfit lies along some effect
+  kRefuted,  ///< lack of fit, or soil numbers farther from their tests than can be
+};
+
+/// `holds`, `doubted`, `refuted`.
+std::string_view name(PlainModel plain);
+
+/// What speaks for a name before any is held out.
+struct NameSupport {
+  PlainModel tests = PlainModel::kHolds;  ///< before names were scored
+  double best_gain_nats = 0;  ///< of the best name over other soil numbers, a pair's prior counted
+  double log_odds = 0;        ///< of all that is not the plain model, no prior for that counted
+};
+
 struct ScoredCandidate {
   std::string id;  ///< of a mechanism, an instrument fault, `a+b`, `none`, `parameters`, ...
   double probability = 0;
@@ -141,7 +158,8 @@ struct Diagnosis {
   std::vector<std::string> notes;  ///< signs, units, outliers, what was assumed
   std::vector<Claim> claims;
   std::vector<ScoredCandidate> ranking;  ///< sums to 1
-  std::vector<MismatchRegion> where;     ///< strongest first
+  NameSupport support;
+  std::vector<MismatchRegion> where;  ///< strongest first
   std::vector<ChannelFit> fit;
   std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
   double share_explained = 0;

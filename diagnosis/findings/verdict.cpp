@@ -11,6 +11,11 @@ std::string_view name(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
+std::string_view name(PlainModel plain) {
+  constexpr std::array<std::string_view, 3> kNames{"holds", "doubted", "refuted"};
+  return kNames[static_cast<std::size_t>(plain)];
+}
+
 Diagnosis undecided(const Recording& recording) {
   Diagnosis diagnosis{
       .verdict = Verdict::kUndecided, .notes = recording.warnings, .interrupted = true};

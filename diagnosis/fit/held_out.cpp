@@ -301,13 +301,19 @@ double gain_in_errors(const TestBed& bed, std::size_t channel, const Eigen::Vect
   return fall_of(bed, channel, better, worse).in_errors();
 }
 
-std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof) {
+std::optional<ChannelLoss> clear_loss(const TestBed& bed, const Eigen::VectorXd& prediction,
+                                      const Eigen::VectorXd& than) {
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const double gain = gain_in_errors(bed, c, proof.corrected, proof.calibrated);
-    if (gain < -Thresholds::kClear_errors) {
-      return fmt::format("held out by {}, it predicts {} worse by {:.1f} standard errors",
-                         proof.families.by, name(bed.channels[c].channel), -gain);
-    }
+    const double errors = gain_in_errors(bed, c, than, prediction);
+    if (errors > Thresholds::kClear_errors) return ChannelLoss{bed.channels[c].channel, errors};
+  }
+  return std::nullopt;
+}
+
+std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof) {
+  if (const auto loss = clear_loss(bed, proof.corrected, proof.calibrated)) {
+    return fmt::format("held out by {}, it predicts {} worse by {:.1f} standard errors",
+                       proof.families.by, name(loss->channel), loss->errors);
   }
   const double gain = gain_in_errors(bed, proof.corrected, proof.calibrated);
   if (gain > Thresholds::kClear_errors) return "";

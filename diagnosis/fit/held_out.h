@@ -59,6 +59,16 @@ double gain_in_errors(const TestBed& bed, const Eigen::VectorXd& better,
 double gain_in_errors(const TestBed& bed, std::size_t channel, const Eigen::VectorXd& better,
                       const Eigen::VectorXd& worse);
 
+/// A channel that is predicted worse, and by how many standard errors.
+struct ChannelLoss {
+  Channel channel = Channel::kFx;
+  double errors = 0;
+};
+
+/// The first channel that a prediction makes worse by more than two standard errors, if any.
+std::optional<ChannelLoss> clear_loss(const TestBed& bed, const Eigen::VectorXd& prediction,
+                                      const Eigen::VectorXd& than);
+
 /// Why a corrected model is not handed out in place of the calibrated one; empty where it is: on
 /// held-out conditions it is not better by more than two standard errors, or worse by more than
 /// two in some channel.

@@ -177,6 +177,17 @@ std::vector<ScoredId> gather(const std::vector<Hypothesis>& candidates,
   return all;
 }
 
+/// Of a name, a pair of them or what is on no list.
+double log_prior_of(const Account& account) {
+  if (account.kind == Account::Kind::kUnexplained) return Thresholds::kUnexplained_log_prior;
+  return account.effects.size() > 1 ? Thresholds::kPair_log_prior : 0;
+}
+
+double shared_temperature(const std::vector<ScoredId>& scored) {
+  return temperature_of(std::ranges::max_element(scored, {}, &ScoredId::score)->score -
+                        scored_as(Account::Kind::kParameters, scored).score);
+}
+
 }  // namespace
 
 const ScoredId& scored_as(Account::Kind kind, const std::vector<ScoredId>& scored) {
@@ -209,15 +220,25 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
   return all;
 }
 
+NameSupport support_of(const std::vector<ScoredId>& scored, PlainModel tests) {
+  const double temperature = shared_temperature(scored),
+               soil = scored_as(Account::Kind::kParameters, scored).score;
+  double best = -INFINITY;
+  std::vector<double> plain, other;
+  for (const ScoredId& s : scored) {
+    const double prior = log_prior_of(s.account);
+    (s.account.is_plain() ? plain : other).push_back(s.score / temperature + prior);
+    if (s.account.kind == Account::Kind::kEffects) best = std::max(best, s.score + prior);
+  }
+  return {tests, best - soil, log_sum(other) - log_sum(plain)};
+}
+
 void weigh(std::vector<ScoredId>& scored, PlainModel plain) {
-  const double best = std::ranges::max_element(scored, {}, &ScoredId::score)->score;
-  const double temperature =
-      temperature_of(best - scored_as(Account::Kind::kParameters, scored).score);
+  const double temperature = shared_temperature(scored);
   std::vector<double> terms;
   for (const ScoredId& s : scored) {
     const bool is_plain = s.account.is_plain();
-    double prior = s.account.effects.size() > 1 ? Thresholds::kPair_log_prior : 0;
-    if (s.account.kind == Account::Kind::kUnexplained) prior = Thresholds::kUnexplained_log_prior;
+    double prior = log_prior_of(s.account);
     if (is_plain && plain == PlainModel::kHolds) prior = Thresholds::kHolds_log_prior;
     if (is_plain && plain == PlainModel::kDoubted) prior = Thresholds::kDoubted_log_prior;
     const bool out = s.given_up || (is_plain && plain == PlainModel::kRefuted);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/findings/findings.h"
 #include "diagnosis/fit/account.h"
 #include "diagnosis/fit/candidate_fit.h"
 
@@ -42,12 +43,8 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
 /// \param gain_nats of the best name over the model without it
 double temperature_of(double gain_nats);
 
-/// What the tests say of the calibrated model without any effect.
-enum class PlainModel {
-  kHolds,    ///< nothing speaks against it
-  kDoubted,  ///< no lack of fit, but the misfit lies along some effect
-  kRefuted,  ///< lack of fit, or soil numbers farther from their tests than can be
-};
+/// What the scores say for a name against the plain model.
+NameSupport support_of(const std::vector<ScoredId>& scored, PlainModel tests);
 
 /// Fills in the probabilities, the likeliest first; 0 for what is given up and for what the tests
 /// refute.

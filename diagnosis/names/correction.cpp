@@ -149,18 +149,13 @@ Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surfa
 /// Why a calibrated model is not handed on; empty where it is: soil numbers that fit some channels
 /// at the cost of another tell nothing of the soil.
 std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof) {
-  const TestBed& bed = calibrated.bed();
-  const Eigen::VectorXd means = calibrated.prediction_at_prior_means();
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const double loss = gain_in_errors(bed, c, means, proof.calibrated);
-    if (loss > Thresholds::kClear_errors) {
-      return fmt::format(
-          "held out by {}, calibrated soil numbers predict {} worse than the prior means by {:.1f} "
-          "standard errors",
-          proof.families.by, name(bed.channels[c].channel), loss);
-    }
-  }
-  return "";
+  const auto loss =
+      clear_loss(calibrated.bed(), proof.calibrated, calibrated.prediction_at_prior_means());
+  if (!loss) return "";
+  return fmt::format(
+      "held out by {}, calibrated soil numbers predict {} worse than the prior means by {:.1f} "
+      "standard errors",
+      proof.families.by, name(loss->channel), loss->errors);
 }
 
 }  // namespace
@@ -181,6 +176,10 @@ Correction correction_by(const CalibratedRecording& calibrated, const CandidateF
   if (reason.empty()) return handed_out(calibrated, fit, remainder, proof);
   const HeldOut plain = calibrated.held_out({}, proof.families, threads);
   std::string worse = worse_than_prior_means(calibrated, plain);
+  // of two that each spoil a channel of the other's the calibrated one is what others are held to
+  if (clear_loss(calibrated.bed(), calibrated.prediction_at_prior_means(), plain.calibrated)) {
+    worse.clear();
+  }
   Correction correction = worse.empty() ? handed_out(calibrated, calibrated.base(), {}, plain)
                                         : at_prior_means(calibrated, false, plain, threads);
   correction.refused = worse.empty() ? std::move(reason) : reason + "; " + worse;
@@ -204,8 +203,10 @@ Correction correction_without_name(const CalibratedRecording& calibrated,
   Proven over_fit = prove(&scored_as(Account::Kind::kUnexplained, scored).fit);
   if (over_fit.proof.share_explained > best.proof.share_explained) best = std::move(over_fit);
   Correction at_means = at_prior_means(calibrated, true, best.proof, threads);
-  if (variances_off(calibrated.bed(), at_means.proof.corrected) <
-      variances_off(calibrated.bed(), best.proof.corrected)) {
+  const bool spoils =
+      clear_loss(calibrated.bed(), at_means.proof.corrected, best.proof.calibrated).has_value();
+  if (!spoils && variances_off(calibrated.bed(), at_means.proof.corrected) <
+                     variances_off(calibrated.bed(), best.proof.corrected)) {
     return at_means;
   }
   return correction_by(calibrated, best.fit == nullptr ? calibrated.base() : *best.fit,

@@ -36,6 +36,45 @@ Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
           .slack = std::sqrt(2.0 * size) / (excess + back + 1)};
 }
 
+/// What names leave on held-out conditions when nothing stands beside them; fitted with a remainder
+/// they may leave more to it than they have to.
+struct Leftover {
+  double share = INFINITY;    ///< of the excess misfit, by the kind of families that leaves least
+  double deviations = 0;      ///< of noise, there
+  double errors = -INFINITY;  ///< by which a remainder predicts better, most over kinds of families
+
+  bool is_worth_correcting() const {
+    return share > Thresholds::kWorthCorrecting && deviations > Thresholds::kClear_errors;
+  }
+};
+
+Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& fit, int threads) {
+  const TestBed& bed = calibrated.bed();
+  const FitProblem problem = calibrated.problem();
+  constexpr int kSteps = 12;
+  const std::vector<std::size_t> noise_only(bed.channels.size(), 0);
+  const auto refitted = fit_under(problem, fit.candidate, noise_only, fit.x, kSteps, 0);
+  const CandidateFit& names = refitted ? *refitted : fit;
+  const std::vector<std::size_t> remainder = remainder_settings(problem, names);
+  Leftover left;
+  for (const Families& families : all_families(bed)) {
+    const HeldOut alone = calibrated.held_out({.fit = &names}, families, threads);
+    const HeldOut with =
+        calibrated.held_out({.fit = &names, .remainder = remainder}, families, threads);
+    left.errors = std::max(left.errors, gain_in_errors(bed, with.corrected, alone.corrected));
+    const double excess = std::max(alone.excess, 0.0);
+    if (1 - alone.share_explained >= left.share) continue;
+    left.share = 1 - alone.share_explained;
+    left.deviations = left.share * excess / std::sqrt(2.0 * static_cast<double>(bed.size()));
+  }
+  return left;
+}
+
+bool is_known_exactly(const CandidateFit& fit) {
+  return std::ranges::all_of(fit.candidate.effects,
+                             [](const Effect& effect) { return has_one_form(effect); });
+}
+
 double log_odds(double probability) {
   return std::log(probability / std::max(1 - probability, 1e-12));
 }
@@ -66,13 +105,16 @@ std::optional<ProvenClaim> NameContest::decide() {
                                 {.fit = &best->fit, .remainder = left}, threads_);
   const Worth worth = worth_of(calibrated_, best->fit, proof);
   if (doubt.empty() && worth.proven()) {
-    return ProvenClaim{std::move(claimed), best->fit, left, std::move(proof)};
+    const CandidateFit fit = best->fit;
+    if (leftover_of(calibrated_, fit, threads_).is_worth_correcting()) share_with_unlisted(claimed);
+    return ProvenClaim{std::move(claimed), fit, left, std::move(proof)};
   }
   if (doubt.empty()) {
     doubt = fmt::format(
         "on held-out conditions it explains {:.0f} % of the excess misfit, {:.1f} standard errors",
         100 * worth.share, worth.gain);
   }
+  if (is_known_exactly(best->fit)) refuted_ = best->account.effects;
   notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id(), doubt));
   return std::nullopt;
 }
@@ -103,6 +145,21 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
   }
 }
 
+/// Names that leave as much as is worth a correction may well stand in for something on no list.
+void NameContest::share_with_unlisted(std::vector<NameClass>& claimed) {
+  for (NameClass& names : claimed) names.probability *= Thresholds::kRoughName;
+  double given = 0;
+  for (ScoredId& s : scored_) {
+    if (s.account.kind != Account::Kind::kEffects) continue;
+    given += (1 - Thresholds::kRoughName) * s.probability;
+    s.probability *= Thresholds::kRoughName;
+  }
+  for (ScoredId& s : scored_) {
+    if (s.account.kind == Account::Kind::kUnexplained) s.probability += given;
+  }
+  std::ranges::stable_sort(scored_, std::greater{}, &ScoredId::probability);
+}
+
 /// What speaks against it: its own numbers, or a lack of fit that it leaves. Other effects act in
 /// forms that nobody knows and may leave one.
 std::string NameContest::doubt_about(const CandidateFit& fit) const {
@@ -111,13 +168,18 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
       deviations_of_memory(calibrated_.problem(), fit) > Thresholds::kMemory_deviations) {
     doubt = "what it leaves follows the slip of the run before";
   }
-  const bool exact = std::ranges::all_of(fit.candidate.effects,
-                                         [](const Effect& effect) { return has_one_form(effect); });
-  if (!doubt.empty() || !exact) return doubt;
+  if (!doubt.empty() || !is_known_exactly(fit)) return doubt;
   const LackOfFit left = lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(fit), seed_);
-  if (left.f <= left.critical) return "";
-  return fmt::format("what it does is known exactly, and leaves a lack of fit (p = {:.2g})",
-                     left.p_value);
+  if (left.f > left.critical) {
+    return fmt::format("what it does is known exactly, and leaves a lack of fit (p = {:.2g})",
+                       left.p_value);
+  }
+  const Leftover held_out = leftover_of(calibrated_, fit, threads_);
+  if (held_out.errors < Thresholds::kBesideExact_errors) return "";
+  return fmt::format(
+      "what it does is known exactly, and a remainder beside it predicts held-out conditions "
+      "better by {:.1f} standard errors",
+      held_out.errors);
 }
 
 /// What speaks against the best of a class need not speak against its other names, nor against

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class NameContest {
 
   /// The candidates, weighed as far as they are not given up.
   const std::vector<ScoredId>& scored() const { return scored_; }
+  /// Names known to the last term that score best and are not claimed: no form excuses them.
+  const std::set<std::string>& refuted() const { return refuted_; }
   /// What was given up, and why.
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -49,6 +52,7 @@ class NameContest {
   std::vector<NameClass> proven_one_by_one();
   std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const;
   std::string doubt_about(const CandidateFit& fit) const;
+  void share_with_unlisted(std::vector<NameClass>& claimed);
   bool another_holds(const std::vector<NameClass>& refuted, const std::set<std::string>& best);
 
   const CalibratedRecording& calibrated_;
@@ -56,6 +60,7 @@ class NameContest {
   PlainModel plain_;
   std::uint64_t seed_;
   int threads_;
+  std::set<std::string> refuted_ = {};
   std::vector<std::string> notes_;
 };
 

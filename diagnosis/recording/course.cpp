@@ -75,6 +75,19 @@ double gain_nats(const ChannelContrasts& contrasts, const std::vector<std::vecto
   return gain;
 }
 
+/// Whether the recording tells when each replicate was run: a time that all replicates of a
+/// condition share belongs to the condition.
+bool tells_times_of_replicates(const Recording& recording,
+                               const std::vector<Condition>& conditions) {
+  if (!recording.columns.time) return false;
+  return std::ranges::any_of(conditions, [&](const Condition& at) {
+    return std::ranges::any_of(at.runs, [&](std::size_t run) {
+      return recording.runs[run].conditions.time_s !=
+             recording.runs[at.runs.front()].conditions.time_s;
+    });
+  });
+}
+
 }  // namespace
 
 std::optional<Course> course_of(const Recording& recording,
@@ -105,7 +118,7 @@ std::optional<Course> course_of(const Recording& recording,
     }
   }
   // Time that is told leaves no days untold.
-  if (!best || !best->in_time() || recording.columns.time) return best;
+  if (!best || !best->in_time() || tells_times_of_replicates(recording, conditions)) return best;
   if (const auto rounds = rounds_as_days(recording, conditions)) {
     const ChannelContrasts of_rounds =
         contrasts_of(rounds->recording, conditions, channels, setup, stop);

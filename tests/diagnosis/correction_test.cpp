@@ -7,10 +7,20 @@
 namespace regoplan {
 namespace {
 
-Correction corrected(const TrueWheel& truth) {
+CondensedRecording recorded(const TrueWheel& truth) {
   const DiagnosisSetup setup = simulant_setup();
-  const Recording recording = record(truth, setup, setup.soil.mean, {.outliers = 0}, 3);
-  return calibrated_alone(CalibratedRecording(condense(recording, setup)), 2);
+  return condense(record(truth, setup, setup.soil.mean, {.outliers = 0}, 3), setup);
+}
+
+Correction corrected(const TrueWheel& truth) {
+  return calibrated_alone(CalibratedRecording(recorded(truth)), 2);
+}
+
+/// A pull that no soil gives: numbers that come near to it spoil the side force.
+TrueWheel with_a_pull_beyond_any_soil() {
+  TrueWheel truth;
+  truth.fx_n = [](const WheelRun& run, double) { return 25 * std::max(run.slip_ratio, 0.0); };
+  return truth;
 }
 
 TEST(Correction, CalibratedSoilIsHandedOnWhereTheModelHolds) {
@@ -19,14 +29,21 @@ TEST(Correction, CalibratedSoilIsHandedOnWhereTheModelHolds) {
 }
 
 TEST(Correction, SoilNumbersThatPredictAChannelWorseThanThePriorMeansAreNotHandedOn) {
-  // A pull that no soil gives: numbers that come near to it spoil the side force.
-  TrueWheel truth;
-  truth.fx_n = [](const WheelRun& run, double) { return 25 * std::max(run.slip_ratio, 0.0); };
-  const Correction correction = corrected(truth);
+  const Correction correction = corrected(with_a_pull_beyond_any_soil());
   EXPECT_NE(correction.refused.find("the soil stays at its prior means"), std::string::npos)
       << correction.refused;
   EXPECT_EQ(correction.soil.mean.cohesion_pa, simulant_setup().soil.mean.cohesion_pa);
   EXPECT_EQ(correction.soil.mean.friction_angle_rad, simulant_setup().soil.mean.friction_angle_rad);
+}
+
+TEST(Correction, PriorMeansDoNotReplaceSoilNumbersThatPredictAnotherChannelBetter) {
+  const CalibratedRecording calibrated(recorded(with_a_pull_beyond_any_soil()));
+  const Correction refused =
+      correction_by(calibrated, calibrated.base(), {}, calibrated.held_out({}, 2), 2);
+  EXPECT_NE(refused.refused, "");
+  for (const ChannelFit& fit : refused.proof.fit) {
+    EXPECT_LE(fit.corrected_rmse, fit.calibrated_rmse * (1 + 1e-9)) << name(fit.channel);
+  }
 }
 
 }  // namespace

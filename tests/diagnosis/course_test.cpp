@@ -67,7 +67,17 @@ TEST(Course, IsFoundAndDoesNotWidenTheNoise) {
   EXPECT_TRUE(untold.course->may_be_days);
   EXPECT_LT(untold.noise[0].constant, 1.25 * still);
 
+  // A time that is the same for all replicates of a condition does not say when they were run.
   shuffled.columns.time = true;
+  for (const Condition& at : untold.bed.conditions) {
+    for (const std::size_t run : at.runs) {
+      shuffled.runs[run].conditions.time_s = 600 * static_cast<double>(at.runs.front());
+    }
+  }
+  const CondensedRecording shared = condense(shuffled, simulant_setup());
+  ASSERT_TRUE(shared.course.has_value());
+  EXPECT_TRUE(shared.course->may_be_days);
+
   for (std::size_t i = 0; i < shuffled.runs.size(); ++i) {
     shuffled.runs[i].conditions.time_s = 600 * static_cast<double>(i);
   }

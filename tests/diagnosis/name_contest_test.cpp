@@ -49,6 +49,19 @@ TEST_F(NameContestOf, AnEffectThatIsAtWorkIsClaimedWithItsProof) {
   EXPECT_GT(claim->proof.share_explained, 1.0 / 3.0);
 }
 
+TEST_F(NameContestOf, ANameThatLeavesWhatIsWorthACorrectionIsHalfAsLikely) {
+  hold(digging());  // in a form that is not carried: what it leaves stands out of so little noise
+  weigh(scored_, PlainModel::kRefuted);
+  NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
+  const auto claim = contest.decide();
+  ASSERT_TRUE(claim);
+  EXPECT_NEAR(claim->names.front().probability, 0.5, 0.01);
+  double sum = 0;
+  for (const ScoredId& one : contest.scored()) sum += one.probability;
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_NEAR(scored_as(Account::Kind::kUnexplained, contest.scored()).probability, 0.5, 0.01);
+}
+
 TEST_F(NameContestOf, ANameThatOnlyScoresIsNotClaimedAndANoteSaysWhy) {
   hold({});
   // Whatever led to it, a score alone claims nothing: held out, the name explains nothing here.
