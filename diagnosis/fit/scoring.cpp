@@ -158,6 +158,75 @@ std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
   return fits;
 }
 
+/// Zones of positions in a bed: their edges lie between conditions, counted along the bed.
+class ZoneEdges {
+ public:
+  explicit ZoneEdges(const TestBed& bed) {
+    for (const Condition& at : bed.conditions) positions_m_.push_back(at.conditions.position_m);
+    std::ranges::sort(positions_m_);
+  }
+
+  std::size_t count() const { return positions_m_.size(); }
+
+  /// The zone with its edges moved over so many conditions, where that is one.
+  std::optional<Effect> moved(const Effect& zone, std::ptrdiff_t from, std::ptrdiff_t to) const {
+    const std::ptrdiff_t first = index(zone.fixed.at("from_m")) + from,
+                         last = index(zone.fixed.at("to_m")) + to;
+    if (first < 0 || last > std::ssize(positions_m_) || last - first < 2) return std::nullopt;
+    Effect other = zone;
+    other.fixed["from_m"] = edge_m(first);
+    other.fixed["to_m"] = edge_m(last);
+    return other.fixed == zone.fixed ? std::nullopt : std::optional(other);
+  }
+
+ private:
+  std::ptrdiff_t index(double edge_m) const {
+    return std::ranges::upper_bound(positions_m_, edge_m) - positions_m_.begin();
+  }
+  /// The edge before the condition of an index.
+  double edge_m(std::ptrdiff_t index) const {
+    if (index == 0) return positions_m_.front() - 1;
+    if (index == std::ssize(positions_m_)) return positions_m_.back() + 1;
+    const auto at = static_cast<std::size_t>(index);
+    return (positions_m_[at - 1] + positions_m_[at]) / 2;
+  }
+
+  std::vector<double> positions_m_;
+};
+
+/// Adds zones whose edges lie about those of the likeliest: the list has eighths of the bed, and
+/// what these misplace of a strong zone would be left for something else to explain. Only where a
+/// zone says more than `than`, a log marginal likelihood.
+void add_finer_zones(const FitProblem& problem, const ScoringOptions& options, double than,
+                     std::vector<Hypothesis>& singles,
+                     std::vector<std::optional<CandidateFit>>& fits) {
+  const auto score = [&](std::size_t i) {
+    const bool is_zone = singles[i].effects.front().id == "soil_zone";
+    return is_zone && fits[i] ? marginal_of({*fits[i]}, 1).log_marginal : -INFINITY;
+  };
+  const auto likeliest = [&] {
+    std::vector<double> scores;
+    for (std::size_t i = 0; i < singles.size(); ++i) scores.push_back(score(i));
+    return static_cast<std::size_t>(std::ranges::max_element(scores) - scores.begin());
+  };
+  const ZoneEdges edges(problem.bed);
+  std::size_t best = likeliest();
+  if (!(score(best) > than)) return;
+  for (auto step = static_cast<std::ptrdiff_t>(edges.count() / 16); step >= 1; step /= 2) {
+    Effect zone = singles[best].effects.front();
+    const Eigen::VectorXd x = fits[best]->x.tail(static_cast<Eigen::Index>(zone.start.size()));
+    zone.start.assign(x.begin(), x.end());
+    std::vector<Hypothesis> about;
+    for (const auto& [from, to] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+      if (const auto moved = edges.moved(zone, from * step, to * step)) about.push_back({{*moved}});
+    }
+    const auto fitted = fit_all(problem, about, {.threads = options.threads}, 0, 0);
+    singles.insert(singles.end(), about.begin(), about.end());
+    fits.insert(fits.end(), fitted.begin(), fitted.end());
+    best = likeliest();
+  }
+}
+
 std::vector<ScoredId> gather(const std::vector<Hypothesis>& candidates,
                              const std::vector<std::optional<CandidateFit>>& fits) {
   using Names = std::set<std::string>;
@@ -212,7 +281,10 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
   all.push_back(base(Account::Kind::kUnexplained, anything, SettingWeights::of_unexplained()));
   std::vector<Hypothesis> singles;
   for (const Effect& effect : effects) singles.push_back({{effect}});
-  const std::vector<ScoredId> alone = gather(singles, fit_all(problem, singles, options, 0, 0.5));
+  auto fits = fit_all(problem, singles, options, 0, 0.5);
+  add_finer_zones(problem, options, scored_as(Account::Kind::kParameters, all).score, singles,
+                  fits);
+  const std::vector<ScoredId> alone = gather(singles, fits);
   all.insert(all.end(), alone.begin(), alone.end());
   const std::vector<Hypothesis> pairs = promising_pairs(problem, alone, effects);
   const std::vector<ScoredId> together = gather(pairs, fit_all(problem, pairs, options, 0.5, 1));
