@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
@@ -212,18 +213,19 @@ void add_finer_zones(const FitProblem& problem, const ScoringOptions& options, d
   const ZoneEdges edges(problem.bed);
   std::size_t best = likeliest();
   if (!(score(best) > than)) return;
-  for (auto step = static_cast<std::ptrdiff_t>(edges.count() / 16); step >= 1; step /= 2) {
+  for (auto step = static_cast<std::ptrdiff_t>(edges.count() / 8); step >= 1;) {
     Effect zone = singles[best].effects.front();
     const Eigen::VectorXd x = fits[best]->x.tail(static_cast<Eigen::Index>(zone.start.size()));
     zone.start.assign(x.begin(), x.end());
     std::vector<Hypothesis> about;
-    for (const auto& [from, to] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    for (const auto& [from, to] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {1, 1}, {-1, -1}}) {
       if (const auto moved = edges.moved(zone, from * step, to * step)) about.push_back({{*moved}});
     }
     const auto fitted = fit_all(problem, about, {.threads = options.threads}, 0, 0);
     singles.insert(singles.end(), about.begin(), about.end());
     fits.insert(fits.end(), fitted.begin(), fitted.end());
-    best = likeliest();
+    const std::size_t before = std::exchange(best, likeliest());
+    if (best == before) step /= 2;
   }
 }
 

@@ -88,5 +88,29 @@ TEST(Scoring, TheEffectAtWorkScoresBestAndThePlainModelsStandBeside) {
   }
 }
 
+TEST(Scoring, AZoneHasItsEdgesWhereTheyAreAndNotAtAnEighthOfTheBed) {
+  constexpr double kFrom_m = 0.31, kTo_m = 0.69;
+  TrueWheel patch;
+  patch.stiffness = [](const WheelRun& run) {
+    const double at_m = run.conditions.position_m;
+    return at_m > kFrom_m && at_m < kTo_m ? 0.5 : 1.0;
+  };
+  const DiagnosisSetup setup = simulant_setup();
+  const BedPlan plan{.positions = true};
+  const Recording recording = record(patch, setup, setup.soil.mean, plan, 5);
+  const CalibratedBed bed(recording);
+  std::vector<Effect> effects = effects_for(bed.recording.bed, recording);
+  std::erase_if(effects, [](const Effect& e) { return e.id != "soil_zone"; });
+  const std::vector<SoilCoordinate> wide_soil = soil_coordinates(setup.soil, 3);
+  const FitProblem wide{bed.recording.bed, wide_soil, bed.discrepancy, bed.soil_free};
+  const std::vector<ScoredId> all = score_candidates(bed.problem(), wide, effects, {});
+  const auto zone = std::ranges::find(all, "soil_zone", &ScoredId::id);
+  ASSERT_NE(zone, all.end());
+  const auto& edges = zone->fit.candidate.effects.front().fixed;
+  const double between_conditions_m = 1.0 / static_cast<double>(plan.conditions);
+  EXPECT_NEAR(edges.at("from_m"), kFrom_m, between_conditions_m);
+  EXPECT_NEAR(edges.at("to_m"), kTo_m, between_conditions_m);
+}
+
 }  // namespace
 }  // namespace regoplan

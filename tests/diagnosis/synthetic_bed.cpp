@@ -136,6 +136,7 @@ Recording record(const TrueWheel& truth, const DiagnosisSetup& setup, const Soil
   recording.columns.day = true;
   recording.columns.pass = plan.passes;
   recording.columns.speed = plan.speeds;
+  recording.columns.position = plan.positions;
   recording.channels = {Channel::kFx, Channel::kFy, Channel::kTorque, Channel::kSinkage};
   if (plan.ruts) {
     recording.channels.push_back(Channel::kRutLeft);
@@ -157,6 +158,10 @@ Recording record(const TrueWheel& truth, const DiagnosisSetup& setup, const Soil
       run.load_n *= 1 + 0.01 * normal(random);
       run.slip_ratio += 0.001 * normal(random);
       if (plan.passes) run.conditions.pass = 1 + static_cast<int>(k % 3);
+      if (plan.positions) {
+        run.conditions.position_m =
+            static_cast<double>(k * 29 % plan.conditions) / static_cast<double>(plan.conditions);
+      }
       if (plan.speeds) run.conditions.speed_mps = k % 2 == 0 ? 0.03 : 0.15;
       run.measured = true_channels(truth, setup, soil, run);
       plan.instruments(run);

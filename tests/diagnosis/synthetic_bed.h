@@ -44,6 +44,7 @@ struct BedPlan {
   double day = 0.3;        ///< of the noise
   double outliers = 0.01;  ///< share of values that are off by 6 and more
   bool ruts = false, passes = false, speeds = false;
+  bool positions = false;  ///< along a bed of 1 m, evenly, in no order of slip, angle or load
   std::function<void(WheelRun&)> instruments = [](WheelRun&) {};
 };
 
