@@ -35,10 +35,10 @@ class Evidence {
 ResidualNoise::ResidualNoise(ResidualParts parts) : parts_(std::move(parts)) {
   start();
   constexpr int kRounds = 40;
-  constexpr double kSettled = 0.01;  // of a deviation
+  constexpr double kUnchanged = 0.01;  // of a deviation
   for (int round = 0; round < kRounds; ++round) {
     factor();
-    if (update(fitted()) < kSettled) break;
+    if (update(fitted()) < kUnchanged) break;
   }
   factor();
   widen_what_goes_on(fitted().left);
