@@ -203,13 +203,14 @@ void add_finer_zones(const FitProblem& problem, const ScoringOptions& options, d
                      std::vector<std::optional<CandidateFit>>& fits) {
   const auto score = [&](std::size_t i) {
     const bool is_zone = singles[i].effects.front().id == "soil_zone";
-    return is_zone && fits[i] ? marginal_of({*fits[i]}, 1).log_marginal : -INFINITY;
+    return is_zone && fits[i] ? fits[i]->evidence.log_marginal : -INFINITY;
   };
   const auto likeliest = [&] {
     std::vector<double> scores;
     for (std::size_t i = 0; i < singles.size(); ++i) scores.push_back(score(i));
     return static_cast<std::size_t>(std::ranges::max_element(scores) - scores.begin());
   };
+  if (singles.empty()) return;
   const ZoneEdges edges(problem.bed);
   std::size_t best = likeliest();
   if (!(score(best) > than)) return;
