@@ -2,10 +2,13 @@
 # playwright-core (npm ci in tests/browser; ./regoplan test does it) are there; else they skip,
 # saying so.
 set(browser_pages ${CMAKE_BINARY_DIR}/browser_pages)
+# The demo's pages are those of the test that drives it (cmake/long_tests.cmake).
 set(browser_driver ${CMAKE_SOURCE_DIR}/tests/browser/run.sh)
 add_test(NAME Browser.MakesThePages COMMAND ${browser_driver} node make_pages.mjs
-                                            $<TARGET_FILE:regoplan> ${CMAKE_SOURCE_DIR} ${browser_pages})
-set_tests_properties(Browser.MakesThePages PROPERTIES FIXTURES_SETUP browser_pages COST 60)
+                                            $<TARGET_FILE:regoplan> ${CMAKE_SOURCE_DIR} ${browser_pages}
+                                            ${CMAKE_BINARY_DIR}/demo)
+set_tests_properties(Browser.MakesThePages PROPERTIES FIXTURES_SETUP browser_pages
+                                                      FIXTURES_REQUIRED demo COST 60)
 file(GLOB browser_tests CONFIGURE_DEPENDS tests/browser/*.test.mjs)
 foreach(file ${browser_tests})
   get_filename_component(name ${file} NAME)

@@ -3,6 +3,11 @@
 # out, and so are tests added by add_test, which say their cost where they are added.
 set_tests_properties(DemoProgram.APatchThatNobodyWasToldOfBreaksLimitsIsFoundAndIsAvoided
                      PROPERTIES COST 70)
+# What it makes is looked at again by the tests of the demo's pages (cmake/browser_tests.cmake).
+foreach(demo DemoProgram.APatchThatNobodyWasToldOfBreaksLimitsIsFoundAndIsAvoided DemoProgram)
+  set_tests_properties(${demo} PROPERTIES FIXTURES_SETUP demo
+                                          ENVIRONMENT REGOPLAN_DEMO_FOLDER=@CMAKE_BINARY_DIR@/demo)
+endforeach()
 set_tests_properties(Plan.SearchesUnderEveryDriveLawAndWithWheelsThatRollFreely PROPERTIES COST 30)
 set_tests_properties(
   Demo.ThePhysicsDecides VehicleEffects.AWeakZoneOfThirtyMetresIsFoundWhereItLies

@@ -94,4 +94,5 @@ if(NOT REGOPLAN_DEV)
 endif()
 
 # After the tests that their programs list, which are read in the same way.
-set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_SOURCE_DIR}/cmake/long_tests.cmake)
+configure_file(cmake/long_tests.cmake ${CMAKE_BINARY_DIR}/long_tests.cmake @ONLY)
+set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_BINARY_DIR}/long_tests.cmake)

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/json_schema.h"
@@ -12,17 +14,31 @@ namespace regoplan {
 namespace {
 
 /// A bounded demo: the same on every machine.
-ProgramRun run_demo(const ScratchFolder& folder, const std::string& options) {
-  return run_program(folder, "demo " + options + " --out '" + folder.path("out") + "'");
+ProgramRun run_demo(const ScratchFolder& folder, const std::string& options,
+                    const std::string& out) {
+  return run_program(folder, "demo " + options + " --out '" + out + "'");
+}
+
+/// Where the whole demo goes: the tests of its pages look at it too (cmake/long_tests.cmake).
+std::string demo_folder(const ScratchFolder& folder) {
+  const char* kept = std::getenv("REGOPLAN_DEMO_FOLDER");
+  if (!kept) return folder.path("out");
+  std::filesystem::remove_all(kept);
+  return kept;
+}
+
+nlohmann::json read_json(const std::string& path) {
+  return nlohmann::json::parse(std::ifstream(path));
 }
 
 TEST(DemoProgram, APatchThatNobodyWasToldOfBreaksLimitsIsFoundAndIsAvoided) {
   const ScratchFolder folder;
-  const ProgramRun run = run_demo(folder, "--iterations 800 --candidates 3");
+  const std::string out = demo_folder(folder);
+  const ProgramRun run = run_demo(folder, "--iterations 800 --candidates 3", out);
   ASSERT_EQ(run.status, 0) << run.errors;
-  EXPECT_TRUE(run.output.ends_with("report: " + folder.path("out/report.html") + "\n"));
+  EXPECT_TRUE(run.output.ends_with("report: " + out + "/report.html\n"));
 
-  const auto loop = nlohmann::json::parse(folder.read("out/drive/loop.json"));
+  const auto loop = read_json(out + "/drive/loop.json");
   EXPECT_EQ(schema("loop").errors(loop), std::vector<std::string>());
   EXPECT_EQ(loop["first_drive"]["status"], "limits_broken");
   ASSERT_EQ(loop["diagnosis"]["zones"].size(), 1u) << loop["diagnosis"];
@@ -36,24 +52,25 @@ TEST(DemoProgram, APatchThatNobodyWasToldOfBreaksLimitsIsFoundAndIsAvoided) {
   EXPECT_TRUE(loop["verdicts"][0]["before"]["holds"]);
   EXPECT_FALSE(loop["verdicts"][0]["after"]["holds"]);
   EXPECT_EQ(loop["second_drive"]["status"], "reached");
-  for (const char* file : {"drive/report.html", "drive/drive.csv", "drive/diagnosis.json",
-                           "drive/corrected-map/scenario.yaml", "drive/again/plan.json"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder.path(std::string("out/") + file))) << file;
+  for (const char* file : {"/drive/report.html", "/drive/drive.csv", "/drive/diagnosis.json",
+                           "/drive/corrected-map/scenario.yaml", "/drive/again/plan.json"}) {
+    EXPECT_TRUE(std::filesystem::exists(out + file)) << file;
   }
   // Its files are what the commands read: the same drive gives the same diagnosis.
-  const std::string drive = folder.path("out/drive");
+  const std::string drive = out + "/drive";
   const ProgramRun by_hand = run_program(
       folder, "diagnose '" + drive + "/drive.csv' --scenario '" + drive +
                   "/map/scenario.yaml' --json --quiet --out '" + folder.path("said") + "'");
   ASSERT_EQ(by_hand.status, 0) << by_hand.errors;
-  const auto own = nlohmann::json::parse(folder.read("out/drive/diagnosis.json"));
+  const auto own = read_json(out + "/drive/diagnosis.json");
   EXPECT_EQ(nlohmann::json::parse(by_hand.output)["zones"], own["zones"]);
 }
 
 TEST(DemoProgram, WithoutADriveItPlansAlone) {
   const ScratchFolder folder;
   const ProgramRun run =
-      run_demo(folder, "--no-drive --planner Lattice --iterations 600 --candidates 1");
+      run_demo(folder, "--no-drive --planner Lattice --iterations 600 --candidates 1",
+               folder.path("out"));
   EXPECT_EQ(run.status, 0) << run.errors;
   EXPECT_TRUE(std::filesystem::exists(folder.path("out/plan.json")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("out/drive")));

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <future>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "tests/app/command_output.h"
 #include "tests/app/error_text.h"
@@ -32,13 +34,13 @@ class Faults : public testing::Test {
   }
 
   /// The status of a whole shell command in which `@` stands for the program; what it says on
-  /// standard error goes to "errors".
-  int shell(std::string command) const {
+  /// standard error goes to the file `errors`.
+  int shell(std::string command, const std::string& errors = "errors") const {
     for (std::size_t at = command.find('@'); at != std::string::npos; at = command.find('@')) {
       command.replace(at, 1, "'" REGOPLAN_PROGRAM "'");
     }
     const int status =
-        std::system(fmt::format("bash -c \"({}) 2>{}\"", command, file("errors")).c_str());
+        std::system(fmt::format("bash -c \"({}) 2>{}\"", command, file(errors)).c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
@@ -134,15 +136,25 @@ TEST_F(Faults, ModelsAndTablesComeThroughPipesToo) {
 TEST_F(Faults, APipeThatNobodyWritesToCanBeInterrupted) {
   ASSERT_EQ(mkfifo(folder_.path("pipe").c_str(), 0600), 0);
   const std::string pipe = file("pipe");
-  for (const std::string& arguments :
-       {"wheel" + pipe + "--model" + file("m.yaml"), "wheel" + file("c.csv") + "--model" + pipe,
-        "evaluate" + file("scenario.yaml") + pipe + "--out" + file("out"),
-        "drive" + file("scenario.yaml") + pipe + "--out" + file("out"),
-        "diagnose" + pipe + "--setup" + file("m.yaml") + "--out" + file("out"),
-        "map info" + pipe}) {
-    // Late enough that it has started on a busy machine as well, and waits.
-    EXPECT_EQ(shell("timeout --preserve-status -k 20 -s INT 1.5 @ " + arguments), 130) << arguments;
-    EXPECT_EQ(folder_.read("errors"), "regoplan: interrupted\n") << arguments;
+  const std::vector<std::string> waiting = {
+      "wheel" + pipe + "--model" + file("m.yaml"),
+      "wheel" + file("c.csv") + "--model" + pipe,
+      "evaluate" + file("scenario.yaml") + pipe + "--out" + file("out"),
+      "drive" + file("scenario.yaml") + pipe + "--out" + file("out"),
+      "diagnose" + pipe + "--setup" + file("m.yaml") + "--out" + file("out"),
+      "map info" + pipe};
+  // All wait at once. They are interrupted late enough that they have started on a busy machine
+  // too.
+  std::vector<std::future<int>> statuses;
+  for (const std::string& arguments : waiting) {
+    statuses.push_back(std::async(std::launch::async, [&, i = statuses.size()] {
+      return shell("timeout --preserve-status -k 20 -s INT 4 @ " + arguments,
+                   fmt::format("errors {}", i));
+    }));
+  }
+  for (std::size_t i = 0; i < waiting.size(); ++i) {
+    EXPECT_EQ(statuses[i].get(), 130) << waiting[i];
+    EXPECT_EQ(folder_.read(fmt::format("errors {}", i)), "regoplan: interrupted\n") << waiting[i];
   }
   EXPECT_EQ(shell("timeout --preserve-status -k 20 -s TERM 1.5 @ map info" + pipe), 143);
   // One that somebody holds open and writes nothing to.

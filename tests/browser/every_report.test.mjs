@@ -39,15 +39,23 @@ for (const kind of KINDS)
         assert.ok(!text.includes(slip), `shows ${slip}`);
     });
 
-    test('fits 1600 pixels in the light theme', () => fits(page, 'light'));
-    for (const [width, theme] of [[1600, 'dark'], [360, 'light'], [360, 'dark']])
+    // A window of another width, and a theme that changes while the page is open.
+    for (const [width, theme] of [[1600, 'light'], [1600, 'dark'], [360, 'light']])
       test(`fits ${width} pixels in the ${theme} theme`, async () => {
-        await withPage(kind, async (other, now) => {
-          await other.waitForTimeout(100);
-          await fits(other, theme);
-          assert.deepEqual(now.errors, []);
-        }, {width, theme});
+        await page.setViewportSize({width, height: 900});
+        await page.emulateMedia({colorScheme: theme});
+        await page.waitForTimeout(100);
+        await fits(page, theme);
+        assert.deepEqual(errors, []);
       });
+    test('opens on a telephone in the dark theme', async () => {
+      await withPage(kind, async (other, now) => {
+        await other.waitForTimeout(100);
+        await fits(other, 'dark');
+        assert.deepEqual(now.errors, []);
+      }, {width: 360, theme: 'dark'});
+      await page.setViewportSize({width: 1600, height: 900});
+    });
 
     test('every control is reached by the keyboard, and has a name', async () => {
       const controls = 'button, input, select, summary, [role=region], #map';

@@ -1,9 +1,10 @@
-// Makes the reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER.
+// Makes the reports that the tests open: make_pages.mjs PROGRAM SOURCE_ROOT FOLDER DEMO,
+// the last the folder of a demo that was run.
 import {execFileSync} from 'node:child_process';
-import {mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {cpSync, mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 
-const [program, source, folder] = process.argv.slice(2);
+const [program, source, folder, demo] = process.argv.slice(2);
 rmSync(folder, {recursive: true, force: true});
 mkdirSync(folder, {recursive: true});
 const scenario = name => join(source, 'benchmarks/scenarios', `${name}.yaml`);
@@ -32,9 +33,7 @@ function cornerPath(name, radius_m, speed_mps) {
   return join(folder, name);
 }
 
-regoplan(
-    'demo', '--planner', 'Lattice', '--iterations', '600', '--candidates', '3', '--out',
-    join(folder, 'plan'));
+cpSync(demo, join(folder, 'plan'), {recursive: true});
 // More margin than the corner leaves at speed.
 writeFileSync(
     join(folder, 'careful.yaml'),
