@@ -13,14 +13,27 @@
 namespace regoplan {
 namespace {
 
+double log_odds(double probability) {
+  return std::log(probability / std::max(1 - probability, 1e-12));
+}
+
+/// Whether an effect is sure enough by its probability and by what it adds held out together.
+bool is_borne_out(double probability, double errors) {
+  const double needed =
+      log_odds(Thresholds::kSure) + Thresholds::kClear_errors * Thresholds::kClear_errors / 2;
+  return errors > Thresholds::kLeastOfOne_errors &&
+         log_odds(probability) + errors * errors / 2 > needed;
+}
+
 /// What a claim explains on held-out conditions, and of the pulls on the soil numbers.
 struct Worth {
   double gain = 0;   ///< standard errors
   double share = 0;  ///< of the excess misfit
   double slack = 0;  ///< noise alone moves that share by so much
 
-  bool proven() const {
-    return gain > Thresholds::kClear_errors && share + slack > Thresholds::kWorthCorrecting;
+  /// \param probability of all that is claimed
+  bool proves(double probability) const {
+    return is_borne_out(probability, gain) && share + slack > Thresholds::kWorthCorrecting;
   }
 };
 
@@ -75,18 +88,6 @@ bool is_known_exactly(const CandidateFit& fit) {
                              [](const Effect& effect) { return has_one_form(effect); });
 }
 
-double log_odds(double probability) {
-  return std::log(probability / std::max(1 - probability, 1e-12));
-}
-
-/// Whether a second effect is sure enough by its probability and by what it adds held out together.
-bool is_borne_out(double probability, double errors) {
-  const double needed =
-      log_odds(Thresholds::kSure) + Thresholds::kClear_errors * Thresholds::kClear_errors / 2;
-  return errors > Thresholds::kLeastOfSecond_errors &&
-         log_odds(probability) + errors * errors / 2 > needed;
-}
-
 }  // namespace
 
 std::optional<ProvenClaim> NameContest::decide() {
@@ -104,12 +105,16 @@ std::optional<ProvenClaim> NameContest::decide() {
   HeldOut proof = best_hold_out(calibrated_.recording(), calibrated_.soil(), calibrated_.base(),
                                 {.fit = &best->fit, .remainder = left}, threads_);
   const Worth worth = worth_of(calibrated_, best->fit, proof);
-  if (doubt.empty() && worth.proven()) {
+  if (doubt.empty() && worth.proves(claimed.front().probability)) {
     const CandidateFit fit = best->fit;
-    if (leftover_of(calibrated_, fit, threads_).is_worth_correcting()) share_with_unlisted(claimed);
-    return ProvenClaim{std::move(claimed), fit, left, std::move(proof)};
-  }
-  if (doubt.empty()) {
+    const Leftover leftover = leftover_of(calibrated_, fit, threads_);
+    if (!leftover.is_worth_correcting() || !is_known_exactly(fit)) {
+      if (leftover.is_worth_correcting()) share_with_unlisted(claimed);
+      return ProvenClaim{std::move(claimed), fit, left, std::move(proof)};
+    }
+    doubt = fmt::format("what it does is known exactly, and leaves {:.0f} % of the excess misfit",
+                        100 * leftover.share);
+  } else if (doubt.empty()) {
     doubt = fmt::format(
         "on held-out conditions it explains {:.0f} % of the excess misfit, {:.1f} standard errors",
         100 * worth.share, worth.gain);
@@ -146,6 +151,7 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
 }
 
 /// Names that leave as much as is worth a correction may well stand in for something on no list.
+/// What is known to the last term leaves nothing: it is not claimed there (decide).
 void NameContest::share_with_unlisted(std::vector<NameClass>& claimed) {
   for (NameClass& names : claimed) names.probability *= Thresholds::kRoughName;
   double given = 0;

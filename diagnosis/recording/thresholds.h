@@ -81,11 +81,12 @@ struct Thresholds {
   static constexpr double kSure = 0.9;
   static constexpr std::size_t kLargestClass = 4;
   /// That there is a second effect beside the first: likelier than not, as held-out conditions try
-  /// it once more. There the second must add more than this, and its log odds with the nats of what
-  /// it adds, z^2/2, must reach those of kSure with kClear_errors: the surer it is by the evidence,
-  /// the less it has to prove, and the other way round.
+  /// it once more.
   static constexpr double kLikelySecond = 0.5;
-  static constexpr double kLeastOfSecond_errors = 1;
+  /// What an effect must add on held-out conditions at least. Its log odds with the nats of what it
+  /// adds there, z^2/2, must reach those of kSure with kClear_errors: the surer it is by the
+  /// evidence, the less it has to prove, and the other way round.
+  static constexpr double kLeastOfOne_errors = 1;
   /// Share of the excess misfit on held-out conditions that is worth a correction, or a name that
   /// stands alone: a third is worth a name, a thousandth is not.
   static constexpr double kWorthCorrecting = 1.0 / 3.0;

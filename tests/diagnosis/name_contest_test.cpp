@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "synthetic_bed.h"
 
@@ -14,13 +16,13 @@ namespace {
 /// Two ids scored against the plain models, the soil calibrated.
 class NameContestOf : public testing::Test {
  protected:
-  void hold(const TrueWheel& truth) {
+  void hold(const TrueWheel& truth, const BedPlan& plan = {.conditions = 24},
+            const std::set<std::string>& ids = {"slip_sinkage", "shear_hump"}) {
     setup_ = simulant_setup();
-    recording_ = record(truth, setup_, setup_.soil.mean, {.conditions = 24}, 5);
+    recording_ = record(truth, setup_, setup_.soil.mean, plan, 5);
     calibrated_ = std::make_unique<CalibratedRecording>(recording_, setup_);
     std::vector<Effect> effects = effects_for(calibrated_->bed(), recording_);
-    std::erase_if(effects,
-                  [](const Effect& e) { return e.id != "slip_sinkage" && e.id != "shear_hump"; });
+    std::erase_if(effects, [&](const Effect& e) { return !ids.contains(e.id); });
     scored_ = score_candidates(calibrated_->problem(), calibrated_->wide_problem(), effects, {});
   }
 
@@ -60,6 +62,22 @@ TEST_F(NameContestOf, ANameThatLeavesWhatIsWorthACorrectionIsHalfAsLikely) {
   for (const ScoredId& one : contest.scored()) sum += one.probability;
   EXPECT_NEAR(sum, 1, 1e-9);
   EXPECT_NEAR(scored_as(Account::Kind::kUnexplained, contest.scored()).probability, 0.5, 0.01);
+}
+
+TEST_F(NameContestOf, AFaultThatIsKnownExactlyIsNotClaimedWhereItLeavesWhatIsWorthACorrection) {
+  // What turns side force into traction comes and goes as the wheel slips: no crosstalk does.
+  BedPlan plan{.conditions = 24, .noise = 3};
+  plan.instruments = [](WheelRun& run) {
+    run.measured[0] += 0.2 * run.measured[1] * (1 + std::sin(9 * run.slip_ratio));
+  };
+  hold({}, plan, {"sensor_crosstalk"});
+  weigh(scored_, PlainModel::kRefuted);
+  NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
+  EXPECT_FALSE(contest.decide());
+  ASSERT_FALSE(contest.notes().empty());
+  EXPECT_NE(contest.notes().back().find("known exactly, and leaves"), std::string::npos)
+      << contest.notes().back();
+  EXPECT_EQ(contest.refuted(), std::set<std::string>{"sensor_crosstalk"});
 }
 
 TEST_F(NameContestOf, ANameThatOnlyScoresIsNotClaimedAndANoteSaysWhy) {
