@@ -59,11 +59,23 @@ Quantity quantity_of(const std::string& column) {
   return known == kWords.end() ? Quantity{column, ""} : known->second;
 }
 
+/// In minutes, hours or days what took longer than two of them.
+Quantity time_in_its_unit(const Quantity& seconds, double longest_s) {
+  constexpr double kMinute_s = 60, kHour_s = 60 * kMinute_s, kDay_s = 24 * kHour_s;
+  if (longest_s > 2 * kDay_s) return {seconds.words, "days", 1 / kDay_s};
+  if (longest_s > 2 * kHour_s) return {seconds.words, "h", 1 / kHour_s};
+  if (longest_s > 2 * kMinute_s) return {seconds.words, "min", 1 / kMinute_s};
+  return seconds;
+}
+
 /// "slip ratio 0.3 to 0.8".
 std::string range_words(const std::string& column, double from, double to) {
-  const Quantity quantity = quantity_of(column);
-  std::string text = fmt::format("{} {:.3g}", quantity.words, from);
-  if (to != from) text += fmt::format(" to {:.3g}", to);
+  Quantity quantity = quantity_of(column);
+  if (quantity.unit == "s") {
+    quantity = time_in_its_unit(quantity, std::max(std::abs(from), std::abs(to)));
+  }
+  std::string text = fmt::format("{} {:.3g}", quantity.words, quantity.per_file_unit * from);
+  if (to != from) text += fmt::format(" to {:.3g}", quantity.per_file_unit * to);
   return quantity.unit.empty() ? text : fmt::format("{} {}", text, quantity.unit);
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "diagnosis/bed/span.h"
+#include "diagnosis/fit/zone_edges.h"
 
 namespace regoplan {
 namespace {
@@ -58,25 +59,6 @@ bool can_bear(std::string_view id, const Columns& columns) {
   return columns.angle || !kSideways.contains(id);
 }
 
-/// Zones of position: everything beyond a boundary, and the middle between two.
-std::vector<std::array<double, 2>> zones(const TestBed& bed) {
-  std::vector<double> positions;
-  for (const Condition& at : bed.conditions) positions.push_back(at.conditions.position_m);
-  std::ranges::sort(positions);
-  std::vector<double> edges;
-  for (int k = 1; k < 8; ++k) {
-    const std::size_t i = positions.size() * static_cast<std::size_t>(k) / 8;
-    if (i == 0 || positions[i] == positions[i - 1]) continue;
-    edges.push_back((positions[i] + positions[i - 1]) / 2);
-  }
-  std::vector<std::array<double, 2>> all;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    all.push_back({edges[i], positions.back() + 1});
-    for (std::size_t k = i + 2; k < edges.size(); ++k) all.push_back({edges[i], edges[k]});
-  }
-  return all;
-}
-
 class EffectList {
  public:
   EffectList(const TestBed& bed, const Columns& columns) : bed_(bed), columns_(columns) {}
@@ -105,7 +87,7 @@ class EffectList {
     }
     if (form.id == "soil_zone") {
       for (Coordinate& c : effect.coordinates) c.centre = 0;
-      for (const auto& [from, to] : zones(bed_)) {
+      for (const auto& [from, to] : ZoneEdges(bed_).eighths()) {
         effect.fixed["from_m"] = from;
         effect.fixed["to_m"] = to;
         push(effect);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "diagnosis/fit/zone_edges.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
 
@@ -158,42 +159,6 @@ std::vector<std::optional<CandidateFit>> fit_all(const FitProblem& problem,
   });
   return fits;
 }
-
-/// Zones of positions in a bed: their edges lie between conditions, counted along the bed.
-class ZoneEdges {
- public:
-  explicit ZoneEdges(const TestBed& bed) {
-    for (const Condition& at : bed.conditions) positions_m_.push_back(at.conditions.position_m);
-    std::ranges::sort(positions_m_);
-  }
-
-  std::size_t count() const { return positions_m_.size(); }
-
-  /// The zone with its edges moved over so many conditions, where that is one.
-  std::optional<Effect> moved(const Effect& zone, std::ptrdiff_t from, std::ptrdiff_t to) const {
-    const std::ptrdiff_t first = index(zone.fixed.at("from_m")) + from,
-                         last = index(zone.fixed.at("to_m")) + to;
-    if (first < 0 || last > std::ssize(positions_m_) || last - first < 2) return std::nullopt;
-    Effect other = zone;
-    other.fixed["from_m"] = edge_m(first);
-    other.fixed["to_m"] = edge_m(last);
-    return other.fixed == zone.fixed ? std::nullopt : std::optional(other);
-  }
-
- private:
-  std::ptrdiff_t index(double edge_m) const {
-    return std::ranges::upper_bound(positions_m_, edge_m) - positions_m_.begin();
-  }
-  /// The edge before the condition of an index.
-  double edge_m(std::ptrdiff_t index) const {
-    if (index == 0) return positions_m_.front() - 1;
-    if (index == std::ssize(positions_m_)) return positions_m_.back() + 1;
-    const auto at = static_cast<std::size_t>(index);
-    return (positions_m_[at - 1] + positions_m_[at]) / 2;
-  }
-
-  std::vector<double> positions_m_;
-};
 
 /// Adds zones whose edges lie about those of the likeliest: the list has eighths of the bed, and
 /// what these misplace of a strong zone would be left for something else to explain. Only where a

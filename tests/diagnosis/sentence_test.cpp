@@ -38,6 +38,16 @@ TEST(Sentence, SaysBelowOfWhatIsLess) {
                                        "slip angle to either side 16 deg, load 20 to 64 N"});
 }
 
+TEST(Sentence, CountsALongTimeInMinutesHoursOrDays) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.front().region = {{"time_s", {1.296e5, 3.456e5}}};
+  expect_says(sentence_of(diagnosis), {"at time 1.5 to 4 days;"});
+  diagnosis.where.front().region = {{"time_s", {0, 5400}}};
+  expect_says(sentence_of(diagnosis), {"at time 0 to 90 min;"});
+  diagnosis.where.front().region = {{"time_s", {0, 100}}};
+  expect_says(sentence_of(diagnosis), {"at time 0 to 100 s;"});
+}
+
 TEST(Sentence, IsNeverQuiteCertain) {
   Diagnosis diagnosis = named();
   diagnosis.claims.front().probability = 0.9999;
