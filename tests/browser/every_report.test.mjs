@@ -96,7 +96,8 @@ for (const kind of KINDS)
       for (const type of ['SVG', 'PNG', 'CSV']) {
         const [file] = await Promise.all(
             [page.waitForEvent('download'), figure.getByRole('button', {name: type}).click()]);
-        assert.ok(file.suggestedFilename().startsWith(`${kind}-`), file.suggestedFilename());
+        const about = kind.split(' ')[0];
+        assert.ok(file.suggestedFilename().startsWith(`${about}-`), file.suggestedFilename());
         saved[type] = readFileSync(await file.path());
       }
       const svg = saved.SVG.toString();

@@ -3,11 +3,18 @@ import {statSync} from 'node:fs';
 import {join} from 'node:path';
 import {chromium} from 'playwright-core';
 
-export const KINDS = ['plan', 'evaluation', 'manoeuvres', 'drive', 'drives', 'loop', 'diagnosis', 'benchmark', 'comparison'];
+export const KINDS = [
+  'plan', 'evaluation', 'manoeuvres', 'drive', 'drives', 'drives undecided', 'loop', 'diagnosis',
+  'benchmark', 'comparison'
+];
 const folder = process.env.REGOPLAN_PAGES;
-/// The demo's loop lies beside its plan.
-const FOLDERS = {loop: 'plan/drive'};
-export const fileOf = kind => join(folder, FOLDERS[kind] || kind, 'report.html');
+/// The demo's loop and what was diagnosed on the way lie beside its plan.
+const FILES = {
+  loop: 'plan/drive/report.html',
+  drives: 'plan/drive/diagnosis.html',
+  'drives undecided': 'drives/report.html',
+};
+export const fileOf = kind => join(folder, FILES[kind] || `${kind}/report.html`);
 export const bytesOf = kind => statSync(fileOf(kind)).size;
 
 let browser = null;
