@@ -11,9 +11,10 @@ namespace {
 volatile std::sig_atomic_t last_signal = SIGINT;
 
 // A signal handler has nothing but the statics of its file. The source outlives every handler call,
-// and nothing registers callbacks on it, so that asking it to stop is a few atomic operations.
+// also one while the program ends (`timeout` sends a signal twice): it is never destroyed. Nothing
+// registers callbacks on it, so that asking it to stop is a few atomic operations.
 std::stop_source& source() {
-  static std::stop_source stop;
+  static auto& stop = *new std::stop_source;
   return stop;
 }
 
