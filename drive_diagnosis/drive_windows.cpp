@@ -20,7 +20,8 @@ struct Rows {
 struct Smoothed {
   double value = kNotSampled, slope = kNotSampled, bend = 0;
   double slope_std = kNotSampled;
-  double scatter = kNotSampled;  ///< standard deviation of the samples about it
+  /// Standard deviations by that of one sample.
+  double value_by_sample = kNotSampled, slope_by_sample = kNotSampled;
   int count = 0;
   std::vector<double> time_s, slope_weights;  ///< the slope is the weights' sum over the samples
 
@@ -55,18 +56,15 @@ Smoothed smoothed(const std::vector<double>& time_s, const std::vector<double>& 
   result.value = c[0];
   if (degree >= 1) result.slope = c[1];
   if (degree >= 2) result.bend = 2 * c[2];
+  const Eigen::MatrixXd weights = solver.solve(design.transpose());
+  result.value_by_sample = weights.row(0).norm();
   if (degree >= 1) {
-    const Eigen::MatrixXd weights = solver.solve(design.transpose());
     result.slope_weights.assign(weights.row(1).begin(), weights.row(1).end());
+    result.slope_by_sample = weights.row(1).norm();
   }
-  if (n > degree + 1) {
+  if (degree >= 1 && n > degree + 1) {
     const double variance = (y - design * c).squaredNorm() / static_cast<double>(n - degree - 1);
-    result.scatter = std::sqrt(variance);
-    if (degree >= 1) {
-      const Eigen::MatrixXd inverse =
-          solver.solve(Eigen::MatrixXd::Identity(degree + 1, degree + 1));
-      result.slope_std = std::sqrt(variance * std::max(0.0, inverse(1, 1)));
-    }
+    result.slope_std = std::sqrt(variance) * result.slope_by_sample;
   }
   return result;
 }
@@ -137,6 +135,7 @@ void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s
   window.speed_mps = std::hypot(x.slope, y.slope);
   window.course_rad = std::atan2(y.slope, x.slope);
   window.speed_std_mps = std::hypot(x.slope_std, y.slope_std) / std::numbers::sqrt2;
+  window.velocity_by_fix_1ps = x.slope_by_sample;
   window.acceleration_mps2 =
       window.speed_mps > 0 ? (x.slope * x.bend + y.slope * y.bend) / window.speed_mps : 0;
   for (WindowPart& part : window.parts) {
@@ -169,6 +168,8 @@ void smooth_yaw(const DriveRecording& drive, const Rows& rows, double middle_s,
   window.yaw_rad = fit.value;
   window.yaw_rate_rad_s = fit.slope;
   window.yaw_rate_std_rad_s = fit.slope_std;
+  window.yaw_by_fix = fit.value_by_sample;
+  window.yaw_rate_by_fix_1ps = fit.slope_by_sample;
   for (WindowPart& part : window.parts) {
     part.yaw_rad = fit.at((part.start_s + part.end_s) / 2 - middle_s);
     part.turn_share = fit.share(part.start_s - middle_s, part.end_s - middle_s);

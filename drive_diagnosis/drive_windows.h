@@ -40,6 +40,10 @@ struct DriveWindow {
   double course_rad = 0;
   double speed_std_mps = 0;  ///< of the smoothing, from the scatter of the fixes
   double yaw_rate_std_rad_s = 0;
+  /// Standard deviations of what is smoothed, by that of a single fix: of the velocity, of the yaw
+  /// in the middle and of the yaw rate. They are larger where the smoothing has fewer fixes, or all
+  /// to one side of the window, as where a recording begins or ends.
+  double velocity_by_fix_1ps = 0, yaw_by_fix = 0, yaw_rate_by_fix_1ps = 0;
   int fixes = 0;
   bool steady = false;  ///< no command changes within it
   static constexpr std::size_t kParts = 16;

@@ -190,7 +190,8 @@ ResidualNoise EffectFit::whiten(const Linearised& here, const std::vector<Eigen:
                        .scatters_unknown = unknown,
                        .follows = contest_.follows,
                        .sizes = comparison_.sizes(),
-                       .sampled_std = comparison_.sampled_std()});
+                       .sampled_std = comparison_.sampled_std(),
+                       .more_std = comparison_.more_std()});
   noise_ = noise.scales();
   contest_.data = noise.whitened(data);
   contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(columns.size()));

@@ -91,7 +91,8 @@ Eigen::VectorXd ResidualNoise::variances(Eigen::Index window) const {
     const auto channel = static_cast<std::size_t>(k);
     const double scale =
         widened_[channel] * std::hypot(floor_[channel], share_ * parts_.sizes(window, k));
-    result[k] = scale * scale;
+    const double more = parts_.more_std(window, k);
+    result[k] = scale * scale + more * more;
   }
   return result;
 }

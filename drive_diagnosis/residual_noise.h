@@ -20,6 +20,8 @@ struct ResidualParts {
   /// What neighbouring samples say of the scatter of a window's measurement, of each channel of
   /// which they say any.
   std::vector<double> sampled_std;
+  /// By window and channel, what a window's measurement is known to scatter besides that of most.
+  Eigen::MatrixXd more_std;
 };
 
 /// How residuals scatter: each channel by a floor of its own, some by a share of their size as well

@@ -32,6 +32,26 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
+double scatter_of_samples(const std::vector<double>& time_s, const std::vector<double>& values) {
+  constexpr std::size_t kNeighbours = 5;
+  constexpr double kMedianOfNormal = 0.6745;  // of |x|
+  std::vector<double> sizes;
+  for (std::size_t first = 0; first + kNeighbours <= values.size(); ++first) {
+    // The fourth divided difference, which is 0 of any cubic.
+    double sum = 0, squares = 0;
+    for (std::size_t i = first; i < first + kNeighbours; ++i) {
+      double weight = 1;
+      for (std::size_t j = first; j < first + kNeighbours; ++j) {
+        if (j != i) weight /= time_s[i] - time_s[j];
+      }
+      sum += weight * values[i];
+      squares += weight * weight;
+    }
+    sizes.push_back(std::abs(sum) / std::sqrt(squares));
+  }
+  return sizes.empty() ? 0 : median_value(std::move(sizes)) / kMedianOfNormal;
+}
+
 double robust_ratio(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<std::pair<double, double>> ratios;  // and weights
   double total = 0;

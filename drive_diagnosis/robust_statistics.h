@@ -13,6 +13,10 @@ double quantile_value(std::vector<double> values, double share);
 /// Pearson's correlation of pairs; 0 where either does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b);
 
+/// The standard deviation of samples about what changes slowly, of which any five neighbours lie on
+/// a cubic; in the median, so that jumps count little. 0 of fewer than five. \pre times rise
+double scatter_of_samples(const std::vector<double>& time_s, const std::vector<double>& values);
+
 /// The slope of b over a through the origin, from medians of ratios weighted by |a|: one value in
 /// four may be anything.
 double robust_ratio(const std::vector<double>& a, const std::vector<double>& b);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "drive_diagnosis/robust_statistics.h"
 #include "terramech/basics/angles.h"
@@ -155,6 +156,31 @@ double mean_size(const DriveRecording& drive, const DriveWindow& window, const s
   return count == 0 ? 0 : std::sqrt(squares / count);
 }
 
+/// How far a single fix of a drive scatters.
+struct FixScatter {
+  double position_m = 0, yaw_rad = 0;
+};
+
+FixScatter fix_scatter(const DriveRecording& drive) {
+  std::vector<double> time_s, xs, ys, yaw_time_s, yaws;
+  const DriveChannel* yaw = drive.channel("yaw_rad");
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    if (!std::isnan(drive.x_m[i])) {
+      time_s.push_back(drive.time_s[i]);
+      xs.push_back(drive.x_m[i]);
+      ys.push_back(drive.y_m[i]);
+    }
+    if (!yaw || std::isnan(yaw->values[i])) continue;
+    const auto value = static_cast<double>(yaw->values[i]);
+    const double last = yaws.empty() ? value : yaws.back();
+    yaw_time_s.push_back(drive.time_s[i]);
+    yaws.push_back(last + std::remainder(value - last, 2 * std::numbers::pi));
+  }
+  return {.position_m = std::hypot(scatter_of_samples(time_s, xs), scatter_of_samples(time_s, ys)) /
+                        std::numbers::sqrt2,
+          .yaw_rad = scatter_of_samples(yaw_time_s, yaws)};
+}
+
 /// By how much an acceleration may be off: sinkage is that of steady motion at each place, and
 /// samples do not tell what happens between them.
 double acceleration_std(const WindowInput& input, double WindowInput::Place::*of, double least) {
@@ -200,6 +226,7 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
   }
   estimate_sampled_std();
   measure_sizes();
+  estimate_more_std();
 }
 
 /// Takes a window in, or says why not.
@@ -253,6 +280,30 @@ void WindowComparison::measure_sizes() {
       const DriveWindow& window = windows_[windows_of_[i]];
       sizes_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
           mean_size(drives_[window.drive], window, channels_[k]);
+    }
+  }
+}
+
+void WindowComparison::estimate_more_std() {
+  more_std_ = Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols());
+  std::vector<FixScatter> of_drives;
+  for (const DriveRecording& drive : drives_) of_drives.push_back(fix_scatter(drive));
+  constexpr std::size_t kSmoothed = 3;  // channels: velocity along and across, yaw rate
+  std::array<std::vector<double>, kSmoothed> stds;
+  for (const std::size_t i : windows_of_) {
+    const DriveWindow& window = windows_[i];
+    const FixScatter& fix = of_drives[window.drive];
+    const double velocity_mps = fix.position_m * window.velocity_by_fix_1ps;
+    stds[0].push_back(velocity_mps);
+    stds[1].push_back(std::hypot(velocity_mps, window.speed_mps * fix.yaw_rad * window.yaw_by_fix));
+    stds[2].push_back(fix.yaw_rad * window.yaw_rate_by_fix_1ps);
+  }
+  for (std::size_t k = 0; k < kSmoothed && !windows_of_.empty(); ++k) {
+    const double of_most = median_value(stds.at(k));
+    for (std::size_t i = 0; i < windows_of_.size(); ++i) {
+      const double std = stds.at(k)[i];
+      more_std_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          std::sqrt(std::max(0.0, std * std - of_most * of_most));
     }
   }
 }

@@ -84,6 +84,9 @@ class WindowComparison {
   /// By window, the root mean square of the samples of each channel whose scatter goes with it.
   const Eigen::MatrixXd& sizes() const { return sizes_; }
   const std::vector<double>& sampled_std() const { return sampled_std_; }
+  /// By window and channel, what the smoothing of fixes scatters more than in most windows, in
+  /// quadrature: it has fewer of them, or all to one side, where a recording begins or ends.
+  const Eigen::MatrixXd& more_std() const { return more_std_; }
   /// How far a channel's scatter goes with what it measures: torques, by their mean.
   bool scales(std::size_t channel) const { return channels_[channel].starts_with("torque"); }
 
@@ -96,6 +99,7 @@ class WindowComparison {
   void choose_channels();
   void estimate_sampled_std();
   void measure_sizes();
+  void estimate_more_std();
 
   const std::vector<DriveRecording>& drives_;
   const std::vector<DriveWindow>& windows_;
@@ -111,7 +115,7 @@ class WindowComparison {
   std::vector<std::array<double, kMaxWheels>> rim_std_rad_s_;  ///< of the windows' means
   std::vector<bool> soils_driven_;
   std::vector<double> sampled_std_;
-  Eigen::MatrixXd sizes_;
+  Eigen::MatrixXd sizes_, more_std_;
   Eigen::MatrixXd measured_, shifts_;
   WindowsUsed used_;
 };

@@ -84,6 +84,40 @@ TEST(StrongestEffect, BesideAKnownOneMoreIsAskedAsItsFitIsNotExact) {
   EXPECT_FALSE(strongest_effect(contest, 1).stands_out);
 }
 
+/// Ten windows of twenty white measurements, each changed by a soil of its own; in two of them the
+/// soil is otherwise by so many of its standard deviations.
+EffectContest with_a_zone(double deviations) {
+  constexpr Eigen::Index kWindows = 10, kOfEach = 20, kFirst = 4;
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> normal;
+  EffectContest contest{.data = Eigen::VectorXd::NullaryExpr(
+                            kWindows * kOfEach, [&](Eigen::Index) { return normal(random); }),
+                        .parameters = Eigen::MatrixXd::Zero(kWindows * kOfEach, 1),
+                        .claimable = {true},
+                        .soil = Eigen::MatrixXd::Zero(kWindows * kOfEach, kWindows),
+                        .soil_numbers = 1,
+                        .wide_directions = {Eigen::VectorXd::Ones(1)},
+                        .follows = std::vector<bool>(kWindows, true)};
+  for (Eigen::Index w = 0; w < kWindows; ++w) {
+    contest.soil.col(w).segment(w * kOfEach, kOfEach).setConstant(0.3);
+  }
+  contest.data += deviations * contest.soil.middleCols(kFirst, 2).rowwise().sum();
+  return contest;
+}
+
+TEST(StrongestEffect, AFirstZoneIsAskedNoMoreThanChanceGivesAndOneBesideAFaultMore) {
+  double deviations = 1;
+  while (!strongest_effect(with_a_zone(deviations), 1).stands_out) deviations += 0.02;
+  const EffectFound zone = strongest_effect(with_a_zone(deviations), 1);
+  ASSERT_TRUE(zone.is_zone);
+  constexpr double kMostToSpare = 1;  // twice nats
+  EXPECT_GT(zone.gain, zone.chance);
+  EXPECT_LT(zone.gain, zone.chance + kMostToSpare);
+  EffectContest beside = with_a_zone(deviations);
+  beside.faults_known = {0};
+  EXPECT_FALSE(strongest_effect(beside, 1).stands_out);
+}
+
 TEST(StrongestEffect, NoiseThatIsToldTooWideHidesNothing) {
   const EffectFound wide = strongest_effect(with_a_fault(3.4, 1), 1);
   const EffectFound narrow = strongest_effect(with_a_fault(3.4, 0.75), 1);

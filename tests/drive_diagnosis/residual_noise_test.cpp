@@ -25,7 +25,9 @@ Eigen::MatrixXd scattered(std::uint64_t seed) {
   return residuals;
 }
 
-ResidualNoise noise_of(const Eigen::MatrixXd& residuals) {
+ResidualNoise noise_of(const Eigen::MatrixXd& residuals,
+                       const Eigen::MatrixXd& more_std = Eigen::MatrixXd::Zero(kWindowCount,
+                                                                               kChannelsMeasured)) {
   return ResidualNoise({.residuals = residuals,
                         .columns = {},
                         .may_be_wrong = {},
@@ -33,7 +35,8 @@ ResidualNoise noise_of(const Eigen::MatrixXd& residuals) {
                         .scatters_unknown = {},
                         .follows = std::vector<bool>(kWindowCount, true),
                         .sizes = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured),
-                        .sampled_std = std::vector<double>(kChannelsMeasured, 0.0)});
+                        .sampled_std = std::vector<double>(kChannelsMeasured, 0.0),
+                        .more_std = more_std});
 }
 
 TEST(ResidualNoise, IsAsWideAsEachChannelScatters) {
@@ -78,7 +81,8 @@ struct OfTheirSize {
                           .scatters_unknown = {false},
                           .follows = std::vector<bool>(kMany, true),
                           .sizes = sizes,
-                          .sampled_std = {sampled_std, sampled_std}});
+                          .sampled_std = {sampled_std, sampled_std},
+                          .more_std = Eigen::MatrixXd::Zero(kMany, 2)});
   }
 };
 
@@ -121,7 +125,8 @@ TEST(ResidualNoise, IsAsWideWhateverIsFitted) {
                         .scatters_unknown = {},
                         .follows = std::vector<bool>(kWindowCount, false),
                         .sizes = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured),
-                        .sampled_std = std::vector<double>(kChannelsMeasured, 0.0)};
+                        .sampled_std = std::vector<double>(kChannelsMeasured, 0.0),
+                        .more_std = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured)};
     for (Eigen::Index i = 0; i < kParameters; ++i) {
       parts.columns.emplace_back(
           Eigen::MatrixXd::NullaryExpr(kWindowCount, kChannelsMeasured,
@@ -130,6 +135,20 @@ TEST(ResidualNoise, IsAsWideWhateverIsFitted) {
     scales.push_back(ResidualNoise(std::move(parts)).scales()[0]);
   }
   EXPECT_NEAR(median_value(scales), 1, 0.12);
+}
+
+TEST(ResidualNoise, IsWiderInAWindowThatIsKnownToScatterMore) {
+  Eigen::MatrixXd residuals = scattered(5);
+  Eigen::MatrixXd more_std = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured);
+  const Eigen::Index last = kWindowCount - 1;
+  more_std(last, 0) = 4;
+  residuals(last, 0) = 5;
+  const Eigen::VectorXd alike = noise_of(residuals).whitened(residuals);
+  const Eigen::VectorXd wider = noise_of(residuals, more_std).whitened(residuals);
+  EXPECT_GT(alike[kChannelsMeasured * last], 4);
+  EXPECT_LT(wider[kChannelsMeasured * last], 1.3);
+  // Other windows are as wide as they are without it.
+  EXPECT_NEAR(wider[0] / alike[0], 1, 0.1);
 }
 
 TEST(ResidualNoise, IsLikelierToHaveLeftLess) {

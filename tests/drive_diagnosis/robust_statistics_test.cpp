@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 namespace regoplan {
 namespace {
 
@@ -13,6 +16,22 @@ TEST(RobustStatistics, TheMedianIsTheMiddleWhateverTheEndsAre) {
 
 TEST(RobustStatistics, ARatioStandsOneOutlierInFour) {
   EXPECT_DOUBLE_EQ(robust_ratio({1, 2, 3, 1}, {2, 4, 6, 90}), 2);
+}
+
+TEST(RobustStatistics, SamplesScatterAboutWhateverChangesSlowly) {
+  constexpr double kScatter = 0.02;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  std::vector<double> time_s, values, exact;
+  for (int i = 0; i < 400; ++i) {
+    time_s.push_back(i + 0.3 * (i % 3));
+    exact.push_back(3 * std::sin(time_s.back() / 10) + 1e-6 * std::pow(time_s.back(), 3));
+    values.push_back(exact.back() + kScatter * normal(random));
+  }
+  values[100] += 50;  // a jump
+  EXPECT_NEAR(scatter_of_samples(time_s, values), kScatter, 0.15 * kScatter);
+  EXPECT_LT(scatter_of_samples(time_s, exact), 0.1 * kScatter);
+  EXPECT_EQ(scatter_of_samples({0, 1}, {0, 1}), 0);
 }
 
 TEST(RobustStatistics, WhatDoesNotVaryCorrelatesWithNothing) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/drive_diagnosis/simulated_drive.h"
 
@@ -79,6 +80,60 @@ TEST(DriveWindows, SmoothedVelocitiesAreTheSharesOfWhatWasDrivenInEachPart) {
   EXPECT_NEAR(track, 1, 1e-9);
   EXPECT_NEAR(turn, 1, 1e-9);
   EXPECT_NEAR(mean, 1, 1e-9);
+}
+
+TEST(DriveWindows, AnEndOfTheRecordingIsSmoothedOneSidedAndScattersAsMuchMoreAsIsTold) {
+  // Fixes once a second that scatter, of a vehicle that drives straight on: what windows in the
+  // middle and the last of all tell of its speed and heading, over many such recordings.
+  constexpr double kFix_m = 0.02, kYaw_rad = 0.02, kSpeed_mps = 1.5;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  double middle = 0, last = 0, told = 0, yaw_last = 0, yaw_told = 0;
+  constexpr int kRecordings = 400;
+  for (int i = 0; i < kRecordings; ++i) {
+    DriveRecording drive{.drive_id = "straight", .file = "straight.csv"};
+    DriveChannel yaw{.name = "yaw_rad", .values = {}};
+    for (int step = 0; step <= 300; ++step) {
+      const bool fix = step % 10 == 0 && step < 300;
+      drive.time_s.push_back(0.1 * step);
+      drive.x_m.push_back(fix ? 0.1 * step * kSpeed_mps + kFix_m * normal(random) : kNotSampled);
+      drive.y_m.push_back(fix ? kFix_m * normal(random) : kNotSampled);
+      yaw.values.push_back(static_cast<float>(fix ? kYaw_rad * normal(random) : kNotSampled));
+    }
+    drive.channels.push_back(yaw);
+    const auto windows = drive_windows(drive, 0, 5, 0.3);
+    ASSERT_GE(windows.size(), 5u);
+    const DriveWindow &inner = windows[2], &outer = windows.back();
+    middle += std::pow(inner.forward_mps - kSpeed_mps, 2) / kRecordings;
+    last += std::pow(outer.forward_mps - kSpeed_mps, 2) / kRecordings;
+    yaw_last += std::pow(outer.yaw_rate_rad_s, 2) / kRecordings;
+    told = kFix_m * outer.velocity_by_fix_1ps;
+    yaw_told = kYaw_rad * outer.yaw_rate_by_fix_1ps;
+  }
+  EXPECT_GT(last, 4 * middle);
+  EXPECT_NEAR(std::sqrt(last) / told, 1, 0.1);
+  EXPECT_NEAR(std::sqrt(yaw_last) / yaw_told, 1, 0.1);
+}
+
+TEST(WindowComparison, TheLastWindowIsToldToScatterMoreThanMostAsItsFixesLieToOneSide) {
+  const TerrainMap map = rolling_map();
+  const Vehicle vehicle = preset_vehicle("lrv");
+  const std::vector<DriveRecording> drives = {record({.seed = 2}, map)};
+  const std::vector<DriveWindow> windows = drive_windows(drives[0], 0, 5, 0.3);
+  const WindowComparison comparison(drives, windows, map, vehicle, 1.62, 2);
+  ASSERT_GT(comparison.size(), 20u);
+  const Eigen::MatrixXd& more = comparison.more_std();
+  const auto last = more.rows() - 1;
+  constexpr double kFix_m = 0.02;  // of `record`
+  const DriveWindow &inner = windows[comparison.window(10)],
+                    &outer = windows[comparison.window(comparison.size() - 1)];
+  const double expected_mps = kFix_m * std::sqrt(std::pow(outer.velocity_by_fix_1ps, 2) -
+                                                 std::pow(inner.velocity_by_fix_1ps, 2));
+  EXPECT_GT(expected_mps, 0.003);
+  EXPECT_NEAR(more(last, 0), expected_mps, 0.3 * expected_mps);
+  EXPECT_LT(more(10, 0), 0.1 * expected_mps);
+  EXPECT_GT(more(last, 2), 0.002);
+  for (Eigen::Index k = 3; k < more.cols(); ++k) EXPECT_EQ(more(last, k), 0);
 }
 
 TEST(WindowComparison, PredictsADriveOfConstantCommands) {
