@@ -68,9 +68,8 @@ TEST(DemoProgram, APatchThatNobodyWasToldOfBreaksLimitsIsFoundAndIsAvoided) {
 
 TEST(DemoProgram, WithoutADriveItPlansAlone) {
   const ScratchFolder folder;
-  const ProgramRun run =
-      run_demo(folder, "--no-drive --planner Lattice --iterations 600 --candidates 1",
-               folder.path("out"));
+  const ProgramRun run = run_demo(
+      folder, "--no-drive --planner Lattice --iterations 600 --candidates 1", folder.path("out"));
   EXPECT_EQ(run.status, 0) << run.errors;
   EXPECT_TRUE(std::filesystem::exists(folder.path("out/plan.json")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("out/drive")));
