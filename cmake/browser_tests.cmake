@@ -2,8 +2,8 @@
 # playwright-core (npm ci in tests/browser; ./regoplan test does it) are there; else they skip,
 # saying so.
 set(browser_pages ${CMAKE_BINARY_DIR}/browser_pages)
-# The demo's pages are those of the test that drives it (cmake/long_tests.cmake).
 set(browser_driver ${CMAKE_SOURCE_DIR}/tests/browser/run.sh)
+# The demo's pages are those of the test that drives it (cmake/long_tests.cmake).
 add_test(NAME Browser.MakesThePages COMMAND ${browser_driver} node make_pages.mjs
                                             $<TARGET_FILE:regoplan> ${CMAKE_SOURCE_DIR} ${browser_pages}
                                             ${CMAKE_BINARY_DIR}/demo)

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "drive_diagnosis/fix_scatter.h"
 #include "drive_diagnosis/robust_statistics.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/interruption.h"
@@ -154,31 +154,6 @@ double mean_size(const DriveRecording& drive, const DriveWindow& window, const s
     ++count;
   }
   return count == 0 ? 0 : std::sqrt(squares / count);
-}
-
-/// How far a single fix of a drive scatters.
-struct FixScatter {
-  double position_m = 0, yaw_rad = 0;
-};
-
-FixScatter fix_scatter(const DriveRecording& drive) {
-  std::vector<double> time_s, xs, ys, yaw_time_s, yaws;
-  const DriveChannel* yaw = drive.channel("yaw_rad");
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    if (!std::isnan(drive.x_m[i])) {
-      time_s.push_back(drive.time_s[i]);
-      xs.push_back(drive.x_m[i]);
-      ys.push_back(drive.y_m[i]);
-    }
-    if (!yaw || std::isnan(yaw->values[i])) continue;
-    const auto value = static_cast<double>(yaw->values[i]);
-    const double last = yaws.empty() ? value : yaws.back();
-    yaw_time_s.push_back(drive.time_s[i]);
-    yaws.push_back(last + std::remainder(value - last, 2 * std::numbers::pi));
-  }
-  return {.position_m = std::hypot(scatter_of_samples(time_s, xs), scatter_of_samples(time_s, ys)) /
-                        std::numbers::sqrt2,
-          .yaw_rad = scatter_of_samples(yaw_time_s, yaws)};
 }
 
 /// By how much an acceleration may be off: sinkage is that of steady motion at each place, and

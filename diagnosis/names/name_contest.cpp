@@ -105,19 +105,22 @@ std::optional<ProvenClaim> NameContest::decide() {
   HeldOut proof = best_hold_out(calibrated_.recording(), calibrated_.soil(), calibrated_.base(),
                                 {.fit = &best->fit, .remainder = left}, threads_);
   const Worth worth = worth_of(calibrated_, best->fit, proof);
-  if (doubt.empty() && worth.proves(claimed.front().probability)) {
-    const CandidateFit fit = best->fit;
-    const Leftover leftover = leftover_of(calibrated_, fit, threads_);
-    if (!leftover.is_worth_correcting() || !is_known_exactly(fit)) {
-      if (leftover.is_worth_correcting()) share_with_unlisted(claimed);
-      return ProvenClaim{std::move(claimed), fit, left, std::move(proof)};
-    }
-    doubt = fmt::format("what it does is known exactly, and leaves {:.0f} % of the excess misfit",
-                        100 * leftover.share);
-  } else if (doubt.empty()) {
+  if (doubt.empty() && !worth.proves(claimed.front().probability)) {
     doubt = fmt::format(
         "on held-out conditions it explains {:.0f} % of the excess misfit, {:.1f} standard errors",
         100 * worth.share, worth.gain);
+  }
+  if (doubt.empty()) {
+    const CandidateFit fit = best->fit;
+    const Leftover leftover = leftover_of(calibrated_, fit, threads_);
+    const bool is_rough = leftover.is_worth_correcting();
+    if (is_rough && is_known_exactly(fit)) {
+      doubt = fmt::format("what it does is known exactly, and leaves {:.0f} % of the excess misfit",
+                          100 * leftover.share);
+    } else {
+      if (is_rough) share_with_unlisted(claimed);
+      return ProvenClaim{std::move(claimed), fit, left, std::move(proof)};
+    }
   }
   if (is_known_exactly(best->fit)) refuted_ = best->account.effects;
   notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id(), doubt));
