@@ -1,6 +1,5 @@
 #include "drive_diagnosis/drive_windows.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,59 +14,6 @@ namespace {
 struct Rows {
   std::size_t from = 0, to = 0;  ///< to is excluded
 };
-
-/// A polynomial through samples, about the middle of the window.
-struct Smoothed {
-  double value = kNotSampled, slope = kNotSampled, bend = 0;
-  double slope_std = kNotSampled;
-  /// Standard deviations by that of one sample.
-  double value_by_sample = kNotSampled, slope_by_sample = kNotSampled;
-  int count = 0;
-  std::vector<double> time_s, slope_weights;  ///< the slope is the weights' sum over the samples
-
-  double at(double t_s) const {
-    return value + (std::isnan(slope) ? 0 : slope * t_s) + bend * t_s * t_s / 2;
-  }
-  /// How much of the slope is the mean slope from one time to another.
-  double share(double from_s, double to_s) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < slope_weights.size(); ++i) {
-      sum += slope_weights[i] * std::clamp(time_s[i], from_s, to_s);
-    }
-    return sum;
-  }
-};
-
-Smoothed smoothed(const std::vector<double>& time_s, const std::vector<double>& values) {
-  Smoothed result{.count = static_cast<int>(values.size()), .time_s = time_s, .slope_weights = {}};
-  if (values.empty()) return result;
-  const auto n = static_cast<Eigen::Index>(values.size());
-  const Eigen::Index degree = n >= 5 ? 2 : n >= 3 ? 1 : 0;
-  Eigen::MatrixXd design(n, degree + 1);
-  Eigen::VectorXd y(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double t = time_s[static_cast<std::size_t>(i)];
-    for (Eigen::Index k = 0; k <= degree; ++k) design(i, k) = std::pow(t, static_cast<double>(k));
-    y[i] = values[static_cast<std::size_t>(i)];
-  }
-  const Eigen::MatrixXd normal = design.transpose() * design;
-  const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
-  const Eigen::VectorXd c = solver.solve(design.transpose() * y);
-  result.value = c[0];
-  if (degree >= 1) result.slope = c[1];
-  if (degree >= 2) result.bend = 2 * c[2];
-  const Eigen::MatrixXd weights = solver.solve(design.transpose());
-  result.value_by_sample = weights.row(0).norm();
-  if (degree >= 1) {
-    result.slope_weights.assign(weights.row(1).begin(), weights.row(1).end());
-    result.slope_by_sample = weights.row(1).norm();
-  }
-  if (degree >= 1 && n > degree + 1) {
-    const double variance = (y - design * c).squaredNorm() / static_cast<double>(n - degree - 1);
-    result.slope_std = std::sqrt(variance) * result.slope_by_sample;
-  }
-  return result;
-}
 
 double mean_of(const std::vector<float>& values, const Rows& rows) {
   double sum = 0;
@@ -102,19 +48,6 @@ double range_of(const std::vector<float>& values, const Rows& rows) {
   return high >= low ? high - low : 0;
 }
 
-/// Parts of the smoothed time, with their shares of the means.
-void divide(double from_s, double to_s, DriveWindow& window) {
-  const double part_s = (to_s - from_s) / DriveWindow::kParts;
-  for (std::size_t j = 0; j < DriveWindow::kParts; ++j) {
-    WindowPart& part = window.parts.at(j);
-    part.start_s = from_s + static_cast<double>(j) * part_s;
-    part.end_s = part.start_s + part_s;
-    const double within_s =
-        std::min(part.end_s, window.end_s) - std::max(part.start_s, window.start_s);
-    part.mean_share = std::max(0.0, within_s) / window.duration_s();
-  }
-}
-
 void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s,
                   DriveWindow& window) {
   std::vector<double> time_s, xs, ys;
@@ -129,7 +62,8 @@ void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s
                y0 = ys.empty() ? kNotSampled : ys.front();
   for (double& x : xs) x -= x0;
   for (double& y : ys) y -= y0;
-  const Smoothed x = smoothed(time_s, xs), y = smoothed(time_s, ys);
+  window.track = {.x0_m = x0, .y0_m = y0, .x = smoothed(time_s, xs), .y = smoothed(time_s, ys)};
+  const auto& [x0_m, y0_m, x, y] = window.track;
   window.x_m = x0 + x.value;
   window.y_m = y0 + y.value;
   window.speed_mps = std::hypot(x.slope, y.slope);
@@ -138,12 +72,6 @@ void smooth_track(const DriveRecording& drive, const Rows& rows, double middle_s
   window.velocity_by_fix_1ps = x.slope_by_sample;
   window.acceleration_mps2 =
       window.speed_mps > 0 ? (x.slope * x.bend + y.slope * y.bend) / window.speed_mps : 0;
-  for (WindowPart& part : window.parts) {
-    const double t_s = (part.start_s + part.end_s) / 2 - middle_s;
-    part.x_m = x0 + x.at(t_s);
-    part.y_m = y0 + y.at(t_s);
-    part.track_share = x.share(part.start_s - middle_s, part.end_s - middle_s);
-  }
   const double c = std::cos(window.yaw_rad), s = std::sin(window.yaw_rad);
   window.forward_mps = c * x.slope + s * y.slope;
   window.left_mps = c * y.slope - s * x.slope;
@@ -164,21 +92,19 @@ void smooth_yaw(const DriveRecording& drive, const Rows& rows, double middle_s,
     time_s.push_back(drive.time_s[i] - middle_s);
     values.push_back(value);
   }
-  const Smoothed fit = smoothed(time_s, values);
+  window.yaw = smoothed(time_s, values);
+  const SampleSmoothing& fit = window.yaw;
   window.yaw_rad = fit.value;
   window.yaw_rate_rad_s = fit.slope;
   window.yaw_rate_std_rad_s = fit.slope_std;
   window.yaw_by_fix = fit.value_by_sample;
   window.yaw_rate_by_fix_1ps = fit.slope_by_sample;
-  for (WindowPart& part : window.parts) {
-    part.yaw_rad = fit.at((part.start_s + part.end_s) / 2 - middle_s);
-    part.turn_share = fit.share(part.start_s - middle_s, part.end_s - middle_s);
-  }
 }
 
 /// The turning rate of each wheel.
-std::vector<Smoothed> wheel_rates(const DriveRecording& drive, const Rows& rows, double middle_s) {
-  std::vector<Smoothed> rates;
+std::vector<SampleSmoothing> wheel_rates(const DriveRecording& drive, const Rows& rows,
+                                         double middle_s) {
+  std::vector<SampleSmoothing> rates;
   for (const DriveChannel* wheel : channels_of(drive, "wheel_speed_")) {
     std::vector<double> time_s, values;
     for (std::size_t i = rows.from; i < rows.to; ++i) {
@@ -193,19 +119,21 @@ std::vector<Smoothed> wheel_rates(const DriveRecording& drive, const Rows& rows,
 }
 
 /// Wheel speeds come often and without the scatter of fixes: their slope is the best acceleration.
-double wheel_acceleration(const std::vector<Smoothed>& rates) {
+double wheel_acceleration(const std::vector<SampleSmoothing>& rates) {
   double sum = 0;
-  for (const Smoothed& rate : rates) sum += rate.slope;
+  for (const SampleSmoothing& rate : rates) sum += rate.slope;
   return rates.empty() ? kNotSampled : sum / static_cast<double>(rates.size());
 }
 
 /// \param wide rows that position and heading are smoothed over
 DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows& rows,
                       const Rows& wide) {
-  DriveWindow window{
-      .drive = index, .start_s = drive.time_s[rows.from], .end_s = drive.time_s[rows.to - 1]};
-  const double middle_s = (window.start_s + window.end_s) / 2;
-  divide(drive.time_s[wide.from], drive.time_s[wide.to - 1], window);
+  DriveWindow window{.drive = index,
+                     .start_s = drive.time_s[rows.from],
+                     .end_s = drive.time_s[rows.to - 1],
+                     .smoothed_from_s = drive.time_s[wide.from],
+                     .smoothed_to_s = drive.time_s[wide.to - 1]};
+  const double middle_s = window.middle_s();
   smooth_yaw(drive, wide, middle_s, window);
   smooth_track(drive, wide, middle_s, window);
   window.wheel_acceleration_rad_s2 = wheel_acceleration(wheel_rates(drive, rows, middle_s));
@@ -224,6 +152,26 @@ DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows
 }
 
 }  // namespace
+
+std::vector<WindowPart> DriveWindow::divided(std::size_t count) const {
+  const double part_s = (smoothed_to_s - smoothed_from_s) / static_cast<double>(count);
+  std::vector<WindowPart> parts(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    WindowPart& part = parts[j];
+    part.start_s = smoothed_from_s + static_cast<double>(j) * part_s;
+    part.end_s = part.start_s + part_s;
+    const double within_s = std::min(part.end_s, end_s) - std::max(part.start_s, start_s);
+    part.mean_share = std::max(0.0, within_s) / duration_s();
+    const double from_s = part.start_s - middle_s(), to_s = part.end_s - middle_s();
+    const double t_s = (from_s + to_s) / 2;
+    part.x_m = track.x0_m + track.x.at(t_s);
+    part.y_m = track.y0_m + track.y.at(t_s);
+    part.track_share = track.x.share(from_s, to_s);
+    part.yaw_rad = yaw.at(t_s);
+    part.turn_share = yaw.share(from_s, to_s);
+  }
+  return parts;
+}
 
 std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t index,
                                        double window_s, double beyond) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
 #include "drive_diagnosis/drive_recording.h"
+#include "drive_diagnosis/sample_smoothing.h"
 
 namespace regoplan {
 
@@ -27,6 +27,14 @@ struct WindowPart {
 struct DriveWindow {
   std::size_t drive = 0;  ///< index of its drive
   double start_s = 0, end_s = 0;
+  /// What is smoothed may begin before the window and end after it.
+  double smoothed_from_s = 0, smoothed_to_s = 0;
+  /// Smoothed over that time, about the middle: the track, off a place of its own, and the yaw.
+  struct Track {
+    double x0_m = 0, y0_m = 0;
+    SampleSmoothing x = {}, y = {};
+  } track = {};
+  SampleSmoothing yaw = {};
   double x_m = 0, y_m = 0;  ///< in the middle
   double yaw_rad = 0;
   double pitch_rad = 0, roll_rad = 0;
@@ -45,12 +53,13 @@ struct DriveWindow {
   /// to one side of the window, as where a recording begins or ends.
   double velocity_by_fix_1ps = 0, yaw_by_fix = 0, yaw_rate_by_fix_1ps = 0;
   int fixes = 0;
-  bool steady = false;  ///< no command changes within it
-  static constexpr std::size_t kParts = 16;
-  std::array<WindowPart, kParts> parts{};  ///< evenly over what is smoothed; shares sum to 1
-  std::vector<double> channels;            ///< means, in the order of the drive's channels
+  bool steady = false;           ///< no command changes within it
+  std::vector<double> channels;  ///< means, in the order of the drive's channels
 
   double duration_s() const { return end_s - start_s; }
+  double middle_s() const { return (start_s + end_s) / 2; }
+  /// So many parts of equal length of what is smoothed; their shares sum to 1.
+  std::vector<WindowPart> divided(std::size_t count) const;
 };
 
 /// The windows of a drive, one behind the other; none spans a gap of the recording. Positions and

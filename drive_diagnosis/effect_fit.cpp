@@ -313,7 +313,8 @@ double EffectFit::longest_of_sound(const Eigen::VectorXd& step) const {
 }
 
 int EffectFit::soil_at(std::size_t i) const {
-  const WindowPart& middle = comparison_.input(i).places[DriveWindow::kParts / 2].part;
+  const std::vector<WindowInput::Place>& places = comparison_.input(i).places;
+  const WindowPart& middle = places[places.size() / 2].part;
   return map_.soil_index(middle.x_m, middle.y_m).value_or(0);
 }
 

@@ -7,117 +7,12 @@
 
 #include "drive_diagnosis/fix_scatter.h"
 #include "drive_diagnosis/robust_statistics.h"
-#include "terramech/basics/angles.h"
+#include "drive_diagnosis/window_input.h"
 #include "terramech/basics/interruption.h"
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {
-
-/// The mean of a channel's samples in a part of a window; where it has none, the line between the
-/// samples before and after. NaN where the drive or what is smoothed has none.
-double value_in(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
-                const std::string& name) {
-  const DriveChannel* channel = drive.channel(name);
-  if (!channel) return kNotSampled;
-  const auto row_at = [&drive](double time_s) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(drive.time_s, time_s) -
-                                    drive.time_s.begin());
-  };
-  double sum = 0;
-  int count = 0;
-  std::optional<std::size_t> before, after;
-  for (std::size_t i = row_at(window.parts.front().start_s);
-       i < drive.size() && drive.time_s[i] <= window.parts.back().end_s && !after; ++i) {
-    if (std::isnan(channel->values[i])) continue;
-    if (drive.time_s[i] < part.start_s) {
-      before = i;
-    } else if (drive.time_s[i] >= part.end_s) {
-      after = i;
-    } else {
-      sum += static_cast<double>(channel->values[i]);
-      ++count;
-    }
-  }
-  if (count > 0) return sum / count;
-  if (!before && !after) return kNotSampled;
-  const std::size_t first = before ? *before : *after, last = after ? *after : *before;
-  const auto from = static_cast<double>(channel->values[first]);
-  if (first == last) return from;
-  const double share = ((part.start_s + part.end_s) / 2 - drive.time_s[first]) /
-                       (drive.time_s[last] - drive.time_s[first]);
-  return from + share * (static_cast<double>(channel->values[last]) - from);
-}
-
-/// The rim speed of a wheel, its own or its side's.
-double rim_rad_s(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
-                 const WheelMount& mount) {
-  const double own = value_in(drive, window, part, fmt::format("wheel_speed_{}_rad_s", mount.name));
-  if (!std::isnan(own)) return own;
-  return value_in(drive, window, part,
-                  mount.y_m > 0 ? "wheel_speed_left_rad_s" : "wheel_speed_right_rad_s");
-}
-
-double steer_of(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
-                const Vehicle& vehicle, const WheelMount& mount) {
-  if (!mount.steered) return 0;
-  const double own = value_in(drive, window, part, fmt::format("steer_{}_rad", mount.name));
-  if (!std::isnan(own)) return own;
-  return steer_angle_rad(vehicle, mount, value_in(drive, window, part, "curvature_1pm"));
-}
-
-/// What the wheels are set to in a part of a window.
-void set_wheels(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
-                WindowInput::Place& place) {
-  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    const WheelMount& mount = vehicle.wheels[i];
-    place.rim_rad_s.at(i) = rim_rad_s(drive, window, place.part, mount);
-    place.steer_rad.at(i) = steer_of(drive, window, place.part, vehicle, mount);
-  }
-  place.start.motion = rolling_motion(vehicle, place.rim_rad_s, place.steer_rad);
-}
-
-/// Accelerations of a place: how the motion of rolling wheels changes from its part's start to its
-/// end. Wheels are sampled often, and without the scatter of fixes.
-void accelerate(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
-                WindowInput::Place& place) {
-  const double length_s = place.part.end_s - place.part.start_s;
-  const auto motion_about = [&](double time_s) {
-    WindowInput::Place there{
-        .part = {.start_s = time_s - length_s / 2, .end_s = time_s + length_s / 2}};
-    set_wheels(drive, window, vehicle, there);
-    return there.start.motion;
-  };
-  const BodyMotion from = motion_about(place.part.start_s), to = motion_about(place.part.end_s);
-  place.acceleration_mps2 = (to.vx_mps - from.vx_mps) / length_s;
-  place.yaw_acceleration_rps2 = (to.yaw_rate_rad_s - from.yaw_rate_rad_s) / length_s;
-}
-
-std::optional<WindowInput> input_of(const DriveRecording& drive, const DriveWindow& window,
-                                    const Vehicle& vehicle) {
-  WindowInput input{.yaw_rad = window.yaw_rad};
-  double all = window.yaw_rad;
-  for (std::size_t j = 0; j < input.places.size(); ++j) {
-    WindowInput::Place& place = input.places.at(j);
-    place.part = window.parts.at(j);
-    set_wheels(drive, window, vehicle, place);
-    accelerate(drive, window, vehicle, place);
-    all += place.part.x_m + place.part.y_m + place.part.yaw_rad;
-    for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-      all += place.rim_rad_s.at(i) + place.steer_rad.at(i);
-    }
-  }
-  if (!std::isfinite(all)) return {};
-  return input;
-}
-
-/// Wheels that stand, or turn round, have no slip to speak of.
-bool stands(const WindowInput& input) {
-  const double way = std::copysign(1.0, input.places.front().start.motion.vx_mps);
-  return std::ranges::any_of(input.places, [way](const WindowInput::Place& place) {
-    return way * place.start.motion.vx_mps < kMoving_mps / 2;
-  });
-}
 
 /// How far a window's mean of a channel scatters, from neighbouring samples of the whole drive.
 double mean_std(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
@@ -182,6 +77,7 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
       windows_(windows),
       map_(map),
       vehicle_(vehicle),
+      gravity_mps2_(gravity_mps2),
       model_(map, vehicle, gravity_mps2),
       threads_(threads),
       soils_driven_(map.soils().size(), false) {
@@ -210,7 +106,7 @@ std::optional<LeftOut> WindowComparison::add(std::size_t window,
   constexpr std::size_t kWindowsMost = 150;  // the contest stays within seconds
   if (rows.size() == kWindowsMost) return LeftOut::kTooMany;
   const DriveRecording& drive = drives_[windows_[window].drive];
-  auto input = input_of(drive, windows_[window], vehicle_);
+  auto input = input_of(drive, windows_[window], vehicle_, gravity_mps2_);
   if (!input) return LeftOut::kNoInput;
   if (stands(*input)) return LeftOut::kStanding;
   if (!model_.knows_ground(*input)) return LeftOut::kOffMap;
@@ -219,8 +115,8 @@ std::optional<LeftOut> WindowComparison::add(std::size_t window,
   auto measured = measured_in(window);
   if (!measured) return LeftOut::kNoChannel;
   for (std::size_t j = 0; j < input->places.size(); ++j) {
-    input->places.at(j).start = prediction->found.at(j);
-    const WindowPart& part = input->places.at(j).part;
+    input->places[j].start = prediction->found[j];
+    const WindowPart& part = input->places[j].part;
     const auto soil = map_.soil_index(part.x_m, part.y_m);
     if (soil) soils_driven_[static_cast<std::size_t>(*soil)] = true;
   }

@@ -105,6 +105,7 @@ class WindowComparison {
   const std::vector<DriveWindow>& windows_;
   const TerrainMap& map_;
   const Vehicle& vehicle_;
+  double gravity_mps2_;
   WindowModel model_;
   int threads_;
   std::vector<std::string> channels_;

@@ -364,9 +364,10 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
     return &*models[soil];
   };
   WindowPrediction prediction{.pitch_rad = deviation.mounting_pitch_rad,
-                              .roll_rad = deviation.mounting_roll_rad};
+                              .roll_rad = deviation.mounting_roll_rad,
+                              .found = std::vector<MotionStart>(input.places.size())};
   for (std::size_t j = 0; j < input.places.size(); ++j) {
-    const WindowInput::Place& place = input.places.at(j);
+    const WindowInput::Place& place = input.places[j];
     GroundPatch patch = ground_of(ground_, map_, vehicle_, place.part, deviation);
     if (!patch.known) return {};
     patch.slope_forward += place.more_slope_forward;
@@ -374,8 +375,8 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
     Scene scene{.vehicle = changed,
                 .sharing = sharing,
                 .input = place,
-                .before = j > 0 ? &prediction.found.at(j - 1).motion : nullptr,
-                .long_before = j > 1 ? &prediction.found.at(j - 2).motion : nullptr,
+                .before = j > 0 ? &prediction.found[j - 1].motion : nullptr,
+                .long_before = j > 1 ? &prediction.found[j - 2].motion : nullptr,
                 .step_s = place.part.end_s - place.part.start_s,
                 .tow_drag_n = deviation.tow_drag_n,
                 .axes = PatchAxes(patch, gravity_mps2_),
@@ -393,7 +394,7 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
     const Vector v = vector_of(motion);
     const Sums sums = sums_at(scene, motion, reaction_at(scene, v));
     if (!sums.carried) return {};
-    prediction.found.at(j) = *found;
+    prediction.found[j] = *found;
     add_place({scene, patch, input.yaw_rad, deviation, v, sums}, prediction);
   }
   return told_by_sensors(prediction, deviation);

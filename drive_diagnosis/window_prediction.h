@@ -58,7 +58,7 @@ struct WindowInput {
     std::array<double, kMaxWheels> rim_rad_s{};
     std::array<double, kMaxWheels> steer_rad{};
   };
-  std::array<Place, DriveWindow::kParts> places{};
+  std::vector<Place> places;
   double yaw_rad = 0;  ///< what velocities are told along
 };
 
@@ -67,7 +67,7 @@ struct WindowPrediction {
   double forward_mps = 0, left_mps = 0, yaw_rate_rad_s = 0;
   double pitch_rad = 0, roll_rad = 0;
   std::array<double, kMaxWheels> torque_nm{};
-  std::array<MotionStart, DriveWindow::kParts> found{};  ///< motions of the body at each place
+  std::vector<MotionStart> found;  ///< motions of the body at each place
 };
 
 /// What may be otherwise with the vehicle or the ground than it is said to be; all 0 is as said.
