@@ -126,6 +126,7 @@ EffectFit::Linearised EffectFit::linearise() {
   const VehicleDeviation here = deviation();
   const std::vector<WindowZone> zones_here = zones();
   comparison_.shift_inputs(shifts_);
+  comparison_.start_at(here, zones_here, stop_);
   const Eigen::MatrixXd base = predicted();
   std::vector<Eigen::MatrixXd> columns;
   // Told of the measured inputs, to first order about the likely ones.
@@ -252,16 +253,18 @@ void EffectFit::settle_zone() {
   go_on_from(std::move(best));
 }
 
-/// Steps are taken where they lead to what is likelier, and else shortened.
+/// Steps are taken where they lead to what is likelier, and else shortened, until nothing changes
+/// by more than noise would.
 EffectFit::Settled EffectFit::settled_from_here() {
   constexpr int kRounds = 10;
-  constexpr double kShorter = 0.4;
+  constexpr double kShorter = 0.4, kShortest = 0.1, kSame_nats = 0.1;
   Settled best;
   ContestFit towards;
   double share = 1;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kRounds && share > kShortest; ++round) {
     const Settled here{.fit = fit_, .shifts = shifts_};
     const double nats = linearise().nats + prior_nats(contest_, fit_);
+    const bool is_same = round > 0 && std::abs(nats - best.nats) < kSame_nats;
     if (round == 0 || nats < best.nats) {
       best = {.fit = here.fit, .shifts = here.shifts, .nats = nats};
       step();
@@ -273,6 +276,7 @@ EffectFit::Settled EffectFit::settled_from_here() {
       share *= kShorter;
       shifts_ = best.shifts;
     }
+    if (is_same) break;
     fit_ = towards;
     fit_.parameters = best.fit.parameters + share * (towards.parameters - best.fit.parameters);
     for (std::size_t z = 0; z < fit_.zones.size(); ++z) {

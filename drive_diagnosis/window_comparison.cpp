@@ -302,6 +302,23 @@ Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
   return result;
 }
 
+void WindowComparison::start_at(const VehicleDeviation& deviation,
+                                const std::vector<WindowZone>& zones, const std::stop_token& stop) {
+  parallel_for(size(), threads_, [&](std::size_t i) {
+    throw_if_stopped(stop);
+    constexpr double kMost = 0.5;
+    const auto zone =
+        std::ranges::find_if(zones, [i](const WindowZone& one) { return one.share[i] > kMost; });
+    const auto found = zone == zones.end()
+                           ? model_.predict(shifted(i), deviation)
+                           : model_.predict(shifted(i), deviation, zone->numbers, zone->soil);
+    if (!found) return;
+    for (std::size_t j = 0; j < found->found.size(); ++j) {
+      inputs_[i].places[j].start = found->found[j];
+    }
+  });
+}
+
 std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const VehicleDeviation& deviation,
                                                          const Eigen::MatrixXd& base,
                                                          const std::stop_token& stop) const {

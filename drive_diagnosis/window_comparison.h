@@ -75,6 +75,10 @@ class WindowComparison {
   /// \throws Interrupted
   Eigen::MatrixXd predicted(const VehicleDeviation& deviation, const std::vector<WindowZone>& zones,
                             const Eigen::MatrixXd& otherwise, const std::stop_token& stop) const;
+  /// From now on the search for each window's motion starts from what it is with these: what is a
+  /// little otherwise is found sooner.
+  void start_at(const VehicleDeviation& deviation, const std::vector<WindowZone>& zones,
+                const std::stop_token& stop);
   /// What the scatter of each wheel's measured turning changes, and that of the accelerations, by
   /// one standard deviation.
   std::vector<Eigen::MatrixXd> of_inputs(const VehicleDeviation& deviation,

@@ -105,13 +105,13 @@ EffectContest with_a_zone(double deviations) {
   return contest;
 }
 
-TEST(StrongestEffect, AZoneIsAskedMoreThanChanceGivesSinceADrivesEndMayLookLikeOne) {
+TEST(StrongestEffect, AZoneIsAskedMoreThanChanceGivesSinceARecordingMayBeginOutOfBalance) {
   double deviations = 1;
   while (!strongest_effect(with_a_zone(deviations), 1).stands_out) deviations += 0.02;
   const EffectFound zone = strongest_effect(with_a_zone(deviations), 1);
   ASSERT_TRUE(zone.is_zone);
-  constexpr double kEndsOfDrives = 7, kMostToSpare = 14;  // twice nats
-  EXPECT_GT(zone.gain, zone.chance + kEndsOfDrives);
+  constexpr double kOutOfBalance = 7, kMostToSpare = 14;  // twice nats
+  EXPECT_GT(zone.gain, zone.chance + kOutOfBalance);
   EXPECT_LT(zone.gain, zone.chance + kMostToSpare);
 }
 
