@@ -13,6 +13,8 @@
 namespace regoplan {
 namespace {
 
+constexpr double kTwoSided95 = 1.96;  ///< standard deviations of a normal number
+
 SideGeometry sides_of(const std::optional<Vehicle>& vehicle) {
   SideGeometry sides;
   if (!vehicle) return sides;
@@ -159,7 +161,7 @@ DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveR
                  {"start_s", zone.start_s},
                  {"end_s", zone.end_s}},
       .effect = finding.size,
-      .ci95 = {finding.size - 1.96 * finding.std, finding.size + 1.96 * finding.std},
+      .ci95 = {finding.size - kTwoSided95 * finding.std, finding.size + kTwoSided95 * finding.std},
       // Beyond what one contest in a thousand gains, gains fall off as exp(-gain / 2).
       .p_value = 1e-3 * std::exp((finding.chance - finding.gain) / 2)};
 }
@@ -167,9 +169,12 @@ DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveR
 std::string zone_text(const SoilZoneFound& zone, const TerrainMap& map, const std::string& where) {
   const std::vector<MapSoil>& soils = map.soils();
   const std::string& said = soils[static_cast<std::size_t>(zone.soil)].name;
+  const auto percent = [&zone](double deviations) {
+    return 100 * (zone.resistance.value + deviations * zone.resistance.std);
+  };
   const std::string resistance =
-      fmt::format("a wheel takes {:+.1f} +- {:.1f} % of its load more to roll there",
-                  100 * zone.resistance.value, 100 * zone.resistance.std);
+      fmt::format("a wheel takes {:.1f} % of its load more to roll there (95 %: {:.1f} to {:.1f})",
+                  percent(0), percent(-kTwoSided95), percent(kTwoSided95));
   if (!zone.like) return fmt::format("other soil than {} in {}: {}", said, where, resistance);
   return fmt::format("{} in place of {} in {}: {}",
                      soils[static_cast<std::size_t>(*zone.like)].name, said, where, resistance);
@@ -184,8 +189,10 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
                      .equivalent = finding.equivalent,
                      .channels = effects.channels,
                      .sigmas = finding.sigmas};
-    claim.text = fmt::format("{} = {:.3g} +- {:.2g}, {:.1f} standard deviations from nothing",
-                             finding.parameter, finding.size, finding.std, finding.sigmas);
+    claim.text =
+        fmt::format("{} = {:.3g} (95 %: {:.3g} to {:.3g}), {:.1f} standard deviations from nothing",
+                    finding.parameter, finding.size, finding.size - kTwoSided95 * finding.std,
+                    finding.size + kTwoSided95 * finding.std, finding.sigmas);
     if (finding.zone) {
       if (finding.zone->at_border &&
           std::ranges::find(claim.equivalent, "zone_border") == claim.equivalent.end()) {

@@ -72,6 +72,11 @@ byId('where').append(
             REPORT.where.map(at => [withUnit(at.channel), at.where, number(at.effect),
                                     at.ci95.map(number).join(' to '), number(at.p_value)])) :
         COMPARED ? 'Nowhere beyond what chance gives.' : 'Nothing could be compared.');
+if (REPORT.where.length)
+  byId('where').append(element(
+      'p', {class: 'note'},
+      'p: how often chance alone would show as much anywhere on such drives, by all that is compared together. ' +
+          'The number told is one of several that may differ there, and may be uncertain by itself.'));
 const parameterText = ([key, {value, std}]) =>
     `${withUnit(key)} ${number(value)} \u00b1 ${number(std)}`;
 byId('claims').append(
