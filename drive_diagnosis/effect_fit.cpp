@@ -257,11 +257,11 @@ void EffectFit::settle_zone() {
 /// by more than noise would.
 EffectFit::Settled EffectFit::settled_from_here() {
   constexpr int kRounds = 10;
-  constexpr double kShorter = 0.4, kShortest = 0.1, kSame_nats = 0.1;
+  constexpr double kShorter = 0.4, kSmallest = 0.1, kSame_nats = 0.1;
   Settled best;
   ContestFit towards;
   double share = 1;
-  for (int round = 0; round < kRounds && share > kShortest; ++round) {
+  for (int round = 0; round < kRounds && share > kSmallest; ++round) {
     const Settled here{.fit = fit_, .shifts = shifts_};
     const double nats = linearise().nats + prior_nats(contest_, fit_);
     const bool is_same = round > 0 && std::abs(nats - best.nats) < kSame_nats;

@@ -135,6 +135,27 @@ void append_shape(const TestBed& bed, const Eigen::MatrixXd& functions, const au
   }
 }
 
+/// What a mechanism adds may be wrong all over: alike in all channels, by a smooth function of the
+/// conditions, and in each channel for itself, by one factor: formulas of one mechanism differ in
+/// what they make of drawbar pull, torque and sinkage.
+void append_shape_of(const TestBed& bed, const Eigen::MatrixXd& functions,
+                     const Eigen::VectorXd& part, CandidateFit& fit) {
+  append_shape(
+      bed, functions,
+      [&](std::size_t, Eigen::Index row, const Condition&) { return fit.shape_spread * part[row]; },
+      fit);
+  constexpr double kOfAChannel = 0.5;  // of the spread: chosen, on 240 generated recordings
+  const Eigen::MatrixXd constant = Eigen::MatrixXd::Ones(functions.rows(), 1);
+  for (std::size_t own = 0; own < bed.channels.size(); ++own) {
+    append_shape(
+        bed, constant,
+        [&](std::size_t c, Eigen::Index row, const Condition&) {
+          return c == own ? kOfAChannel * fit.shape_spread * part[row] : 0.0;
+        },
+        fit);
+  }
+}
+
 void renew_shape(const FitProblem& problem, const Eigen::MatrixXd& functions, CandidateFit& fit) {
   const TestBed& bed = problem.bed;
   fit.shape.resize(bed.size(), 0);
@@ -144,12 +165,7 @@ void renew_shape(const FitProblem& problem, const Eigen::MatrixXd& functions, Ca
     if (effect.kind != EffectKind::kMechanism || is_instrument(effect.id)) continue;
     const auto part = part_of(bed, problem.soil, fit, e);
     if (!part) continue;
-    append_shape(
-        bed, functions,
-        [&](std::size_t, Eigen::Index row, const Condition&) {
-          return fit.shape_spread * (*part)[row];
-        },
-        fit);
+    append_shape_of(bed, functions, *part, fit);
     if (effect.id != "skid_branch") continue;
     // named by where it is, whatever it does there: each channel for itself, growing with skid
     constexpr double kSkidAmplitude = 10;  // of a run's noise, per shape_spread and unit of skid

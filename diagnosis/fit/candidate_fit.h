@@ -15,8 +15,8 @@ struct CandidateFit {
   Eigen::VectorXd prediction;  ///< at x
   Eigen::MatrixXd jacobian;    ///< at x
   /// Columns by which the forms of the mechanisms may be wrong: what a mechanism adds, times a
-  /// smooth function of the conditions that all channels share. Each column's factor is standard
-  /// normal beforehand.
+  /// smooth function of the conditions that all channels share, and times a factor in each channel.
+  /// Each column's factor is standard normal beforehand.
   Eigen::MatrixXd shape;
   double shape_spread = 0;  ///< share by which forms may be wrong, standard deviation
   Evidence evidence;        ///< its x and covariance: x, then the factors of the shape's columns

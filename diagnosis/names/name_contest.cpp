@@ -61,13 +61,20 @@ struct Leftover {
   }
 };
 
-Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& fit, int threads) {
+/// Names fitted as if there was nothing beside them: a discrepancy takes part of what they do.
+CandidateFit fitted_alone(const CalibratedRecording& calibrated, const CandidateFit& fit) {
+  constexpr int kSteps = 12;
+  const std::vector<std::size_t> noise_only(calibrated.bed().channels.size(), 0);
+  const auto refitted =
+      fit_under(calibrated.problem(), fit.candidate, noise_only, fit.x, kSteps, 0);
+  return refitted ? *refitted : fit;
+}
+
+/// \param names fitted alone
+Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& names,
+                     int threads) {
   const TestBed& bed = calibrated.bed();
   const FitProblem problem = calibrated.problem();
-  constexpr int kSteps = 12;
-  const std::vector<std::size_t> noise_only(bed.channels.size(), 0);
-  const auto refitted = fit_under(problem, fit.candidate, noise_only, fit.x, kSteps, 0);
-  const CandidateFit& names = refitted ? *refitted : fit;
   const std::vector<std::size_t> remainder = remainder_settings(problem, names);
   Leftover left;
   for (const Families& families : all_families(bed)) {
@@ -112,7 +119,7 @@ std::optional<ProvenClaim> NameContest::decide() {
   }
   if (doubt.empty()) {
     const CandidateFit fit = best->fit;
-    const Leftover leftover = leftover_of(calibrated_, fit, threads_);
+    const Leftover leftover = leftover_of(calibrated_, fitted_alone(calibrated_, fit), threads_);
     const bool is_rough = leftover.is_worth_correcting();
     if (is_rough && is_known_exactly(fit)) {
       doubt = fmt::format("what it does is known exactly, and leaves {:.0f} % of the excess misfit",
@@ -178,12 +185,14 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
     doubt = "what it leaves follows the slip of the run before";
   }
   if (!doubt.empty() || !is_known_exactly(fit)) return doubt;
-  const LackOfFit left = lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(fit), seed_);
+  const CandidateFit alone = fitted_alone(calibrated_, fit);
+  const LackOfFit left =
+      lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(alone), seed_);
   if (left.f > left.critical) {
     return fmt::format("what it does is known exactly, and leaves a lack of fit (p = {:.2g})",
                        left.p_value);
   }
-  const Leftover held_out = leftover_of(calibrated_, fit, threads_);
+  const Leftover held_out = leftover_of(calibrated_, alone, threads_);
   if (held_out.errors < Thresholds::kBesideExact_errors) return "";
   return fmt::format(
       "what it does is known exactly, and a remainder beside it predicts held-out conditions "

@@ -88,6 +88,39 @@ TEST(Scoring, TheEffectAtWorkScoresBestAndThePlainModelsStandBeside) {
   }
 }
 
+TEST(Scoring, AMechanismWhoseFormulasMakeMoreOfOneChannelIsStillLikely) {
+  // Two formulas of one mechanism, the second with a quarter more of torque: as far as it is from
+  // the first in many deviations of the noise, the name is to lose little.
+  TrueWheel digging;
+  digging.sinkage = [](const WheelRun& run, double h) {
+    return h * (1 + 1.2 * std::max(run.slip_ratio, 0.0));
+  };
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = record(digging, setup, setup.soil.mean, {.conditions = 24}, 3);
+  CalibratedBed bed(recording);
+  const std::vector<Effect> effects = effects_for(bed.recording.bed, recording);
+  const auto sinkage = std::ranges::find(effects, "slip_sinkage", &Effect::id);
+  ASSERT_NE(sinkage, effects.end());
+  const auto fitted = [&] {
+    const FitProblem problem = bed.problem();
+    return *fit_candidate(problem, {{*sinkage}}, SettingWeights::of_named(),
+                          start_of(problem, {{*sinkage}}));
+  };
+  const CandidateFit alike = fitted();
+  const Eigen::VectorXd part = *part_of(bed.recording.bed, bed.soil, alike, 0);
+  double deviations = 0;
+  for (std::size_t c = 0; c < bed.recording.bed.channels.size(); ++c) {
+    ChannelData& data = bed.recording.bed.channels[c];
+    if (data.channel != Channel::kTorque) continue;
+    const Eigen::VectorXd more = 0.25 * part.segment(bed.recording.bed.offset(c), data.mean.size());
+    deviations = std::sqrt(more.dot(data.noise.llt().solve(more)));
+    data.mean += more;
+  }
+  const CandidateFit other = fitted();
+  EXPECT_GT(deviations, 8);
+  EXPECT_LT(alike.evidence.log_marginal - other.evidence.log_marginal, 1.8);
+}
+
 TEST(Scoring, AZoneHasItsEdgesWhereTheyAreAndNotAtAnEighthOfTheBed) {
   constexpr double kFrom_m = 0.31, kTo_m = 0.69;
   TrueWheel patch;
