@@ -245,11 +245,13 @@ void EffectFit::settle_with(const EffectFound& effect) {
 
 void EffectFit::settle_zone() {
   const Settled start{.fit = fit_, .shifts = shifts_};
-  Settled best = settled_from_here();
-  go_on_from(start);
-  fit_.zones.back() = contest_.wide_directions[0] + contest_.wide_directions[1];
-  Settled weak = settled_from_here();
-  if (weak.nats < best.nats) best = std::move(weak);
+  Settled best;
+  for (const double weakness : {0.0, 0.5, 1.0}) {
+    go_on_from(start);
+    fit_.zones.back() = weakness * (contest_.wide_directions[0] + contest_.wide_directions[1]);
+    Settled settled = settled_from_here();
+    if (settled.nats < best.nats) best = std::move(settled);
+  }
   go_on_from(std::move(best));
 }
 

@@ -32,7 +32,7 @@ class EffectFit {
   void settle();
   /// The same with the effect that was added last. Soils far off are no longer linear, so that
   /// steps may lead away again, and lead elsewhere from a soil like the map's than from one far
-  /// weaker: the likeliest of where they led counts.
+  /// weaker, or half as far: the likeliest of where they led counts.
   void settle_with(const EffectFound& effect);
 
   const ContestFit& fit() const { return fit_; }

@@ -115,7 +115,7 @@ std::optional<LeftOut> WindowComparison::add(std::size_t window,
   auto measured = measured_in(window);
   if (!measured) return LeftOut::kNoChannel;
   for (std::size_t j = 0; j < input->places.size(); ++j) {
-    input->places[j].start = prediction->found[j];
+    input->places[j].near = input->places[j].start = prediction->found[j];
     const WindowPart& part = input->places[j].part;
     const auto soil = map_.soil_index(part.x_m, part.y_m);
     if (soil) soils_driven_[static_cast<std::size_t>(*soil)] = true;
@@ -314,7 +314,7 @@ void WindowComparison::start_at(const VehicleDeviation& deviation,
                            : model_.predict(shifted(i), deviation, zone->numbers, zone->soil);
     if (!found) return;
     for (std::size_t j = 0; j < found->found.size(); ++j) {
-      inputs_[i].places[j].start = found->found[j];
+      inputs_[i].places[j].near = found->found[j];
     }
   });
 }

@@ -71,6 +71,7 @@ void set_wheels(const DriveRecording& drive, const DriveWindow& window, const Ve
     place.steer_rad.at(i) = steer_of(drive, window, place.part, vehicle, mount);
   }
   place.start.motion = rolling_motion(vehicle, place.rim_rad_s, place.steer_rad);
+  place.near = place.start;
 }
 
 /// Accelerations of a place: how the motion of rolling wheels changes from its part's start to its

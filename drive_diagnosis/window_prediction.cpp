@@ -153,8 +153,8 @@ Eigen::Matrix3d response_at(const Scene& scene, const Vector& v, const Vector& h
 
 /// Newton's method with slopes by differences, taken anew where the last ones serve badly; its
 /// steps are kept short.
-std::optional<MotionStart> balanced(const Scene& scene) {
-  const auto& [motion, known] = scene.input.start;
+std::optional<MotionStart> balanced(const Scene& scene, const MotionStart& start) {
+  const auto& [motion, known] = start;
   Vector v = vector_of(motion);
   Eigen::Matrix3d response = known;
   bool is_slow = known.isZero();
@@ -388,7 +388,8 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
           place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
       scene.models.at(i) = model_of(zone_soil.value_or(patch.soil.at(i)));
     }
-    const auto found = balanced(scene);
+    auto found = balanced(scene, place.near);
+    if (!found) found = balanced(scene, place.start);
     if (!found) return {};
     const BodyMotion& motion = found->motion;
     const Vector v = vector_of(motion);

@@ -54,7 +54,8 @@ struct WindowInput {
     double more_mps2 = 0, more_rps2 = 0;
     /// By how much the ground rises more than the map says, along and to the left, per metre.
     double more_slope_forward = 0, more_slope_left = 0;
-    MotionStart start;
+    MotionStart near;   ///< where the search for the motion starts
+    MotionStart start;  ///< and where it starts again if that leads nowhere
     std::array<double, kMaxWheels> rim_rad_s{};
     std::array<double, kMaxWheels> steer_rad{};
   };

@@ -198,6 +198,18 @@ TerrainMap of_two_soils(std::int32_t everywhere) {
           {}};
 }
 
+TEST(WindowModel, ASearchThatLeadsNowhereFromWhereTheLastOneEndedBeginsAtTheMeasuredMotion) {
+  // Else a window would tell nothing of soils that differ much from those tried before it.
+  const Compared compared({.seed = 3});
+  const WindowModel model(compared.map, compared.vehicle, 1.62);
+  WindowInput input = compared.comparison->input(20);
+  const auto said = model.predict(input, {});
+  for (WindowInput::Place& place : input.places) place.near.motion.vx_mps = NAN;
+  const auto again = model.predict(input, {});
+  ASSERT_TRUE(said && again);
+  EXPECT_NEAR(again->forward_mps, said->forward_mps, 1e-6);
+}
+
 TEST(WindowModel, AZoneIsOfItsOwnSoilWhateverTheMapSays) {
   const Compared compared({.seed = 3});
   const TerrainMap mare = of_two_soils(0), weak = of_two_soils(1);
