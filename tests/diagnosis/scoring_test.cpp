@@ -58,13 +58,18 @@ TEST(Weighing, TwoEffectsMustFitBetterThanOne) {
   EXPECT_GT(probability(all, "grousers"), probability(all, "grousers+multi_pass"));
 }
 
-TEST(Scoring, TheEffectAtWorkScoresBestAndThePlainModelsStandBeside) {
+/// A recording of a wheel that sinks deeper as it slips.
+Recording of_a_wheel_that_digs(const DiagnosisSetup& setup) {
   TrueWheel digging;
   digging.sinkage = [](const WheelRun& run, double h) {
     return h * (1 + 1.2 * std::max(run.slip_ratio, 0.0));
   };
+  return record(digging, setup, setup.soil.mean, {.conditions = 24}, 3);
+}
+
+TEST(Scoring, TheEffectAtWorkScoresBestAndThePlainModelsStandBeside) {
   const DiagnosisSetup setup = simulant_setup();
-  const Recording recording = record(digging, setup, setup.soil.mean, {.conditions = 24}, 3);
+  const Recording recording = of_a_wheel_that_digs(setup);
   const CalibratedBed bed(recording);
   std::vector<Effect> effects = effects_for(bed.recording.bed, recording);
   std::erase_if(effects, [](const Effect& e) {
@@ -91,12 +96,7 @@ TEST(Scoring, TheEffectAtWorkScoresBestAndThePlainModelsStandBeside) {
 TEST(Scoring, AMechanismWhoseFormulasMakeMoreOfOneChannelIsStillLikely) {
   // Two formulas of one mechanism, the second with a quarter more of torque: as far as it is from
   // the first in many deviations of the noise, the name is to lose little.
-  TrueWheel digging;
-  digging.sinkage = [](const WheelRun& run, double h) {
-    return h * (1 + 1.2 * std::max(run.slip_ratio, 0.0));
-  };
-  const DiagnosisSetup setup = simulant_setup();
-  const Recording recording = record(digging, setup, setup.soil.mean, {.conditions = 24}, 3);
+  const Recording recording = of_a_wheel_that_digs(simulant_setup());
   CalibratedBed bed(recording);
   const std::vector<Effect> effects = effects_for(bed.recording.bed, recording);
   const auto sinkage = std::ranges::find(effects, "slip_sinkage", &Effect::id);
