@@ -14,24 +14,29 @@
 namespace regoplan {
 namespace {
 
-/// How far a window's mean of a channel scatters, from neighbouring samples of the whole drive.
-double mean_std(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
+/// How far single samples of a channel scatter. Torques jump where a follower steers anew: that is
+/// motion, which the model has as well, and no noise. What stands says 0 and nothing of scatter.
+double sample_std(const DriveRecording& drive, const std::string& name) {
   const DriveChannel* channel = drive.channel(name);
   if (!channel) return 0;
-  double squares = 0, last = kNotSampled;
-  int steps = 0, within = 0;
+  std::vector<double> time_s, values;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     const auto value = static_cast<double>(channel->values[i]);
-    if (std::isnan(value)) continue;
-    if (drive.time_s[i] >= window.start_s && drive.time_s[i] <= window.end_s) ++within;
-    constexpr double kTurns_rad_s = 1e-3;
-    if (std::abs(value) > kTurns_rad_s && !std::isnan(last)) {
-      squares += (value - last) * (value - last);
-      ++steps;
-    }
-    last = value;
+    if (std::isnan(value) || value == 0) continue;
+    time_s.push_back(drive.time_s[i]);
+    values.push_back(value);
   }
-  return steps == 0 || within == 0 ? 0 : std::sqrt(squares / (2.0 * steps * within));
+  return scatter_of_samples(time_s, values);
+}
+
+int samples_in(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
+  const DriveChannel* channel = drive.channel(name);
+  int samples = 0;
+  for (std::size_t i = 0; channel && i < drive.size(); ++i) {
+    const bool is_within = drive.time_s[i] >= window.start_s && drive.time_s[i] <= window.end_s;
+    if (is_within && !std::isnan(channel->values[i])) ++samples;
+  }
+  return samples;
 }
 
 /// Root mean square of a channel's samples in a window; 0 where it has none.
@@ -95,6 +100,7 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
   for (std::size_t i = 0; i < rows.size(); ++i) {
     measured_.row(static_cast<Eigen::Index>(i)) = rows[i];
   }
+  estimate_rim_std();
   estimate_sampled_std();
   measure_sizes();
   estimate_more_std();
@@ -123,23 +129,35 @@ std::optional<LeftOut> WindowComparison::add(std::size_t window,
   windows_of_.push_back(window);
   inputs_.push_back(*input);
   rows.push_back(std::move(*measured));
-  rim_std_rad_s_.emplace_back();
-  for (std::size_t k = 0; k < vehicle_.wheels.size(); ++k) {
-    rim_std_rad_s_.back().at(k) = mean_std(
-        drive, windows_[window], fmt::format("wheel_speed_{}_rad_s", vehicle_.wheels[k].name));
-  }
   return {};
+}
+
+/// How far windows' means of a channel scatter, by neighbouring samples of their whole drive.
+std::vector<double> WindowComparison::mean_stds(const std::string& name) const {
+  std::vector<double> of_drives, of_windows;
+  for (const DriveRecording& drive : drives_) of_drives.push_back(sample_std(drive, name));
+  for (const std::size_t i : windows_of_) {
+    const std::size_t drive = windows_[i].drive;
+    const int samples = samples_in(drives_[drive], windows_[i], name);
+    of_windows.push_back(samples > 0 ? of_drives[drive] / std::sqrt(samples) : 0);
+  }
+  return of_windows;
+}
+
+void WindowComparison::estimate_rim_std() {
+  rim_std_rad_s_.resize(windows_of_.size());
+  for (std::size_t k = 0; k < vehicle_.wheels.size(); ++k) {
+    const std::vector<double> stds =
+        mean_stds(fmt::format("wheel_speed_{}_rad_s", vehicle_.wheels[k].name));
+    for (std::size_t i = 0; i < stds.size(); ++i) rim_std_rad_s_[i].at(k) = stds[i];
+  }
 }
 
 void WindowComparison::estimate_sampled_std() {
   sampled_std_.assign(channels_.size(), 0);
   for (std::size_t k = 0; k < channels_.size(); ++k) {
     if (!scales(k) && channels_[k] != "pitch_rad" && channels_[k] != "roll_rad") continue;
-    std::vector<double> of_windows;
-    for (const std::size_t i : windows_of_) {
-      of_windows.push_back(mean_std(drives_[windows_[i].drive], windows_[i], channels_[k]));
-    }
-    if (!of_windows.empty()) sampled_std_[k] = median_value(of_windows);
+    if (!windows_of_.empty()) sampled_std_[k] = median_value(mean_stds(channels_[k]));
   }
 }
 

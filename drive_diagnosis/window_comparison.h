@@ -84,9 +84,9 @@ class WindowComparison {
   std::vector<Eigen::MatrixXd> of_inputs(const VehicleDeviation& deviation,
                                          const Eigen::MatrixXd& base,
                                          const std::stop_token& stop) const;
-  /// What neighbouring samples say of the scatter of each channel's windows; 0 where nothing.
   /// By window, the root mean square of the samples of each channel whose scatter goes with it.
   const Eigen::MatrixXd& sizes() const { return sizes_; }
+  /// What neighbouring samples say of the scatter of each channel's windows; 0 where nothing.
   const std::vector<double>& sampled_std() const { return sampled_std_; }
   /// By window and channel, what the smoothing of fixes scatters more than in most windows, in
   /// quadrature: it has fewer of them, or all to one side, where a recording begins or ends.
@@ -101,6 +101,8 @@ class WindowComparison {
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;
   void choose_channels();
+  std::vector<double> mean_stds(const std::string& channel) const;
+  void estimate_rim_std();
   void estimate_sampled_std();
   void measure_sizes();
   void estimate_more_std();

@@ -135,6 +135,29 @@ TEST(WindowComparison, TheLastWindowIsToldToScatterMoreThanMostAsItsFixesLieToOn
   for (Eigen::Index k = 3; k < more.cols(); ++k) EXPECT_EQ(more(last, k), 0);
 }
 
+TEST(WindowComparison, TorquesThatJumpWhereSteeringDoesAreNotTakenForScatter) {
+  const TerrainMap map = rolling_map();
+  const Vehicle vehicle = preset_vehicle("lrv");
+  std::vector<DriveRecording> drives = {record({.torque_scatter = 0, .sensor_noise = 0}, map)};
+  // A sensor's scatter, and beside it what a follower does that steers anew every second.
+  constexpr double kScatter_nm = 0.2, kJump_nm = 4;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (DriveChannel& channel : drives[0].channels) {
+    if (!channel.name.starts_with("torque_")) continue;
+    for (std::size_t i = 0; i < channel.values.size(); ++i) {
+      const bool is_jump = i / 10 % 3 == 0 && i % 10 == 0;
+      channel.values[i] +=
+          static_cast<float>(kScatter_nm * normal(random) + (is_jump ? kJump_nm : 0));
+    }
+  }
+  const std::vector<DriveWindow> windows = drive_windows(drives[0], 0, 5, 0.3);
+  const WindowComparison comparison(drives, windows, map, vehicle, 1.62, 2);
+  const std::size_t torque = comparison.channel("torque_front_left_nm").value();
+  const double of_a_window = kScatter_nm / std::sqrt(50);
+  EXPECT_NEAR(comparison.sampled_std()[torque], of_a_window, 0.25 * of_a_window);
+}
+
 TEST(WindowComparison, PredictsADriveOfConstantCommands) {
   SimulatedDrive drive;
   drive.speed_mps = [](double, double) { return 1.2; };
