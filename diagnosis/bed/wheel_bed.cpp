@@ -73,14 +73,38 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
   }
 }
 
+namespace {
+
+Eigen::VectorXd variances_off_in(const TestBed& bed, std::size_t channel,
+                                 const Eigen::VectorXd& prediction) {
+  const ChannelData& data = bed.channels[channel];
+  const Eigen::VectorXd off = data.mean - prediction.segment(bed.offset(channel), data.mean.size());
+  return off.array().square() / data.noise.diagonal().array();
+}
+
+}  // namespace
+
 double variances_off(const TestBed& bed, const Eigen::VectorXd& prediction) {
   double sum = 0;
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const ChannelData& data = bed.channels[c];
-    const Eigen::VectorXd off = data.mean - prediction.segment(bed.offset(c), data.mean.size());
-    sum += (off.array().square() / data.noise.diagonal().array()).sum();
+    sum += variances_off_in(bed, c, prediction).sum();
   }
   return sum;
+}
+
+std::vector<double> deviations_off(const TestBed& bed, const Eigen::VectorXd& prediction) {
+  std::vector<double> deviations;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    deviations.push_back(std::sqrt(std::max(1.0, variances_off_in(bed, c, prediction).mean())));
+  }
+  return deviations;
+}
+
+TestBed with_noise_widened(TestBed bed, const std::vector<double>& factors) {
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    bed.channels[c].noise *= factors[c] * factors[c];
+  }
+  return bed;
 }
 
 WheelAccuracy sufficient_accuracy(const TestBed& bed) {

@@ -47,6 +47,13 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
 /// How far a prediction lies from the means: squared residuals over the variance of each, summed.
 double variances_off(const TestBed& bed, const Eigen::VectorXd& prediction);
 
+/// By channel, how far it lies from them in standard deviations of each, root mean square; at
+/// least 1, since noise is no less than it is told.
+std::vector<double> deviations_off(const TestBed& bed, const Eigen::VectorXd& prediction);
+
+/// The same conditions with every channel's deviations of the noise multiplied.
+TestBed with_noise_widened(TestBed bed, const std::vector<double>& factors);
+
 /// The fast integration where every channel's noise is above 0.5 % of what the load makes of it.
 WheelAccuracy sufficient_accuracy(const TestBed& bed);
 

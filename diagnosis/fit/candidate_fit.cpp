@@ -56,6 +56,15 @@ class ShapedMisfit {
   Eigen::LLT<Eigen::MatrixXd> precision_;
 };
 
+/// Of the first `count` numbers, whatever the others are.
+Eigen::MatrixXd marginal_precision(const Eigen::MatrixXd& precision, Eigen::Index count) {
+  const Eigen::Index others = precision.rows() - count;
+  if (others == 0) return precision;
+  const Eigen::MatrixXd across = precision.bottomLeftCorner(others, count);
+  return precision.topLeftCorner(count, count) -
+         across.transpose() * precision.bottomRightCorner(others, others).llt().solve(across);
+}
+
 /// One damped step; false where nothing better was found.
 bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, CandidateFit& fit) {
   const TestBed& bed = problem.bed;
@@ -66,18 +75,31 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
   };
   const Posterior posterior =
       posterior_of(bed, problem.discrepancy, linearised(bed, fit), settings);
-  const Eigen::VectorXd goal = posterior.x.head(fit.x.size());
+  const Eigen::VectorXd to_goal = posterior.x.head(fit.x.size()) - fit.x;
   const double before = cost(fit.prediction, fit.x);
-  for (const double share : {1.0, 0.4, 0.16, 0.064, 0.0256}) {
-    const Eigen::VectorXd x =
-        (fit.x + share * (goal - fit.x)).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+  bool is_worth_another = false;
+  const auto leads_on = [&](const Eigen::VectorXd& by) {
+    const Eigen::VectorXd x = (fit.x + by).cwiseMin(kFarthest).cwiseMax(-kFarthest);
     const auto prediction = predict(bed, problem.soil, fit.candidate, x);
-    if (!prediction) continue;
+    if (!prediction) return false;
     const double after = cost(*prediction, x);
-    if (!(after < before)) continue;
+    if (!(after < before)) return false;
     fit.x = x;
     fit.prediction = *prediction;
-    return before - after > 1e-3 * (1 + 1e-3 * before);
+    is_worth_another = before - after > 1e-3 * (1 + 1e-3 * before);
+    return true;
+  };
+  for (const double share : {1.0, 0.4, 0.16, 0.064, 0.0256}) {
+    if (leads_on(share * to_goal)) return is_worth_another;
+  }
+  // Straight towards the goal it is worse at once: across a kink some column is far off. Damped, a
+  // step follows what is steepest.
+  const Eigen::MatrixXd curvature = marginal_precision(posterior.precision, fit.x.size());
+  const Eigen::VectorXd slope = curvature * to_goal;
+  for (const double damping : {1.0, 10.0, 100.0}) {
+    Eigen::MatrixXd damped = curvature;
+    damped.diagonal() *= 1 + damping;
+    if (leads_on(damped.llt().solve(slope))) return is_worth_another;
   }
   return false;
 }
@@ -263,6 +285,29 @@ std::optional<CandidateFit> fit_under(const FitProblem& problem, const Hypothesi
   if (!begin(problem, fit)) return std::nullopt;
   descend(problem, settings, steps, smooth_functions(problem.bed), fit);
   fit.evidence.settings = settings;
+  return fit;
+}
+
+std::optional<CandidateFit> fit_to_widened(const FitProblem& problem, const Hypothesis& candidate,
+                                           std::vector<double> widened,
+                                           const Eigen::VectorXd& start, int steps) {
+  constexpr int kRounds = 3;
+  const std::vector<std::size_t> noise_only(problem.bed.channels.size(), 0);
+  std::optional<CandidateFit> fit;
+  for (int round = 0; round < kRounds; ++round) {
+    const TestBed bed = with_noise_widened(problem.bed, widened);
+    const Discrepancy discrepancy(bed);
+    const FitProblem as_wide{bed, problem.soil, discrepancy, problem.soil_free};
+    fit = fit_under(as_wide, candidate, noise_only, fit ? fit->x : start, steps, 0);
+    if (!fit) return fit;
+    fit->widened = widened;
+    const Posterior posterior = posterior_of(bed, discrepancy, linearised(bed, *fit), noise_only);
+    fit->evidence.x = posterior.x;
+    fit->evidence.covariance =
+        posterior.precision.llt().solve(Eigen::MatrixXd::Identity(fit->x.size(), fit->x.size()));
+    const std::vector<double> left = deviations_off(problem.bed, fit->prediction);
+    for (std::size_t c = 0; c < left.size(); ++c) widened[c] = std::min(widened[c], left[c]);
+  }
   return fit;
 }
 

@@ -19,6 +19,8 @@ struct CandidateFit {
   /// Each column's factor is standard normal beforehand.
   Eigen::MatrixXd shape;
   double shape_spread = 0;  ///< share by which forms may be wrong, standard deviation
+  /// By channel, by what deviations of the noise were multiplied where it was fitted; empty: by 1.
+  std::vector<double> widened;
   Evidence evidence;        ///< its x and covariance: x, then the factors of the shape's columns
 };
 
@@ -57,6 +59,14 @@ Eigen::VectorXd start_of(const FitProblem& problem, const Hypothesis& candidate,
 std::optional<CandidateFit> fit_candidate(const FitProblem& problem, const Hypothesis& candidate,
                                           const SettingWeights& weights,
                                           const Eigen::VectorXd& start);
+
+/// Gauss-Newton with nothing but noise beside it, which is widened channel by channel to what it
+/// leaves: where that is far more than noise, each channel counts by how well it is told, and soil
+/// numbers stay near their tests.
+/// \param widened to begin with, by channel
+std::optional<CandidateFit> fit_to_widened(const FitProblem& problem, const Hypothesis& candidate,
+                                           std::vector<double> widened,
+                                           const Eigen::VectorXd& start, int steps);
 
 /// log(sum of exp(terms)).
 double log_sum(const std::vector<double>& terms);

@@ -73,6 +73,30 @@ void add_remainder(const TestBed& bed, const TestBed& rest, const Discrepancy& d
   }
 }
 
+/// At most; most fits need two or three. What stops early predicts what is held out by itself.
+constexpr int kSteps = 12;
+
+/// A fit of the rest that begins where all conditions led. Where no step leads on from there it
+/// begins anew with the soil that the rest tells.
+std::optional<CandidateFit> fitted_to_rest(const FitProblem& as_told, const CandidateFit& whole,
+                                           const CandidateFit* calibrated) {
+  std::optional<TestBed> wide;
+  std::optional<Discrepancy> of_wide;
+  if (!whole.widened.empty()) {
+    wide = with_noise_widened(as_told.bed, whole.widened);
+    of_wide.emplace(*wide);
+  }
+  const FitProblem problem =
+      wide ? FitProblem{*wide, as_told.soil, *of_wide, as_told.soil_free} : as_told;
+  const auto from = [&](const Eigen::VectorXd& start) {
+    return fit_under(problem, whole.candidate, whole.evidence.settings, start, kSteps,
+                     whole.shape_spread);
+  };
+  auto fit = from(whole.x);
+  if (calibrated == nullptr || (fit && fit->x != whole.x)) return fit;
+  return from(start_of(problem, whole.candidate, calibrated));
+}
+
 Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>& soil,
                            const Families& families, std::size_t family, const CandidateFit& base,
                            const CorrectedModel& corrected) {
@@ -80,7 +104,6 @@ Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>
   const Discrepancy discrepancy(rest);
   const Eigen::MatrixXd free(rest.size(), 0);
   const FitProblem problem{rest, soil, discrepancy, free};
-  constexpr int kSteps = 3;
   const std::vector<std::size_t> noise_only(bed.channels.size(), 0);
   Prediction prediction{.calibrated = base.prediction,
                         .remainder = Eigen::VectorXd::Zero(bed.size()),
@@ -92,8 +115,7 @@ Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>
   prediction.named = prediction.calibrated;
   std::optional<CandidateFit> named = calibrated;
   if (corrected.fit != nullptr) {
-    named = fit_under(problem, corrected.fit->candidate, corrected.fit->evidence.settings,
-                      corrected.fit->x, kSteps, corrected.fit->shape_spread);
+    named = fitted_to_rest(problem, *corrected.fit, calibrated ? &*calibrated : nullptr);
     prediction.named = corrected.fit->prediction;
     if (named) {
       if (const auto all = predict(bed, soil, corrected.fit->candidate, named->x)) {

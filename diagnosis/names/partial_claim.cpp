@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/names/names_alone.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
@@ -183,17 +184,41 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
   }
 }
 
-PartialDecision decide_partly(const CalibratedRecording& calibrated,
-                              const std::vector<Effect>& effects, std::uint64_t seed, int threads) {
-  const CappedContest contest(calibrated);
-  const std::vector<CappedName> names = contest.score(effects, nullptr, threads);
-  PartialDecision decision;
-  if (names.empty()) {
-    decision.ranking = capped_ranking({}, 1);
-    return decision;
+namespace {
+
+/// What each name of a claim gains over those before it, beside a capped remainder.
+void add_evidence(const CappedContest& contest, int threads, PartialClaim& claim) {
+  double before = 0;
+  for (std::size_t k = 0; k < claim.claims.size(); ++k) {
+    const CandidateFit* beside = k == 0 ? nullptr : &claim.steps[k - 1];
+    const auto name = contest.score({claim.steps[k].candidate.effects.back()}, beside, threads);
+    const double gain = name.empty() ? before : name.front().gain_nats;
+    claim.claims[k].evidence_nats = gain - before;
+    before = gain;
   }
-  const std::vector<ByChance> reached = contest.by_chance(names, kWorlds, seed, threads);
-  decision.chance_nats = reached_by_chance(reached);
+}
+
+/// A class where no name stands by its evidence.
+std::optional<PartialClaim> class_by_shares(const CalibratedRecording& calibrated,
+                                            const CappedContest& contest,
+                                            const std::vector<Effect>& effects,
+                                            const std::vector<ByChance>& reached, int threads) {
+  auto claim = claim_by_shares(calibrated, effects, threads);
+  if (!claim) return std::nullopt;
+  add_evidence(contest, threads, *claim);
+  const Claim& first = claim->claims.front();
+  if (first.evidence_nats < Thresholds::kOverRemainder_nats) return std::nullopt;
+  const double p = chance_of(reached, first.evidence_nats, first.share->low);
+  for (Claim& one : claim->claims) one.probability = 1 - p;
+  return claim;
+}
+
+/// What stands by its evidence beside a remainder.
+PartialDecision by_evidence(const CalibratedRecording& calibrated, const CappedContest& contest,
+                            const std::vector<CappedName>& names,
+                            const std::vector<ByChance>& reached,
+                            const std::vector<Effect>& effects, int threads) {
+  PartialDecision decision;
   // what stands by itself, then what comes near the best of that
   std::vector<std::string> ids;
   double top = 0, p = 1;
@@ -227,6 +252,24 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
   if (!decision.refused.empty()) return decision;
   decision.claim = first_claim(calibrated, names, ids, p, threads);
   add_further_names(calibrated, contest, effects, top, threads, *decision.claim);
+  return decision;
+}
+
+}  // namespace
+
+PartialDecision decide_partly(const CalibratedRecording& calibrated,
+                              const std::vector<Effect>& effects, std::uint64_t seed, int threads) {
+  const CappedContest contest(calibrated);
+  const std::vector<CappedName> names = contest.score(effects, nullptr, threads);
+  if (names.empty()) return {.ranking = capped_ranking({}, 1)};
+  const std::vector<ByChance> reached = contest.by_chance(names, kWorlds, seed, threads);
+  PartialDecision decision = by_evidence(calibrated, contest, names, reached, effects, threads);
+  decision.chance_nats = reached_by_chance(reached);
+  if (decision.claim) return decision;
+  decision.claim = class_by_shares(calibrated, contest, effects, reached, threads);
+  if (decision.claim) {
+    decision.ranking = capped_ranking(names, 1 - decision.claim->claims.front().probability);
+  }
   return decision;
 }
 

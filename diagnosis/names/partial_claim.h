@@ -50,7 +50,8 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
 
 /// A claim for what stands beside a remainder of a recording's misfit, if anything does. A single
 /// name must do better than it may by chance (Thresholds::kByChance_p); a class of names that
-/// fit alike need not, as none of them is claimed alone.
+/// fit alike need not, as none of them is claimed alone; nor a class by shares (claim_by_shares),
+/// which is tried where nothing stands by its evidence.
 struct PartialDecision {
   std::optional<PartialClaim> claim;
   std::vector<ScoredCandidate> ranking;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "calibrated_bed.h"
 
@@ -30,6 +31,30 @@ TEST(HeldOut, AConditionsOwnFamilyHasNoPartInItsPrediction) {
     }
   }
   EXPECT_GT((before.calibrated - after.calibrated).norm(), 0.1);
+}
+
+TEST(HeldOut, ANameThatDoesNothingPredictsNoBetterThanTheCalibratedModel) {
+  // Friction of the rim above the soil's is the soil's: from there no step leads on, and numbers
+  // fitted to all conditions must not pass for a prediction of those held out.
+  TrueWheel truth;
+  truth.fx_n = [](const WheelRun& run, double) { return 8 * std::sin(12 * run.slip_ratio); };
+  const CalibratedBed made = base(truth);
+  const TestBed& bed = made.recording.bed;
+  const std::vector<Effect> effects = effects_for(bed, {}, EffectsOf::kPart);
+  const auto rim = std::ranges::find_if(
+      effects, [](const Effect& e) { return e.id == "rim_friction" && e.form == "ratio"; });
+  ASSERT_NE(rim, effects.end());
+  const Hypothesis names{.effects = {*rim}};
+  CandidateFit inert{.candidate = names, .x = start_of(made.problem(), names, &made.fit)};
+  inert.x.tail(1)[0] = rim->coordinates.front().at(1.2);
+  inert.prediction = made.fit.prediction;
+  inert.jacobian = Eigen::MatrixXd::Zero(bed.size(), inert.x.size());
+  inert.jacobian.leftCols(made.fit.jacobian.cols()) = made.fit.jacobian;
+  inert.evidence.settings.assign(bed.channels.size(), 0);
+  for (const Families& families : all_families(bed)) {
+    const HeldOut out = hold_out(made.recording, made.soil, made.fit, {.fit = &inert}, families, 2);
+    EXPECT_LT(out.share_explained, 0.1) << families.by;
+  }
 }
 
 TEST(HeldOut, TheCalibratedModelReachesTheNoiseWhereNothingIsMissing) {

@@ -1,0 +1,129 @@
+#include "diagnosis/names/names_alone.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "diagnosis/recording/thresholds.h"
+#include "terramech/basics/parallel_for.h"
+
+namespace regoplan {
+namespace {
+
+constexpr std::size_t kMostClasses = 3;
+
+std::optional<CandidateFit> fitted_alone(const CalibratedRecording& calibrated,
+                                         const Effect& effect, const CandidateFit* beside) {
+  constexpr int kSteps = 8;
+  const FitProblem problem = calibrated.problem();
+  Hypothesis names = beside == nullptr ? Hypothesis{} : beside->candidate;
+  names.effects.push_back(effect);
+  const CandidateFit& before = beside == nullptr ? calibrated.base() : *beside;
+  return fit_to_widened(problem, names, deviations_off(problem.bed, before.prediction),
+                        start_of(problem, names, beside), kSteps);
+}
+
+/// Names beside those that are there, without their likes.
+std::vector<Effect> further_names(const std::vector<Effect>& effects,
+                                  const std::vector<Claim>& claims) {
+  std::set<std::string> taken;
+  for (const Claim& claim : claims) taken.insert(claim.id);
+  std::vector<Effect> further = effects;
+  std::erase_if(further, [&](const Effect& effect) {
+    return is_instrument(effect.id) || taken.contains(effect.id);
+  });
+  return further;
+}
+
+bool may_stand(const CalibratedRecording& calibrated, const NameAlone& name, double least) {
+  return name.share.share.low > least && name.share.gain_in_errors > Thresholds::kClear_errors &&
+         objection(calibrated.problem(), name.fit).empty();
+}
+
+/// Leaves the best and those that some way to hold out puts level with it, the best four.
+void keep_class(std::vector<NameAlone>& names) {
+  const double level = names.front().share.share.low;
+  std::erase_if(names, [&](const NameAlone& name) { return name.share.share.high < level; });
+  if (names.size() > Thresholds::kLargestClass) names.resize(Thresholds::kLargestClass);
+}
+
+/// The best, and beside it what does nearly as much.
+Claim claim_of(const CalibratedRecording& calibrated, const std::vector<NameAlone>& members) {
+  const CandidateFit& fit = members.front().fit;
+  NameClass names;
+  for (const NameAlone& member : members) names.ids.push_back(member.id);
+  Claim claim = claims_of(calibrated.problem(), {}, {names}, fit).front();
+  claim.channels = channels_of(calibrated.problem(), fit, fit.candidate.effects.size() - 1);
+  claim.share = members.front().share.share;
+  for (const NameAlone& member : members) claim.member_shares[member.id] = member.share.share;
+  return claim;
+}
+
+}  // namespace
+
+std::vector<NameAlone> names_alone(const CalibratedRecording& calibrated,
+                                   const std::vector<Effect>& effects, const CandidateFit* beside,
+                                   double least, int threads) {
+  const TestBed& bed = calibrated.bed();
+  const double excess =
+      variances_off(bed, calibrated.base().prediction) - static_cast<double>(bed.size());
+  const double before =
+      variances_off(bed, (beside == nullptr ? calibrated.base() : *beside).prediction);
+  std::vector<std::optional<CandidateFit>> fits(effects.size());
+  parallel_for(fits.size(), threads,
+               [&](std::size_t i) { fits[i] = fitted_alone(calibrated, effects[i], beside); });
+  // What explains little where it was fitted explains no more where it was not.
+  std::vector<std::pair<double, std::size_t>> by_share;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!fits[i]) continue;
+    const double share = (before - variances_off(bed, fits[i]->prediction)) / excess;
+    if (share > least) by_share.emplace_back(share, i);
+  }
+  std::ranges::sort(by_share, std::greater{});
+  constexpr std::size_t kHeldOut = 12;
+  if (by_share.size() > kHeldOut) by_share.resize(kHeldOut);
+  std::vector<std::optional<NameAlone>> forms(by_share.size());
+  parallel_for(forms.size(), threads, [&](std::size_t k) {
+    const std::size_t i = by_share[k].second;
+    const NameShare share = beside == nullptr ? name_share(calibrated, *fits[i], 1)
+                                              : added_share(calibrated, *fits[i], *beside, 1);
+    forms[k] = NameAlone{effects[i].id, std::move(*fits[i]), share};
+  });
+  std::map<std::string, NameAlone> best;
+  for (std::optional<NameAlone>& form : forms) {
+    if (!form || !may_stand(calibrated, *form, least)) continue;
+    const auto known = best.find(form->id);
+    if (known != best.end() && known->second.share.share.low >= form->share.share.low) continue;
+    best.insert_or_assign(form->id, std::move(*form));
+  }
+  std::vector<NameAlone> names;
+  for (auto& [id, name] : best) names.push_back(std::move(name));
+  std::ranges::stable_sort(names, std::greater{},
+                           [](const NameAlone& name) { return name.share.share.low; });
+  return names;
+}
+
+std::optional<PartialClaim> claim_by_shares(const CalibratedRecording& calibrated,
+                                            const std::vector<Effect>& effects, int threads) {
+  PartialClaim result;
+  while (result.claims.size() < kMostClasses) {
+    const bool is_first = result.claims.empty();
+    std::vector<NameAlone> names =
+        names_alone(calibrated, further_names(effects, result.claims),
+                    is_first ? nullptr : &result.fit, Thresholds::kWorthAnother, threads);
+    if (names.empty()) break;
+    keep_class(names);
+    const bool is_worth_it = names.front().share.share.low >= Thresholds::kWorthANameAlone;
+    if (is_first && (names.size() == 1 || !is_worth_it)) return std::nullopt;
+    result.claims.push_back(claim_of(calibrated, names));
+    result.fit = std::move(names.front().fit);
+    result.steps.push_back(result.fit);
+  }
+  // The first may move a channel the wrong way that the next puts right; all together may not.
+  if (result.claims.empty() || name_share(calibrated, result.fit, threads).worsened) {
+    return std::nullopt;
+  }
+  return result;
+}
+
+}  // namespace regoplan
