@@ -48,6 +48,23 @@ std::vector<Column> columns_of(const Recording& recording) {
   return columns;
 }
 
+/// Sizes by which runs may follow a column, those of replicates alike: what their loads differ by
+/// is no course, however late in the recording they were run.
+std::vector<double> size_of_conditions(const std::vector<double>& of_run,
+                                       const std::vector<Condition>& conditions) {
+  std::vector<double> size(of_run.size(), 0.0);
+  for (const Condition& at : conditions) {
+    double sum = 0, count = 0;
+    for (const std::size_t run : at.runs) {
+      if (!std::isfinite(of_run[run])) continue;
+      sum += of_run[run];
+      ++count;
+    }
+    for (const std::size_t run : at.runs) size[run] = count > 0 ? sum / count : 0;
+  }
+  return size;
+}
+
 using ChannelContrasts = std::vector<std::optional<ReplicateContrasts>>;
 
 /// What the replicates of each channel say, where they tell its noise.
@@ -106,11 +123,8 @@ std::optional<Course> course_of(const Recording& recording,
                     .low = column.low,
                     .high = column.high};
       for (std::size_t c = 0; c < channels.size(); ++c) {
-        std::vector<double> trend(recording.runs.size(), 0.0);
-        for (std::size_t i = 0; i < trend.size(); ++i) {
-          const double size = kind.of_channel[c][i];
-          trend[i] = std::isfinite(size) ? column.value[i] * size : 0;
-        }
+        std::vector<double> trend = size_of_conditions(kind.of_channel[c], conditions);
+        for (std::size_t i = 0; i < trend.size(); ++i) trend[i] *= column.value[i];
         course.trend.push_back(std::move(trend));
       }
       course.gain_nats = gain_nats(contrasts, course.trend);

@@ -53,7 +53,9 @@ double ReplicateContrasts::score(const Covariance& covariance, double misfit) co
 }
 
 double ReplicateContrasts::gain(const std::vector<double>& trend) const {
-  const Eigen::VectorXd column = rows_.contrasts * rows_.of(trend);
+  constexpr double kRounding = 1e-9;
+  const Eigen::VectorXd followed = rows_.of(trend), column = rows_.contrasts * followed;
+  if (column.norm() <= kRounding * followed.norm()) return 0;  // alike for all replicates
   double before = -INFINITY, after = -INFINITY;
   for (const Covariance& covariance : covariances_) {
     const Eigen::VectorXd solved = covariance.factor.solve(column);

@@ -51,6 +51,23 @@ TEST(Course, OfAFewReplicatesThatOnlyScatterIsNone) {
   EXPECT_LE(followed, 1);
 }
 
+TEST(Course, OfATimeThatReplicatesShareIsNoneWhateverTheirLoadsDo) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, {.conditions = 40, .day = 0}, 1);
+  recording.columns.time = true;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> within(-0.03, 0.03);
+  for (WheelRun& run : recording.runs) {
+    // Each condition at a time of its own; later ones answer to load more than the model does.
+    run.conditions.time_s = 1e4 * (0.3 + run.slip_ratio + run.slip_angle_rad);
+    run.day = 0;
+    const double heavier = within(random);
+    run.load_n *= 1 + heavier;
+    run.measured[0] += 0.02 * run.conditions.time_s * heavier;
+  }
+  EXPECT_FALSE(condense(recording, setup).course.has_value());
+}
+
 TEST(Course, IsFoundAndDoesNotWidenTheNoise) {
   Recording shuffled = recorded(7, 0);
   // replicates far apart in the order, as on a bed that is tested round by round
