@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "calibrated_bed.h"
 
@@ -104,6 +105,29 @@ TEST(HeldOut, AModelThatIsNoBetterOrWorseInOneChannelIsNotHandedOut) {
   auto torque = proof.corrected.segment(bed.offset(2), bed.channels[2].mean.size());
   torque.array() += 4 * bed.channels[2].scale;
   EXPECT_NE(no_better_than_calibrated(bed, proof).find("torque_nm worse"), std::string::npos);
+}
+
+TEST(HeldOut, AGainScattersByOneStandardErrorHoweverMuchDaysMoveAllAtOnce) {
+  TestBed bed = base({}).recording.bed;
+  bed.channels.resize(1);
+  ChannelData& data = bed.channels.front();
+  const Eigen::Index n = data.mean.size();
+  const Eigen::VectorXd truth = data.mean, other = truth.array() + 0.5;
+  constexpr double kDay = 2;
+  data.noise = Eigen::MatrixXd::Identity(n, n);
+  data.noise.array() += kDay * kDay;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  double sum = 0, squares = 0;
+  constexpr int kDraws = 400;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const double day = kDay * normal(random);
+    for (Eigen::Index i = 0; i < n; ++i) data.mean[i] = truth[i] + day + normal(random);
+    const double gain = gain_in_errors(bed, truth, other);
+    sum += gain / kDraws;
+    squares += gain * gain / kDraws;
+  }
+  EXPECT_NEAR(std::sqrt(squares - sum * sum), 1, 0.1);
 }
 
 }  // namespace
