@@ -225,6 +225,24 @@ double shared_temperature(const std::vector<ScoredId>& scored) {
                         scored_as(Account::Kind::kParameters, scored).score);
 }
 
+/// The logarithm of each candidate's likelihood as it is weighed. Names are fitted with the soil
+/// free within its tests; that its numbers may all lie at their means is no merit over a name: the
+/// plain model weighs as the free soil does, whichever of the two it is.
+std::vector<double> log_likelihoods(const std::vector<ScoredId>& scored) {
+  const double temperature = shared_temperature(scored),
+               free_soil = scored_as(Account::Kind::kParameters, scored).score / temperature;
+  std::vector<double> plain, all;
+  for (const ScoredId& s : scored) {
+    if (s.account.is_plain()) plain.push_back(s.score / temperature);
+  }
+  const double of_plain = log_sum(plain);
+  for (const ScoredId& s : scored) {
+    const double own = s.score / temperature;
+    all.push_back(s.account.is_plain() ? free_soil + own - of_plain : own);
+  }
+  return all;
+}
+
 }  // namespace
 
 const ScoredId& scored_as(Account::Kind kind, const std::vector<ScoredId>& scored) {
@@ -261,28 +279,30 @@ std::vector<ScoredId> score_candidates(const FitProblem& problem, const FitProbl
 }
 
 NameSupport support_of(const std::vector<ScoredId>& scored, PlainModel tests) {
-  const double temperature = shared_temperature(scored),
-               soil = scored_as(Account::Kind::kParameters, scored).score;
+  const double soil = scored_as(Account::Kind::kParameters, scored).score;
+  const std::vector<double> likelihood = log_likelihoods(scored);
   double best = -INFINITY;
   std::vector<double> plain, other;
-  for (const ScoredId& s : scored) {
-    const double prior = log_prior_of(s.account);
-    (s.account.is_plain() ? plain : other).push_back(s.score / temperature + prior);
-    if (s.account.kind == Account::Kind::kEffects) best = std::max(best, s.score + prior);
+  for (std::size_t i = 0; i < scored.size(); ++i) {
+    const Account& account = scored[i].account;
+    const double prior = log_prior_of(account);
+    (account.is_plain() ? plain : other).push_back(likelihood[i] + prior);
+    if (account.kind == Account::Kind::kEffects) best = std::max(best, scored[i].score + prior);
   }
   return {tests, best - soil, log_sum(other) - log_sum(plain)};
 }
 
 void weigh(std::vector<ScoredId>& scored, PlainModel plain) {
-  const double temperature = shared_temperature(scored);
+  const std::vector<double> likelihood = log_likelihoods(scored);
   std::vector<double> terms;
-  for (const ScoredId& s : scored) {
+  for (std::size_t i = 0; i < scored.size(); ++i) {
+    const ScoredId& s = scored[i];
     const bool is_plain = s.account.is_plain();
     double prior = log_prior_of(s.account);
     if (is_plain && plain == PlainModel::kHolds) prior = Thresholds::kHolds_log_prior;
     if (is_plain && plain == PlainModel::kDoubted) prior = Thresholds::kDoubted_log_prior;
     const bool out = s.given_up || (is_plain && plain == PlainModel::kRefuted);
-    terms.push_back(out ? -INFINITY : s.score / temperature + prior);
+    terms.push_back(out ? -INFINITY : likelihood[i] + prior);
   }
   const double whole = log_sum(terms);
   for (std::size_t i = 0; i < scored.size(); ++i) {

@@ -58,6 +58,13 @@ TEST(Weighing, TwoEffectsMustFitBetterThanOne) {
   EXPECT_GT(probability(all, "grousers"), probability(all, "grousers+multi_pass"));
 }
 
+TEST(Weighing, ASoilAsItsTestsSayIsNoMeritOverANameFittedWithTheSoilFree) {
+  auto all = scored({{"none", 6}, {"parameters", 0}, {"sensor_bias", 10}});
+  weigh(all, PlainModel::kDoubted);
+  EXPECT_GT(probability(all, "sensor_bias"), 0.9);
+  EXPECT_GT(probability(all, "none"), 100 * probability(all, "parameters"));
+}
+
 /// A recording of a wheel that sinks deeper as it slips.
 Recording of_a_wheel_that_digs(const DiagnosisSetup& setup) {
   TrueWheel digging;
