@@ -34,6 +34,8 @@ class Diagnosing {
         calibrated_(recording, setup, options.stop),
         effects_(effects_for(calibrated_.bed(), recording)),
         effects_in_part_(effects_for(calibrated_.bed(), recording, EffectsOf::kPart)) {
+    // What is known to the last term leaves nothing beside it.
+    std::erase_if(effects_in_part_, has_one_form);
     found_.soil = calibrated_.soil_pulls();
     found_.notes = recording.warnings;
     add_notes(calibrated_.recording().notes);
@@ -190,8 +192,6 @@ class Diagnosing {
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
       return;
     }
-    std::erase_if(effects_in_part_,
-                  [&](const Effect& effect) { return contest.refuted().contains(effect.id); });
     if (unfit_ && named_in_part()) return;
     if (unfit_) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);
@@ -209,6 +209,12 @@ class Diagnosing {
                       found_.before.p_value));
     }
     // what spoke against the calibrated model does not hold
+    if (!unfit_) {
+      found_.notes.push_back(
+          "the recording stands out along what some effect would do, but no name is sure and "
+          "proves "
+          "itself on held-out conditions: it is taken for chance");
+    }
     nothing_is_missing();
     weigh(scored_, PlainModel::kHolds);
   }

@@ -129,7 +129,6 @@ std::optional<ProvenClaim> NameContest::decide() {
       return ProvenClaim{std::move(claimed), fit, left, std::move(proof)};
     }
   }
-  if (is_known_exactly(best->fit)) refuted_ = best->account.effects;
   notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id(), doubt));
   return std::nullopt;
 }

@@ -38,8 +38,6 @@ class NameContest {
 
   /// The candidates, weighed as far as they are not given up.
   const std::vector<ScoredId>& scored() const { return scored_; }
-  /// Names known to the last term that score best and are not claimed: no form excuses them.
-  const std::set<std::string>& refuted() const { return refuted_; }
   /// What was given up, and why.
   const std::vector<std::string>& notes() const { return notes_; }
 
@@ -60,7 +58,6 @@ class NameContest {
   PlainModel plain_;
   std::uint64_t seed_;
   int threads_;
-  std::set<std::string> refuted_ = {};
   std::vector<std::string> notes_;
 };
 

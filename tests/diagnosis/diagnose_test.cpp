@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "diagnosis/diagnosis.h"
@@ -107,6 +108,16 @@ TEST(Diagnose, AnEffectOnNoListIsUnexplainedAndItsCorrectionKeepsToWhatWasMeasur
   EXPECT_EQ(found.verdict, Verdict::kUnexplained) << found.sentence;
   ASSERT_TRUE(found.corrected_model.generic.has_value());
   EXPECT_GT(found.corrected_model.generic->load_n_region[0], 30);
+}
+
+TEST(Diagnose, AnOffsetThatComesAndGoesIsNoSensorsBiasInPart) {
+  // Furrows of a raked bed push the wheel aside, more or less as it slips; a bias would stay.
+  BedPlan plan{.angles_deg = {-16, -8, 0, 8, 16}, .noise = 0.5};
+  plan.instruments = [](WheelRun& run) {
+    run.measured[1] += 6 + 3 * std::cos(20 * run.slip_ratio);
+  };
+  const Diagnosis found = diagnosed({}, 3, plan);
+  EXPECT_EQ(found.verdict, Verdict::kUnexplained) << found.sentence;
 }
 
 TEST(Diagnose, ASideForceAgainstTheConventionIsTurnedAndReported) {
