@@ -21,7 +21,7 @@ struct CandidateFit {
   double shape_spread = 0;  ///< share by which forms may be wrong, standard deviation
   /// By channel, by what deviations of the noise were multiplied where it was fitted; empty: by 1.
   std::vector<double> widened;
-  Evidence evidence;        ///< its x and covariance: x, then the factors of the shape's columns
+  Evidence evidence;  ///< its x and covariance: x, then the factors of the shape's columns
 };
 
 /// Derivatives of the model values by x: one column a coordinate.
