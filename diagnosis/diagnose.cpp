@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "diagnosis/checks/bed_memory.h"
 #include "diagnosis/checks/detection.h"
@@ -232,6 +233,13 @@ class Diagnosing {
     found_.verdict = Verdict::kPartly;
     found_.names_added = steps_of(calibrated_, *part.claim, options_.threads);
     found_.claims = std::move(part.claim->claims);
+    if (part.claim->members.size() > 1) {
+      for (const CandidateFit& fit : part.claim->members) {
+        const std::string& id = fit.candidate.effects.front().id;
+        members_.push_back(
+            {.account = {.kind = Account::Kind::kEffects, .effects = {id}}, .fit = fit});
+      }
+    }
     partial_ranking_ = std::move(part.ranking);
     found_.remainder_share = remainder_share(found_.claims);
     const CandidateFit& fit = part.claim->fit;
@@ -298,14 +306,13 @@ class Diagnosing {
     return all;
   }
 
-  /// Between the names of the claim, or else the likeliest.
+  /// Between the names of a class that explains part of the mismatch, else between the likeliest.
   std::vector<Experiment> experiments() const {
     constexpr std::size_t kMostRivals = 4;
-    std::vector<ScoredId> rivals;
+    std::vector<ScoredId> rivals = members_;
     for (const ScoredId& s : scored_) {
-      if (rivals.size() == kMostRivals) break;
-      if (s.account.kind != Account::Kind::kEffects) continue;
-      rivals.push_back(s);
+      if (!members_.empty() || rivals.size() == kMostRivals) break;
+      if (s.account.kind == Account::Kind::kEffects) rivals.push_back(s);
     }
     return next_experiments(calibrated_.problem(), rivals);
   }
@@ -315,10 +322,11 @@ class Diagnosing {
   std::vector<Effect> effects_, effects_in_part_;
   std::vector<ScoredId> scored_;
   std::vector<ScoredCandidate> partial_ranking_;
-  bool stands_out_ = false;    // the residual lies along some effect farther than noise goes
-  bool unfit_ = false;         // lack of fit, or soil numbers that calibration pulled too far
-  bool beyond_doubt_ = false;  // unfit, even where no correction proves itself
-  bool rejected_ = false;      // that, or a name far better than calibration alone
+  std::vector<ScoredId> members_;  // of the class that explains most of it in part
+  bool stands_out_ = false;        // the residual lies along some effect farther than noise goes
+  bool unfit_ = false;             // lack of fit, or soil numbers that calibration pulled too far
+  bool beyond_doubt_ = false;      // unfit, even where no correction proves itself
+  bool rejected_ = false;          // that, or a name far better than calibration alone
   bool consistent_ = false;
   Diagnosis found_;
   Diagnosis complete_;  // the stages of it that are

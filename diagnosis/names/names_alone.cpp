@@ -116,6 +116,9 @@ std::optional<PartialClaim> claim_by_shares(const CalibratedRecording& calibrate
     const bool is_worth_it = names.front().share.share.low >= Thresholds::kWorthANameAlone;
     if (is_first && (names.size() == 1 || !is_worth_it)) return std::nullopt;
     result.claims.push_back(claim_of(calibrated, names));
+    if (is_first) {
+      for (const NameAlone& name : names) result.members.push_back(name.fit);
+    }
     result.fit = std::move(names.front().fit);
     result.steps.push_back(result.fit);
   }

@@ -116,6 +116,7 @@ PartialClaim first_claim(const CalibratedRecording& calibrated,
   claim.probability = (1 - chance_p) * probability_of(names, ids);
   for (const std::string& id : ids) {
     claim.member_shares[id] = name_share(calibrated, find(id)->fit, threads).share;
+    result.members.push_back(find(id)->fit);
   }
   claim.share = claim.member_shares[ids.front()];
   result.claims.push_back(std::move(claim));

@@ -13,7 +13,8 @@ namespace regoplan {
 struct PartialClaim {
   std::vector<Claim> claims;
   CandidateFit fit;
-  std::vector<CandidateFit> steps;  ///< of the first name, of the first two, ...
+  std::vector<CandidateFit> steps;    ///< of the first name, of the first two, ...
+  std::vector<CandidateFit> members;  ///< of the first class, one a name, each by itself
 };
 
 /// What every step makes of conditions held out by the families that there are most of.

@@ -26,6 +26,11 @@ TEST(RealSand, IsAClassWithSharesAndNoSingleName) {
   const Claim& first = found.claims.front();
   EXPECT_FALSE(first.equivalent.empty());
   EXPECT_EQ(first.member_shares.size(), first.equivalent.size() + 1);
+  // What to measure next parts the names of that class.
+  ASSERT_FALSE(found.next_experiments.empty());
+  for (const std::string& id : found.next_experiments.front().separates) {
+    EXPECT_TRUE(first.member_shares.contains(id)) << id;
+  }
   for (const Claim& claim : found.claims) {
     EXPECT_LT(claim.probability, 0.975);  // a nameless mismatch may do as well
     EXPECT_TRUE(std::isfinite(claim.evidence_nats));

@@ -29,11 +29,20 @@ function shareBar(host) {
         .text(`${part.name}: ${percent(part.share, 0)}`);
     from += width;
   }
+  const named = (text, colour) => {
+    const swatch = element('span', {class: 'swatch', 'aria-hidden': 'true'});
+    swatch.style.background = colour;
+    return element('span', {}, swatch, text);
+  };
+  const row = (name, s) => [name, percent(s.explained, 0),
+                            `${percent(s.low, 0)} to ${percent(s.high, 0)}`,
+                            intervalMark(s.explained, s.low, s.high, 0, 1)];
+  // The bar shows the first of a class; the others stand below it.
   const rows = claims.flatMap(
-      claim => Object.entries(claim.member_shares || {[claim.id]: claim.share})
-                   .map(([id, s]) => [idText(id), percent(s.explained, 0),
-                                      `${percent(s.low, 0)} to ${percent(s.high, 0)}`,
-                                      intervalMark(s.explained, s.low, s.high, 0, 1)]));
+      (claim, k) => [row(named(idText(claim.id), parts[k].colour), claim.share),
+                     ...claim.equivalent.filter(id => (claim.member_shares || {})[id])
+                         .map(id => row(`or ${idText(id)}`, claim.member_shares[id]))]);
+  if (rest > 0) rows.push([named('no name', 'var(--soft)'), percent(rest, 0), '', '']);
   host.append(
       element(
           'p', {class: 'note'},
