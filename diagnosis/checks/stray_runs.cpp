@@ -19,25 +19,35 @@ struct LeftOut {
   Eigen::VectorXd deviation;  // of the error
 };
 
-/// Under the smooth discrepancy that the residuals make likeliest.
+/// By how many nats an error is likely where a few may stray: Student's t of few degrees of
+/// freedom. Of normal errors two strays would have the likeliest surface turn up and down to them.
+double log_density(double error, double deviation) {
+  constexpr double kDegrees = 4;
+  const double z = error / deviation;
+  return -std::log(deviation) - (kDegrees + 1) / 2 * std::log1p(z * z / kDegrees);
+}
+
+/// Under the smooth discrepancy by which conditions tell each other best.
 LeftOut left_out(const Discrepancy& discrepancy, std::size_t channel, const ChannelData& data,
                  const Eigen::VectorXd& residual) {
   const Eigen::Index n = residual.size();
-  Eigen::LLT<Eigen::MatrixXd> best;
+  LeftOut best;
   double top = -INFINITY;
   for (std::size_t k = 0; k < discrepancy_settings().size(); ++k) {
     Eigen::MatrixXd whole = data.noise;
     const Eigen::MatrixXd& smooth = discrepancy.at(channel, k).discrepancy;
     if (smooth.size() > 0) whole += smooth;
     const Eigen::LLT<Eigen::MatrixXd> factor(whole);
-    const double score = -0.5 * factor.matrixL().solve(residual).squaredNorm() -
-                         factor.matrixLLT().diagonal().array().log().sum();
+    const Eigen::VectorXd precision = factor.solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
+    LeftOut left{factor.solve(residual).cwiseQuotient(precision),
+                 precision.cwiseSqrt().cwiseInverse()};
+    double score = 0;
+    for (Eigen::Index i = 0; i < n; ++i) score += log_density(left.error[i], left.deviation[i]);
     if (!(score > top)) continue;
     top = score;
-    best = factor;
+    best = std::move(left);
   }
-  const Eigen::VectorXd precision = best.solve(Eigen::MatrixXd::Identity(n, n)).diagonal();
-  return {best.solve(residual).cwiseQuotient(precision), precision.cwiseSqrt().cwiseInverse()};
+  return best;
 }
 
 std::vector<std::size_t> measured_runs(const Condition& condition,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "calibrated_bed.h"
 
 namespace regoplan {
@@ -28,6 +30,21 @@ TEST(StrayRuns, AnOutlierThatNoReplicateTellsIsWeighedDown) {
   EXPECT_EQ(found.noise[0].outliers, std::vector<std::size_t>{17});
   EXPECT_LT(found.noise[0].weight[17], 0.5);
   EXPECT_NE(found.notes.back().find(recording.runs[17].run_id), std::string::npos);
+}
+
+TEST(StrayRuns, TwoFarOutliersDoNotHideEachOther) {
+  // A rough surface that turns up to one and down to the other would take both for its own.
+  const DiagnosisSetup setup = told_noise();
+  const Recording plain =
+      record({}, setup, setup.soil.mean, {.replicates = 1, .day = 0, .outliers = 0}, 1);
+  for (std::size_t other = 18; other < 34; ++other) {
+    Recording recording = plain;
+    recording.runs[17].measured[1] += 9;
+    recording.runs[other].measured[1] -= 6;
+    std::vector<std::size_t> outliers = weighed_down(recording, setup).noise[1].outliers;
+    std::ranges::sort(outliers);
+    EXPECT_EQ(outliers, (std::vector<std::size_t>{17, other}));
+  }
 }
 
 TEST(StrayRuns, AMismatchThatNeighboursShareIsNoStray) {
