@@ -6,7 +6,11 @@ const shownMarks = () => PLAN.rejected_states.filter(
 function mapCanvas(canvas, frame) {
   const stretch = shadingStretch(TERRAIN);
   const contours = contourLines(TERRAIN);
-  const pictures = {shade: null, soils: soilLayer(TERRAIN), forbidden: forbiddenLayer(TERRAIN)};
+  const pictures = {
+    shade: null,
+    soils: soilLayer(TERRAIN),
+    forbidden: TERRAIN.soil.some(soil => soil < 0) ? forbiddenLayer(TERRAIN) : null
+  };
 
   function resize() {
     const density = Math.max(1, window.devicePixelRatio || 1);
@@ -80,6 +84,7 @@ function mapCanvas(canvas, frame) {
   }
 
   function drawForbidden(context, density, west, north, width, height) {
+    if (!pictures.forbidden) return;
     const layer = element('canvas', {width: canvas.width, height: canvas.height}),
           brush = layer.getContext('2d');
     brush.setTransform(density, 0, 0, density, 0, 0);
