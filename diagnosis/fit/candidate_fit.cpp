@@ -92,6 +92,7 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
   for (const double share : {1.0, 0.4, 0.16, 0.064, 0.0256}) {
     if (leads_on(share * to_goal)) return is_worth_another;
   }
+  if (fit.x.size() == 0) return false;
   // Straight towards the goal it is worse at once: across a kink some column is far off. Damped, a
   // step follows what is steepest.
   const Eigen::MatrixXd curvature = marginal_precision(posterior.precision, fit.x.size());
@@ -303,8 +304,10 @@ std::optional<CandidateFit> fit_to_widened(const FitProblem& problem, const Hypo
     fit->widened = widened;
     const Posterior posterior = posterior_of(bed, discrepancy, linearised(bed, *fit), noise_only);
     fit->evidence.x = posterior.x;
-    fit->evidence.covariance =
-        posterior.precision.llt().solve(Eigen::MatrixXd::Identity(fit->x.size(), fit->x.size()));
+    fit->evidence.covariance = Eigen::MatrixXd::Identity(fit->x.size(), fit->x.size());
+    if (fit->x.size() > 0) {
+      fit->evidence.covariance = posterior.precision.llt().solve(fit->evidence.covariance);
+    }
     const std::vector<double> left = deviations_off(problem.bed, fit->prediction);
     for (std::size_t c = 0; c < left.size(); ++c) widened[c] = std::min(widened[c], left[c]);
   }
