@@ -212,9 +212,8 @@ class Diagnosing {
     // what spoke against the calibrated model does not hold
     if (!unfit_) {
       found_.notes.push_back(
-          "the recording stands out along what some effect would do, but no name is sure and "
-          "proves "
-          "itself on held-out conditions: it is taken for chance");
+          "the recording stands out along what some effect would do, but no name is sure of it and "
+          "proves itself held out: it is taken for chance");
     }
     nothing_is_missing();
     weigh(scored_, PlainModel::kHolds);

@@ -67,6 +67,7 @@ Eigen::MatrixXd marginal_precision(const Eigen::MatrixXd& precision, Eigen::Inde
 
 /// One damped step; false where nothing better was found.
 bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, CandidateFit& fit) {
+  if (fit.x.size() == 0) return false;
   const TestBed& bed = problem.bed;
   const Eigen::VectorXd measured = bed.measured();
   const ShapedMisfit misfit(problem, settings, fit.shape);
@@ -92,7 +93,6 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
   for (const double share : {1.0, 0.4, 0.16, 0.064, 0.0256}) {
     if (leads_on(share * to_goal)) return is_worth_another;
   }
-  if (fit.x.size() == 0) return false;
   // Straight towards the goal it is worse at once: across a kink some column is far off. Damped, a
   // step follows what is steepest.
   const Eigen::MatrixXd curvature = marginal_precision(posterior.precision, fit.x.size());

@@ -94,10 +94,11 @@ class Slurm : public testing::Test {
       const std::string said = output_of(environment_ + "sinfo 2>&1") +
                                folder_->read("ctld.log").substr(0, 600) +
                                folder_->read("d.log").substr(0, 600);
-      // What it does not understand we have written; that a machine lets no daemon run is its own.
-      for (const char* ours : {"arse error", "onfiguration file", "nvalid"}) {
-        ASSERT_EQ(said.find(ours), std::string::npos) << said;
-      }
+      // Only what a machine forbids is its own; whatever else Slurm says, we have caused.
+      const auto says = [&](const char* cause) { return said.find(cause) != std::string::npos; };
+      ASSERT_TRUE(says("not permitted") || says("ermission denied") ||
+                  says("ddress already in use") || says("annot allocate"))
+          << said;
       GTEST_SKIP() << "Slurm does not start here: " << said;
     }
   }
