@@ -5,7 +5,7 @@
 #include <string>
 
 #include "tests/app/command_output.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 

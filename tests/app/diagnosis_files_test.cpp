@@ -6,7 +6,7 @@
 
 #include "app/settings/model_settings.h"
 #include "tests/app/diagnosis_fixture.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 #include "tests/terramech/csv_rows.h"
 
 namespace regoplan {

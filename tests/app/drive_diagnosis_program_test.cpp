@@ -5,7 +5,7 @@
 
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {

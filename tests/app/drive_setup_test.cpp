@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "tests/app/error_text.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/settings/soil_settings.h"
 #include "maps/raster_files.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 

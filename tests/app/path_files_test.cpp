@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "tests/app/plan_report_fixture.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {

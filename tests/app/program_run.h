@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 

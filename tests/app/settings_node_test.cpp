@@ -7,7 +7,7 @@
 
 #include "app/settings/settings_json.h"
 #include "tests/app/error_text.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {

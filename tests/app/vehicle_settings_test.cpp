@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/error_text.h"
-#include "tests/app/scratch_folder.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {

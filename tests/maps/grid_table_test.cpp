@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "maps/raster_files.h"
-#include "temporary_folder.h"
 #include "terramech/basics/input_error.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {
@@ -27,7 +27,7 @@ class GridTable : public testing::Test {
     return "";
   }
 
-  TemporaryFolder folder_;
+  ScratchFolder folder_;
 };
 
 constexpr const char* kSix = "x,y,z\n10,5,1\n10.5,5,2\n11,5,3\n10,5.5,4\n10.5,5.5,5\n11,5.5,6\n";

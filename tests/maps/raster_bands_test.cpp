@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "maps/raster_files.h"
-#include "temporary_folder.h"
 #include "terramech/basics/input_error.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {
@@ -21,9 +21,9 @@ const GridFrame kBandFrame{.columns = 3,
                            .crs_wkt = {}};
 
 TEST(RasterBands, ReadBackInPlaceWithTheirNames) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
-  const std::string file = folder.file("bands.tif");
+  const std::string file = folder.path("bands.tif");
   write_bands(kBandFrame,
               {{"first", {1, 2, 3, 4, 5, 6}}, {"second", {-1, -2, kUnknown, -4, -5, -6}}}, file);
   GDALAllRegister();
@@ -48,9 +48,9 @@ TEST(RasterBands, ReadBackInPlaceWithTheirNames) {
 }
 
 TEST(RasterBands, OfTheWrongSizeAreRefused) {
-  const TemporaryFolder folder;
-  EXPECT_THROW(write_bands(kBandFrame, {{"first", {1, 2}}}, folder.file("bands.tif")), InputError);
-  EXPECT_THROW(write_bands(kBandFrame, {}, folder.file("bands.tif")), InputError);
+  const ScratchFolder folder;
+  EXPECT_THROW(write_bands(kBandFrame, {{"first", {1, 2}}}, folder.path("bands.tif")), InputError);
+  EXPECT_THROW(write_bands(kBandFrame, {}, folder.path("bands.tif")), InputError);
 }
 
 }  // namespace

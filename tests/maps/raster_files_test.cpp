@@ -9,10 +9,10 @@
 #include <cmath>
 
 #include "maps/terrain_summary.h"
-#include "temporary_folder.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "tests/measured_data.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {
@@ -40,10 +40,10 @@ std::string wkt(const std::string& crs) {
   return result;
 }
 
-std::string write(const TemporaryFolder& folder, const Tiff& tiff,
+std::string write(const ScratchFolder& folder, const Tiff& tiff,
                   const std::string& name = "in.tif") {
   GDALAllRegister();
-  std::string file = folder.file(name);
+  std::string file = folder.path(name);
   GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
       file.c_str(), 2, 2, 1, tiff.type, nullptr));
   std::array<double, 6> transform = tiff.transform;
@@ -80,7 +80,7 @@ testing::AssertionResult refuses(Action action, const std::vector<std::string>& 
 }
 
 TEST(RasterFiles, WhatIsWrittenReadsBackExactly) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   ElevationRaster elevation{{.columns = 3,
                              .rows = 2,
                              .west_m = 8142406.25,
@@ -89,8 +89,8 @@ TEST(RasterFiles, WhatIsWrittenReadsBackExactly) {
                              .cell_height_m = 0.25,
                              .crs_wkt = wkt(kMars)},
                             {1.1F, -2.5F, 3e-7F, 0, std::nanf(""), 12345.678F}};
-  write_elevation(elevation, folder.file("dem.tif"));
-  const ElevationRaster heights = read_elevation(folder.file("dem.tif"));
+  write_elevation(elevation, folder.path("dem.tif"));
+  const ElevationRaster heights = read_elevation(folder.path("dem.tif"));
   for (std::size_t i = 0; i < heights.height_m.size(); ++i) {
     if (i == 4) continue;
     EXPECT_EQ(heights.height_m[i], elevation.height_m[i]);
@@ -103,27 +103,27 @@ TEST(RasterFiles, WhatIsWrittenReadsBackExactly) {
 
   ClassRaster classes{elevation.frame, {1, -2, INT32_MAX, 0, ClassRaster::kNoData, 255}};
   classes.frame.crs_wkt.clear();
-  write_classes(classes, folder.file("classes.tif"));
-  const ClassRaster codes = read_classes(folder.file("classes.tif"));
+  write_classes(classes, folder.path("classes.tif"));
+  const ClassRaster codes = read_classes(folder.path("classes.tif"));
   EXPECT_EQ(codes.code, classes.code);
   EXPECT_EQ(codes.frame, classes.frame);
-  EXPECT_EQ(folder.size(), 2) << "no side files, no unfinished files";
+  EXPECT_EQ(folder.count(), 2) << "no side files, no unfinished files";
 }
 
 TEST(RasterFiles, WritingFailsWholeWithOneLine) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const ElevationRaster elevation{
       {.columns = 1, .rows = 1, .west_m = 0, .north_m = 0, .cell_width_m = 1, .cell_height_m = 1},
       {1}};
-  EXPECT_TRUE(refuses([&] { write_elevation(elevation, folder.file("no/dem.tif")); },
+  EXPECT_TRUE(refuses([&] { write_elevation(elevation, folder.path("no/dem.tif")); },
                       {"no/dem.tif", "does not exist"}));
-  std::filesystem::create_directory(folder.file("dem.tif"));
-  EXPECT_TRUE(refuses([&] { write_elevation(elevation, folder.file("dem.tif")); }, {"dem.tif"}));
-  EXPECT_EQ(folder.size(), 1);
+  std::filesystem::create_directory(folder.path("dem.tif"));
+  EXPECT_TRUE(refuses([&] { write_elevation(elevation, folder.path("dem.tif")); }, {"dem.tif"}));
+  EXPECT_EQ(folder.count(), 1);
 }
 
 TEST(RasterFiles, NodataOfEveryNumberTypeIsUnknown) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   struct Case {
     GDALDataType type;
     double nodata;
@@ -146,7 +146,7 @@ TEST(RasterFiles, NodataOfEveryNumberTypeIsUnknown) {
 }
 
 TEST(RasterFiles, NanCellsAreUnknownWithoutANodataValue) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = write(folder, {.cells = {1, std::nan(""), 3, 4}});
   EXPECT_TRUE(std::isnan(read_elevation(file).height_m[1]));
   EXPECT_EQ(read_classes(file).code[1], ClassRaster::kNoData);
@@ -159,7 +159,7 @@ TEST(RasterFiles, NanCellsAreUnknownWithoutANodataValue) {
 }
 
 TEST(RasterFiles, UndeclaredNodataIsRefusedWithTheRemedy) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_TRUE(refuses(
       [&] {
         read_elevation(write(folder, {.cells = {1, 2, -3.4e38, 4}}));
@@ -173,7 +173,7 @@ TEST(RasterFiles, UndeclaredNodataIsRefusedWithTheRemedy) {
 }
 
 TEST(RasterFiles, ScaleAndOffsetOfTheBandCount) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file =
       write(folder,
             {.type = GDT_Int16, .cells = {0, 10, -5, 99}, .nodata = 99, .scale = 0.1, .offset = 7});
@@ -185,7 +185,7 @@ TEST(RasterFiles, ScaleAndOffsetOfTheBandCount) {
 }
 
 TEST(RasterFiles, ClassCodesAreIntegersWhateverTypeHoldsThem) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::vector<std::int32_t> codes{1, 2, 3, 4};
   for (const GDALDataType type : {GDT_Byte, GDT_Int16, GDT_UInt32, GDT_Float32, GDT_Float64}) {
     EXPECT_EQ(read_classes(write(folder, {.type = type})).code, codes);
@@ -203,7 +203,7 @@ TEST(RasterFiles, ClassCodesAreIntegersWhateverTypeHoldsThem) {
 }
 
 TEST(RasterFiles, DegreesAreRefusedNamingARemedyThatWorks) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   for (const char* crs : {"EPSG:4326", "+proj=longlat +R=3396190"}) {
     const std::string file = write(folder, {.transform = {137, 1e-5, 0, -4, 0, -1e-5}, .crs = crs});
     const std::vector<std::string> words{"in.tif", "degrees", "gdalwarp -t_srs \"+proj=tmerc",
@@ -214,7 +214,7 @@ TEST(RasterFiles, DegreesAreRefusedNamingARemedyThatWorks) {
 }
 
 TEST(RasterFiles, FeetAreRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_TRUE(refuses(
       [&] { read_elevation(write(folder, {.crs = "+proj=tmerc +R=6371000 +units=us-ft"})); },
       {"0.3048", "gdalwarp -t_srs"}));
@@ -223,7 +223,7 @@ TEST(RasterFiles, FeetAreRefused) {
 }
 
 TEST(RasterFiles, HeightsInAnotherUnitAreRefusedWithTheScaleThatMendsThem) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   struct UnitAndScale {
     const char *unit, *scale;
   };
@@ -251,7 +251,7 @@ TEST(RasterFiles, HeightsInAnotherUnitAreRefusedWithTheScaleThatMendsThem) {
 }
 
 TEST(RasterFiles, ACrsInAnotherUnitIsRefusedWithARemedyThatCanBeCopied) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_TRUE(refuses(
       [&] {
         read_elevation(write(folder, {.crs = "+proj=tmerc +lon_0=9 +R=6371000 +units=us-ft"}));
@@ -267,7 +267,7 @@ TEST(RasterFiles, ACrsInAnotherUnitIsRefusedWithARemedyThatCanBeCopied) {
 }
 
 TEST(RasterFiles, AMarkOfUnknownCellsThatIsNotDeclaredIsRefusedWithTheRemedy) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   for (const double mark : {-9999., -32768., 9999.}) {
     const std::string file = write(folder, {.cells = {1, mark, 3, 4}});
     EXPECT_TRUE(refuses([&] { read_elevation(file); },
@@ -281,9 +281,9 @@ TEST(RasterFiles, AMarkOfUnknownCellsThatIsNotDeclaredIsRefusedWithTheRemedy) {
 }
 
 TEST(RasterFiles, APictureIsNotInMetresUnlessSomebodySaysSo) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   GDALAllRegister();
-  const std::string file = folder.file("heights.png");
+  const std::string file = folder.path("heights.png");
   {
     const GDALDatasetUniquePtr tiff(GDALDataset::Open(
         write(folder, {.type = GDT_UInt16, .cells = {0, 1000, 2000, 3000}}).c_str()));
@@ -299,7 +299,7 @@ TEST(RasterFiles, APictureIsNotInMetresUnlessSomebodySaysSo) {
 }
 
 TEST(RasterFiles, RotatedAndSouthUpRastersAreRefusedWithTheRemedy) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   for (const auto& transform :
        {std::array<double, 6>{100, 1, 0.1, 200, 0.1, -1},
         std::array<double, 6>{100, 0, 1, 200, 1, 0}, std::array<double, 6>{100, 1, 0, 200, 0, 1},
@@ -310,9 +310,9 @@ TEST(RasterFiles, RotatedAndSouthUpRastersAreRefusedWithTheRemedy) {
 }
 
 TEST(RasterFiles, WhatIsNoRasterIsRefusedByName) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   EXPECT_TRUE(
-      refuses([&] { read_elevation(folder.file("gone.tif")); }, {"gone.tif", "no such file"}));
+      refuses([&] { read_elevation(folder.path("gone.tif")); }, {"gone.tif", "no such file"}));
   EXPECT_TRUE(refuses([&] { read_elevation(folder.write("text.tif", "hello\n")); },
                       {"text.tif", "is not a raster"}));
   EXPECT_TRUE(
@@ -326,7 +326,7 @@ TEST(RasterFiles, WhatIsNoRasterIsRefusedByName) {
 }
 
 TEST(RasterFiles, AsciiGridsReadLikeAnyOther) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = folder.write("grid.asc",
                                         "ncols 3\nnrows 2\nxllcorner -1.5\nyllcorner 10\n"
                                         "cellsize 0.5\nNODATA_value 0\n1 2 3\n0 5 6\n");
@@ -338,11 +338,11 @@ TEST(RasterFiles, AsciiGridsReadLikeAnyOther) {
                                       .north_m = 11,
                                       .cell_width_m = 0.5,
                                       .cell_height_m = 0.5}));
-  EXPECT_EQ(folder.size(), 1) << "reading leaves nothing beside the file";
+  EXPECT_EQ(folder.count(), 1) << "reading leaves nothing beside the file";
 }
 
 TEST(RasterFiles, AClassRasterWithoutCrsTakesTheElevationsAndOneWithAnotherIsRefused) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const GridFrame mars = read_elevation(write(folder, {.crs = kMars})).frame;
   ClassRaster classes = read_classes(write(folder, {}));
   EXPECT_NE(adopt_crs(classes, mars, "c.tif").find("c.tif: names no CRS"), std::string::npos);

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "temporary_folder.h"
 #include "terramech/basics/input_error.h"
+#include "tests/scratch_folder.h"
 
 namespace regoplan {
 namespace {
@@ -18,24 +18,24 @@ std::string refusal(const std::string& file) {
 }
 
 TEST(RockFiles, WhatIsWrittenReadsBackExactly) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::vector<Rock> rocks{{0.1, -1e7 / 3, 1e-3, 2}, {8142406.123456789, 5, 0.5, 0.25}};
-  write_rocks(rocks, folder.file("rocks.csv"));
-  EXPECT_EQ(read_rocks(folder.file("rocks.csv")), rocks);
-  write_rocks({}, folder.file("rocks.csv"));
-  EXPECT_TRUE(read_rocks(folder.file("rocks.csv")).empty());
-  EXPECT_EQ(folder.size(), 1);
+  write_rocks(rocks, folder.path("rocks.csv"));
+  EXPECT_EQ(read_rocks(folder.path("rocks.csv")), rocks);
+  write_rocks({}, folder.path("rocks.csv"));
+  EXPECT_TRUE(read_rocks(folder.path("rocks.csv")).empty());
+  EXPECT_EQ(folder.count(), 1);
 }
 
 TEST(RockFiles, ColumnsMayStandInAnyOrderWithOthersBetween) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string file = folder.write(
       "r.csv", "\xEF\xBB\xBFname, height_m ,\"y_m\",x_m,radius_m\r\nbig,4,3, 1 ,2\r\n\r\n");
   EXPECT_EQ(read_rocks(file), (std::vector<Rock>{{1, 3, 2, 4}}));
 }
 
 TEST(RockFiles, ErrorsNameFileLineColumnAndValue) {
-  const TemporaryFolder folder;
+  const ScratchFolder folder;
   const std::string header = "x_m,y_m,radius_m,height_m\n";
   const auto says = [&](const std::string& text, const std::string& words) {
     const std::string message = refusal(folder.write("r.csv", text));
@@ -52,15 +52,15 @@ TEST(RockFiles, ErrorsNameFileLineColumnAndValue) {
   EXPECT_TRUE(says("x_m,y_m,radius_m\n1,2,3\n", "r.csv:1: column height_m stands 0 times"));
   EXPECT_TRUE(says("x_m,y_m,radius_m,height_m,x_m\n", "r.csv:1: column x_m stands 2 times"));
   EXPECT_TRUE(says("", "is empty"));
-  EXPECT_NE(refusal(folder.file("none.csv")).find("none.csv: cannot be read"), std::string::npos);
+  EXPECT_NE(refusal(folder.path("none.csv")).find("none.csv: cannot be read"), std::string::npos);
 }
 
 TEST(RockFiles, NothingIsLeftWhereNothingCanBeWritten) {
-  const TemporaryFolder folder;
-  EXPECT_THROW(write_rocks({}, folder.file("no/such/folder.csv")), InputError);
-  std::filesystem::create_directory(folder.file("folder"));
-  EXPECT_THROW(write_rocks({}, folder.file("folder")), InputError);
-  EXPECT_EQ(folder.size(), 1);
+  const ScratchFolder folder;
+  EXPECT_THROW(write_rocks({}, folder.path("no/such/folder.csv")), InputError);
+  std::filesystem::create_directory(folder.path("folder"));
+  EXPECT_THROW(write_rocks({}, folder.path("folder")), InputError);
+  EXPECT_EQ(folder.count(), 1);
 }
 
 }  // namespace
