@@ -57,11 +57,16 @@ for (const [event, printing] of [['beforeprint', true], ['afterprint', false]])
 /// Calls draw(width) now and whenever the node's width changes.
 function onWidth(node, draw) {
   let width = 0;
-  const update = () => {
+  const changed = () => {
     const now = Math.round(node.clientWidth);
-    if (now && now !== width) draw(width = now);
+    if (!now || now === width) return false;
+    width = now;
+    return true;
   };
-  update();
-  // Drawing changes heights: not within the observer, which would see itself.
-  new ResizeObserver(() => requestAnimationFrame(update)).observe(node);
+  if (changed()) draw(width);
+  // The width is read here, where the page is laid out: read between drawings, each would lay it
+  // out anew. Drawing changes heights: not within the observer, which would see itself.
+  new ResizeObserver(() => {
+    if (changed()) requestAnimationFrame(() => draw(width));
+  }).observe(node);
 }
