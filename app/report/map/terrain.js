@@ -182,7 +182,8 @@ function contourLines(terrain) {
       // Beside unknown ground both are NaN: there is no contour.
       const last = Math.floor(Math.max(a, b, c, d));
       for (let k = Math.floor(Math.min(a, b, c, d)) + 1; k <= last; ++k)
-        contourAcross(k % 5 === 0 ? paths.bold : paths.fine, column + 0.5, row + 0.5, a, b, c, d, k);
+        contourAcross(
+            k % 5 === 0 ? paths.bold : paths.fine, column + 0.5, row + 0.5, a, b, c, d, k);
     }
   return paths;
 }
