@@ -143,8 +143,8 @@ class EffectList {
                       std::string(name(bed_.channels[c].channel)),
               .kind = EffectKind::kCrosstalk,
               .coordinates = {{.name = "share",
-                               .spread =
-                                   0.08 * std::min(1.0, rms / signal(k)) + 0.02 * rms / signal(k)}},
+                               .spread = 0.08 * std::min(arm(c) / arm(k), rms / signal(k)) +
+                                         0.02 * rms / signal(k)}},
               .to = c,
               .from = k});
       }
@@ -161,6 +161,11 @@ class EffectList {
   std::vector<Effect> take() { return std::move(effects_); }
 
  private:
+  /// What makes a channel of a force at the wheel's rim: a share of a torque counts by its force.
+  double arm(std::size_t c) const {
+    return bed_.channels[c].channel == Channel::kTorque ? bed_.setup.wheel.radius_m : 1;
+  }
+
   static bool crosses(Channel channel) {
     return channel == Channel::kFx || channel == Channel::kFy || channel == Channel::kTorque;
   }

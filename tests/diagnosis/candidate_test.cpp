@@ -65,6 +65,22 @@ TEST(Hypothesis, ABiasMovesItsOwnChannelAlone) {
   EXPECT_NEAR(change.norm(), change.segment(bed.offset(1), n).norm(), 1e-12);
 }
 
+/// A torque is the smaller number by the wheel's radius, but no weaker a signal.
+TEST(Hypothesis, OfATorqueAsMuchMayLeakIntoAForceAsOfItsForceAtTheRim) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = record({}, setup, setup.soil.mean, {.conditions = 12}, 1);
+  const auto effects = effects_for(condense(recording, setup).bed, recording);
+  const auto spread_of = [&](const std::string& form) {
+    return std::ranges::find_if(
+               effects,
+               [&](const Effect& e) { return e.id == "sensor_crosstalk" && e.form == form; })
+        ->coordinates.front()
+        .spread;
+  };
+  EXPECT_NEAR(spread_of("torque_nm into fx_n") * setup.wheel.radius_m, 0.08, 0.03);
+  EXPECT_NEAR(spread_of("fx_n into torque_nm") / setup.wheel.radius_m, 0.08, 0.03);
+}
+
 const Effect& changing_gain(const std::vector<Effect>& effects, const std::string& form) {
   return *std::ranges::find_if(
       effects, [&](const Effect& e) { return e.id == "sensor_gain" && e.form == form; });
