@@ -7,15 +7,21 @@
 namespace regoplan {
 namespace {
 
-std::vector<std::string> checks(const std::function<void(WheelRun&)>& instruments) {
+constexpr double kNoise = 0.3;  // N, of one run's forces
+
+Recording both_sides(const std::function<void(WheelRun&)>& instruments) {
   const DiagnosisSetup setup = simulant_setup();
   const BedPlan plan{.angles_deg = {-16, -8, 0, 8, 16},
                      .loads_n = {64.7},
-                     .noise = 0.3,
+                     .noise = kNoise,
                      .day = 0,
                      .outliers = 0,
                      .instruments = instruments};
-  return instrument_checks(condense(record({}, setup, setup.soil.mean, plan, 1), setup));
+  return record({}, setup, setup.soil.mean, plan, 1);
+}
+
+std::vector<std::string> checks(const std::function<void(WheelRun&)>& instruments) {
+  return instrument_checks(condense(both_sides(instruments), simulant_setup()));
 }
 
 bool says(const std::vector<std::string>& findings, const std::string& words) {
@@ -37,6 +43,15 @@ TEST(InstrumentChecks, SeeABiasedSideForce) {
   const auto found = checks([](WheelRun& run) { run.measured[1] += 2; });
   EXPECT_TRUE(says(found, "fy_n is not mirror-symmetric"));
   EXPECT_TRUE(says(found, "fy_n straight ahead is +"));
+}
+
+/// Where all runs are of one day it moves all of them alike, and no number of pairs averages it
+/// out.
+TEST(InstrumentChecks, WhatTheOnlyDayMayDoIsNoFault) {
+  const double offset_n = 1.8 * 0.5 * kNoise;  // of one day, assumed to be half of the noise
+  Recording recording = both_sides([&](WheelRun& run) { run.measured[1] += offset_n; });
+  for (WheelRun& run : recording.runs) run.day = 0;
+  EXPECT_TRUE(instrument_checks(condense(recording, simulant_setup())).empty());
 }
 
 TEST(InstrumentChecks, SeeATiltedSinkageGauge) {
