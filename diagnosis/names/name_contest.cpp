@@ -90,6 +90,16 @@ Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& 
   return left;
 }
 
+/// The name of a class that scores best by itself, given up or not: something may speak against it
+/// and a second effect beside it add nothing all the same.
+const ScoredId* likeliest_single(const std::vector<ScoredId>& scored, const NameClass& names) {
+  const ScoredId* best = nullptr;
+  for (const ScoredId& s : scored) {
+    if (is_of(s, {names}) && (best == nullptr || s.score > best->score)) best = &s;
+  }
+  return best;
+}
+
 bool is_known_exactly(const CandidateFit& fit) {
   return std::ranges::all_of(fit.candidate.effects,
                              [](const Effect& effect) { return has_one_form(effect); });
@@ -239,7 +249,7 @@ std::optional<NameContest::IdleEffect> NameContest::idle_effect(
   for (const Families& families : families_of_all_columns(calibrated_.bed())) {
     const Eigen::VectorXd both = proof(pair->fit, families);
     for (const std::size_t left_out : {0, 1}) {
-      const ScoredId* single = best_of(scored_, {claimed[1 - left_out]});
+      const ScoredId* single = likeliest_single(scored_, claimed[1 - left_out]);
       gain[left_out] = single == nullptr
                            ? INFINITY
                            : std::max(gain[left_out], gain_in_errors(calibrated_.bed(), both,

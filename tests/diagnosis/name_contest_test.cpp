@@ -79,6 +79,22 @@ TEST_F(NameContestOf, AFaultThatIsKnownExactlyIsNotClaimedWhereItLeavesWhatIsWor
       << contest.notes().back();
 }
 
+TEST_F(NameContestOf, BesideANameThatWasGivenUpASecondMustDoItsPartAsWell) {
+  hold(digging());
+  for (ScoredId& one : scored_) {
+    if (one.id() == "slip_sinkage") one.given_up = true;
+    if (one.account.effects.size() == 2) one.score += 500;
+  }
+  weigh(scored_, PlainModel::kRefuted);
+  ASSERT_EQ(scored_.front().id(), "shear_hump+slip_sinkage");
+  NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
+  const auto claim = contest.decide();
+  ASSERT_FALSE(contest.notes().empty());
+  EXPECT_NE(contest.notes().front().find("shear_hump adds"), std::string::npos)
+      << contest.notes().front();
+  EXPECT_TRUE(!claim || claim->names.size() == 1);
+}
+
 TEST_F(NameContestOf, ANameThatOnlyScoresIsNotClaimedAndANoteSaysWhy) {
   hold({});
   // Whatever led to it, a score alone claims nothing: held out, the name explains nothing here.
