@@ -161,7 +161,7 @@ class EffectList {
   std::vector<Effect> take() { return std::move(effects_); }
 
  private:
-  /// What makes a channel of a force at the wheel's rim: a share of a torque counts by its force.
+  /// By what a force at the wheel's rim is multiplied in a channel: the radius for a torque.
   double arm(std::size_t c) const {
     return bed_.channels[c].channel == Channel::kTorque ? bed_.setup.wheel.radius_m : 1;
   }
