@@ -84,9 +84,11 @@ json elevation_json(const ElevationRaster& elevation, const Blocks& blocks) {
   return {{"min_m", min_m}, {"max_m", max_m}, {"base64", base64_of(steps)}};
 }
 
-std::string soil_base64(const TerrainMap& map, const Blocks& blocks) {
+/// Soils row by row from the north, from 1, 0 where none is known: a soil, how many cells it lasts,
+/// the next. A page reads its data letter by letter before it draws anything.
+json soil_runs(const TerrainMap& map, const Blocks& blocks) {
   const GridFrame& fine = map.elevation().frame;
-  std::vector<std::uint16_t> soils;
+  std::vector<int> runs;
   for (int row = 0; row < blocks.frame.rows; ++row) {
     const int fine_row = std::min(row * blocks.factor + blocks.factor / 2, fine.rows - 1);
     const double y_m = fine.north_m - (fine_row + 0.5) * fine.cell_height_m;
@@ -94,11 +96,13 @@ std::string soil_base64(const TerrainMap& map, const Blocks& blocks) {
       const int fine_column =
           std::min(column * blocks.factor + blocks.factor / 2, fine.columns - 1);
       const double x_m = fine.west_m + (fine_column + 0.5) * fine.cell_width_m;
-      const std::optional<int> soil = map.soil_index(x_m, y_m);
-      soils.push_back(static_cast<std::uint16_t>(soil ? *soil + 1 : 0));
+      const std::optional<int> index = map.soil_index(x_m, y_m);
+      const int soil = index ? *index + 1 : 0;
+      if (runs.empty() || *(runs.end() - 2) != soil) runs.insert(runs.end(), {soil, 0});
+      ++runs.back();
     }
   }
-  return base64_of(soils);
+  return runs;
 }
 
 json soil_json(const MapSoil& soil) {
@@ -164,7 +168,7 @@ json report_map(const TerrainMap& map, const ReportMapDetail& detail) {
             {"cell_height_m", blocks.frame.cell_height_m},
             {"cells_averaged", blocks.factor},
             {"elevation", elevation_json(map.elevation(), blocks)},
-            {"soil_base64", soil_base64(map, blocks)}}},
+            {"soil_runs", soil_runs(map, blocks)}}},
           {"soils", soils},
           {"classes", classes},
           {"unmapped",

@@ -115,9 +115,14 @@ TEST(ReportMap, NumbersSoilsFromOneAndForbiddenGroundZero) {
   classes.frame.cell_width_m = classes.frame.cell_height_m = 2;
   classes.code = {7, 5, ClassRaster::kNoData};
   const Json data = report_map(map_of(3, 1, {0, 1, 2}, classes));
-  EXPECT_EQ(numbers_of(data["raster"]["soil_base64"]), (std::vector<int>{2, 1, 0}));
+  EXPECT_EQ(data["raster"]["soil_runs"], (std::vector<int>{2, 1, 1, 1, 0, 1}));
   EXPECT_EQ(data["soils"][1]["name"], "loose");
   EXPECT_EQ(data["unmapped"], "forbidden");
+}
+
+TEST(ReportMap, TellsGroundThatGoesOnOverRowsOnce) {
+  const Json data = report_map(map_of(300, 200, std::vector<float>(60000, 1)));
+  EXPECT_EQ(data["raster"]["soil_runs"], (std::vector<int>{1, 60000}));
 }
 
 TEST(ReportMap, GivesSoilNumbersInTheUnitsOfFiles) {

@@ -6,7 +6,7 @@ function mapView(host) {
   const tooltip = host.appendChild(element('div', {class: 'tooltip', hidden: true}));
   const canvas = mapCanvas(node, frame);
   const overlay = mapOverlay(svg, frame);
-  let waiting = 0;
+  let waiting = 0, shown = false;
 
   function zoomed() {
     frame.transform = d3.event.transform;
@@ -55,7 +55,8 @@ function mapView(host) {
     canvas.resize();
     overlay.resize();
     showPaths();
-    canvas.draw();  // at once: a resized canvas is empty
+    // At once: a resized canvas is empty. Before the first frame nobody sees that.
+    if (shown) canvas.draw();
   }
 
   function redraw() {
@@ -63,6 +64,7 @@ function mapView(host) {
     if (waiting) return;
     waiting = requestAnimationFrame(() => {
       waiting = 0;
+      shown = true;
       canvas.draw();
     });
   }

@@ -15,11 +15,14 @@ function numbersOf(base64) {
 function readTerrain(map) {
   const raster = map.raster, {min_m, max_m} = raster.elevation;
   const step_m = (max_m - min_m) / 65534;
-  const heights = numbersOf(raster.elevation.base64), codes = numbersOf(raster.soil_base64);
-  const height_m = new Float32Array(heights.length), soil = new Int16Array(codes.length);
+  const heights = numbersOf(raster.elevation.base64), runs = raster.soil_runs;
+  const height_m = new Float32Array(heights.length), soil = new Int16Array(heights.length);
   for (let i = 0; i < heights.length; ++i)
     height_m[i] = heights[i] ? min_m + (heights[i] - 1) * step_m : NaN;
-  for (let i = 0; i < codes.length; ++i) soil[i] = codes[i] - 1;
+  for (let run = 0, first = 0; run < runs.length; run += 2) {
+    soil.fill(runs[run] - 1, first, first + runs[run + 1]);
+    first += runs[run + 1];
+  }
   const terrain = {
     columns: raster.columns,
     rows: raster.rows,
@@ -48,18 +51,20 @@ function rasterCanvas(terrain, paintCell) {
   return canvas;
 }
 
+/// Rise per metre from cell a to cell b, `span_m` from it; 0 towards unknown ground and the rim.
+function riseBetween(height_m, a, b, span_m) {
+  const rise_m = height_m[b] - height_m[a];
+  return a === b || Number.isNaN(rise_m) ? 0 : rise_m / span_m;
+}
+
 /// Rise per metre to the east and to the north at a cell; 0 towards unknown neighbours.
 function gradient(terrain, i) {
   const {columns, rows, height_m} = terrain, column = i % columns, row = (i - column) / columns;
-  const rise = (a, b, span_m) => {
-    const difference_m = height_m[b] - height_m[a];
-    return Number.isNaN(difference_m) || a === b ? 0 : difference_m / span_m;
-  };
   const west = column > 0 ? i - 1 : i, east = column < columns - 1 ? i + 1 : i;
   const north = row > 0 ? i - columns : i, south = row < rows - 1 ? i + columns : i;
   return [
-    rise(west, east, (east - west) * terrain.cell_width_m),
-    rise(south, north, ((south - north) / columns) * terrain.cell_height_m)
+    riseBetween(height_m, west, east, (east - west) * terrain.cell_width_m),
+    riseBetween(height_m, south, north, ((south - north) / columns) * terrain.cell_height_m)
   ];
 }
 
