@@ -17,12 +17,12 @@ function drawTracks(svg, width) {
         .attr('stroke', UNDER_LIMIT)
         .attr('stroke-opacity', 0.6)
         .attr('stroke-width', 14);
+  // Round ends: a drive of a single window is a dot.
+  const lineOf = track =>
+      svg.append('path').attr('stroke-linecap', 'round').attr('d', line(track.points));
   for (const track of REPORT.tracks) {
-    svg.append('path').attr('class', 'line path-casing').attr('d', line(track.points));
-    svg.append('path')
-        .attr('class', 'line')
-        .attr('stroke', seriesColour(track.drive))
-        .attr('d', line(track.points));
+    lineOf(track).attr('class', 'line path-casing');
+    lineOf(track).attr('class', 'line').attr('stroke', seriesColour(track.drive));
   }
   return TRACK_POINTS.map(([x_m, y_m, drive]) => ({
                             x: x(x_m),
