@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive_diagnosis/swapped_sides.h"
 #include "drive_diagnosis/time_checks.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
@@ -282,6 +283,10 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
                        static_cast<double>(i) / static_cast<double>(drives.size()));
     }
     throw_if_stopped(options.stop);
+    // Windows hold the means of the channels that a drive has when they are read.
+    if (setup.uncertain.motor_constant) {
+      tell_torques(setup.uncertain.motor_constant->value, drives[i]);
+    }
     mend_positions(drives[i], speed_max_mps);
     std::vector<DriveWindow> windows =
         drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0);
@@ -320,6 +325,25 @@ DriveVerdict verdict_of(const DriveDiagnosis& diagnosis) {
   return a_class ? DriveVerdict::kClass : DriveVerdict::kNamed;
 }
 
+/// Takes swapped columns of wheels for what they are; told of wheel speeds, found of torques.
+void mend_sides(const DriveSetup& setup, const DriveDiagnosisOptions& options,
+                std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
+  const Vehicle* vehicle = setup.vehicle ? &*setup.vehicle : nullptr;
+  exchange_sides("wheel_speed", vehicle, drives);
+  if (vehicle == nullptr || !any_has(drives, "torque_")) return;
+  if (!torques_are_swapped(drives, result.windows, setup.map, *vehicle, setup.gravity_mps2,
+                           options.threads, options.stop)) {
+    return;
+  }
+  exchange_sides("torque", vehicle, drives);
+  result.findings.push_back(
+      {.id = "swapped_sides",
+       .drive = "",
+       .text = "torques: with their sides exchanged as the wheel speeds' were the vehicle's model "
+               "comes nearer to them: the columns left and right are taken the other way round",
+       .mended = true});
+}
+
 /// What the windows of all drives say together.
 void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
              const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
@@ -329,15 +353,13 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
   throw_if_stopped(options.stop);
   check_place(setup, drives, result);
+  if (checks.wheel_sides_swapped) mend_sides(setup, options, drives, result);
   result.mountings = find_mountings(drives, result.windows, setup.map);
   throw_if_stopped(options.stop);
   judge_mounting(setup, result);
   result.currents = diagnose_currents(drives, result.windows, result.mountings,
                                       checks.current_sides_swapped, options.seed, options.stop);
   if (result.currents) claim_side_drag(result);
-  if (setup.uncertain.motor_constant) {
-    for (DriveRecording& drive : drives) tell_torques(setup.uncertain.motor_constant->value, drive);
-  }
   if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
     VehicleComparison comparison =
         find_vehicle_effects(drives, result.windows, setup.map, *setup.vehicle, setup.gravity_mps2,

@@ -208,7 +208,7 @@ std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t 
 double channel_mean(const DriveRecording& drive, const DriveWindow& window,
                     std::string_view channel) {
   for (std::size_t i = 0; i < drive.channels.size(); ++i) {
-    if (drive.channels[i].name == channel) return window.channels[i];
+    if (drive.channels[i].name == channel) return window.channels.at(i);
   }
   return kNotSampled;
 }

@@ -1,0 +1,98 @@
+// What columns of wheels are called and in what unit changes nothing that is found.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "drive_diagnosis/drive_diagnosis.h"
+#include "drive_diagnosis/swapped_sides.h"
+#include "tests/drive_diagnosis/simulated_drive.h"
+
+namespace regoplan {
+namespace {
+
+DriveRecording sound_drive() {
+  return record({.seed = 5}, rolling_map());
+}
+
+DriveDiagnosis diagnosed(DriveRecording drive, const UncertainVehicle& uncertain = {}) {
+  const DriveSetup setup{.map = rolling_map(),
+                         .vehicle = preset_vehicle("lrv"),
+                         .uncertain = uncertain,
+                         .gravity_mps2 = 1.62,
+                         .window_s = 5};
+  return diagnose_drives({std::move(drive)}, setup, {.seed = 7});
+}
+
+const UncertainVehicle kFourNewtonMetresAnAmpere{.motor_constant = DriveEstimate{4, 0.04}};
+
+TEST(ColumnsOfWheels, CurrentsSayWhatTorquesSay) {
+  DriveRecording drive = sound_drive();
+  for (DriveChannel& channel : drive.channels) {
+    if (!channel.name.starts_with("torque_")) continue;
+    const std::string wheel = channel.name.substr(7, channel.name.size() - 7 - 3);
+    channel.name = "current_" + wheel + "_a";
+    for (float& value : channel.values) value /= 4;
+  }
+  const DriveDiagnosis of_torques = diagnosed(sound_drive()),
+                       of_currents = diagnosed(std::move(drive), kFourNewtonMetresAnAmpere);
+  ASSERT_TRUE(of_torques.effects && of_currents.effects);
+  EXPECT_EQ(of_currents.effects->channels, of_torques.effects->channels);
+  for (std::size_t k = 0; k < of_torques.effects->rms.size(); ++k) {
+    EXPECT_NEAR(of_currents.effects->rms[k], of_torques.effects->rms[k],
+                1e-4 * of_torques.effects->rms[k]);
+  }
+  EXPECT_TRUE(of_currents.claims.empty());
+}
+
+TEST(ColumnsOfWheels, TorquesToldInAnotherUnitAreMultiplied) {
+  DriveRecording drive = sound_drive();
+  for (DriveChannel& channel : drive.channels) {
+    if (!channel.name.starts_with("torque_")) continue;
+    for (float& value : channel.values) value /= 4;
+  }
+  EXPECT_TRUE(diagnosed(std::move(drive), kFourNewtonMetresAnAmpere).claims.empty());
+}
+
+/// A sound drive whose columns of the sides were swapped.
+DriveRecording swapped(bool torques) {
+  const Vehicle vehicle = preset_vehicle("lrv");
+  std::vector<DriveRecording> drives{sound_drive()};
+  exchange_sides("wheel_speed", &vehicle, drives);
+  if (torques) exchange_sides("torque", &vehicle, drives);
+  return std::move(drives.front());
+}
+
+std::size_t swaps_told(const DriveDiagnosis& diagnosis) {
+  std::size_t count = 0;
+  for (const DriveFinding& finding : diagnosis.findings) count += finding.id == "swapped_sides";
+  return count;
+}
+
+TEST(ColumnsOfWheels, SwappedWheelSpeedsAreMendedAndNothingElseIsClaimed) {
+  const DriveDiagnosis found = diagnosed(swapped(false));
+  EXPECT_EQ(swaps_told(found), 1);
+  EXPECT_TRUE(found.claims.empty());
+}
+
+TEST(ColumnsOfWheels, TorquesThatWereSwappedWithTheSpeedsAreMendedToo) {
+  const DriveDiagnosis found = diagnosed(swapped(true));
+  EXPECT_EQ(swaps_told(found), 2);
+  EXPECT_TRUE(found.claims.empty());
+}
+
+TEST(ColumnsOfWheels, SidesExchangedTwiceAreAsBefore) {
+  const Vehicle vehicle = preset_vehicle("lrv");
+  const DriveRecording before = sound_drive();
+  std::vector<DriveRecording> drives{before};
+  exchange_sides("wheel_speed", &vehicle, drives);
+  EXPECT_EQ(drives[0].channel("wheel_speed_front_left_rad_s")->values,
+            before.channel("wheel_speed_front_right_rad_s")->values);
+  exchange_sides("wheel_speed", &vehicle, drives);
+  for (std::size_t i = 0; i < before.channels.size(); ++i) {
+    EXPECT_EQ(drives[0].channels[i].name, before.channels[i].name);
+  }
+}
+
+}  // namespace
+}  // namespace regoplan
