@@ -30,7 +30,8 @@ struct SoilCoordinate {
 /// \param widen factor on the prior standard deviations
 std::vector<SoilCoordinate> soil_coordinates(const UncertainSoil& soil, double widen = 1);
 
-/// The soil at x (one entry a coordinate; further entries are not read).
+/// The soil at x (one entry a coordinate; further entries are not read): every number in its valid
+/// range, and a0 + a1 s between 0 and 1 for every slip.
 Soil soil_at(const UncertainSoil& soil, const std::vector<SoilCoordinate>& coordinates,
              const Eigen::VectorXd& x);
 

@@ -48,8 +48,10 @@ FitRemainder CalibratedRecording::remainder_of(const CandidateFit& fit) const {
 Estimate CalibratedRecording::soil_estimate(const CandidateFit& fit, std::size_t number) const {
   const auto k = static_cast<Eigen::Index>(number);
   const Coordinate& c = soil_[number].coordinate;
-  const double unit = soil_parameters()[soil_[number].parameter].file_unit;
-  return {c.value(fit.x[k]) / unit, c.spread * std::sqrt(fit.evidence.covariance(k, k)) / unit};
+  const SoilParameter& parameter = soil_parameters()[soil_[number].parameter];
+  const double unit = parameter.file_unit;
+  const Soil at = soil_at(bed().setup.soil, soil_, fit.x);
+  return {at.*parameter.member / unit, c.spread * std::sqrt(fit.evidence.covariance(k, k)) / unit};
 }
 
 std::vector<SoilPull> CalibratedRecording::soil_pulls() const {

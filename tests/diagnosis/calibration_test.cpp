@@ -44,6 +44,23 @@ TEST(Calibration, FindsTheSoilWithinItsOwnUncertainty) {
   }
 }
 
+TEST(Calibration, AStepMayLeadBeyondTheEdgeAtWhichTheMaximumStressLeavesTheContact) {
+  DiagnosisSetup setup = simulant_setup();
+  setup.soil.mean.a0 = 0.283;
+  setup.soil.mean.a1 = 0.273;
+  const TestBed bed =
+      condense(record({}, setup, setup.soil.mean, {.conditions = 12}, 1), setup).bed;
+  const auto soil = soil_coordinates(setup.soil);
+  for (const double pull : {-4.0, 4.0}) {
+    const auto size = static_cast<Eigen::Index>(soil.size());
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Eigen::VectorXd x = pull * Eigen::VectorXd::Unit(size, i);
+      EXPECT_NO_THROW(validate(soil_at(setup.soil, soil, x)));
+      EXPECT_TRUE(predict(bed, soil, {}, x)) << soil[static_cast<std::size_t>(i)].coordinate.name;
+    }
+  }
+}
+
 TEST(Calibration, NumbersThatAreKnownStayAsTheyAre) {
   DiagnosisSetup setup = simulant_setup();
   setup.soil.standard_deviation.n = 0;
