@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "drive_diagnosis/robust_statistics.h"
 
@@ -43,6 +44,75 @@ void tell(DriveRecording& drive, std::string id, std::string text, double value,
                             .value = value,
                             .unit = std::move(unit),
                             .mended = true});
+}
+
+/// From a fix to the next, what the drive moved beside what the steps before and after let expect.
+struct FixStep {
+  std::size_t to = 0;  ///< row of the later fix
+  double dt_s = 0;
+  double x_m = 0, y_m = 0;
+
+  double size_m() const { return std::hypot(x_m, y_m); }
+};
+
+std::vector<FixStep> steps_of(const DriveRecording& drive) {
+  constexpr double kLongest_s = 2;
+  constexpr std::size_t kAround = 3;
+  std::vector<FixStep> moves;
+  std::optional<std::size_t> last;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    if (std::isnan(drive.x_m[i])) continue;
+    if (last && drive.time_s[i] - drive.time_s[*last] <= kLongest_s) {
+      moves.push_back({i, drive.time_s[i] - drive.time_s[*last], drive.x_m[i] - drive.x_m[*last],
+                       drive.y_m[i] - drive.y_m[*last]});
+    }
+    last = i;
+  }
+  std::vector<FixStep> steps = moves;
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    std::vector<double> east, north;
+    for (std::size_t j = k >= kAround ? k - kAround : 0;
+         j < std::min(k + kAround + 1, moves.size()); ++j) {
+      if (j == k) continue;
+      east.push_back(moves[j].x_m / moves[j].dt_s);
+      north.push_back(moves[j].y_m / moves[j].dt_s);
+    }
+    if (east.empty()) continue;
+    steps[k].x_m -= median_value(std::move(east)) * moves[k].dt_s;
+    steps[k].y_m -= median_value(std::move(north)) * moves[k].dt_s;
+  }
+  return steps;
+}
+
+/// Takes back steps that no vehicle of that speed can make and that fixes do not scatter by: from
+/// there on the positions have another datum.
+void take_steps_back(DriveRecording& drive, double speed_max_mps) {
+  constexpr double kSlack_m = 0.5, kScatters = 12;
+  const std::vector<FixStep> steps = steps_of(drive);
+  if (steps.empty()) return;
+  std::vector<double> sizes;
+  for (const FixStep& step : steps) sizes.push_back(step.size_m());
+  const double scatter_m = median_value(std::move(sizes));
+  std::size_t count = 0;
+  double largest_m = 0, at_s = 0;
+  for (const FixStep& step : steps) {
+    const double size_m = step.size_m();
+    if (size_m <= std::max(speed_max_mps * step.dt_s + kSlack_m, kScatters * scatter_m)) continue;
+    for (std::size_t i = step.to; i < drive.size(); ++i) {
+      drive.x_m[i] -= step.x_m;
+      drive.y_m[i] -= step.y_m;
+    }
+    ++count;
+    if (size_m <= largest_m) continue;
+    largest_m = size_m;
+    at_s = drive.time_s[step.to];
+  }
+  if (count == 0) return;
+  tell(drive, "position_step",
+       fmt::format("positions step {} (the largest by {:.3g} m at {:.2f} s) as if their datum "
+                   "changed: taken back, so that the track goes on where it was",
+                   count == 1 ? "once" : fmt::format("{} times", count), largest_m, at_s),
+       largest_m, "m");
 }
 
 }  // namespace
@@ -157,6 +227,7 @@ void mend_positions(DriveRecording& drive, double speed_max_mps) {
                      jumps, largest_m, at_s),
          largest_m, "m");
   }
+  take_steps_back(drive, speed_max_mps);
 }
 
 }  // namespace regoplan

@@ -10,7 +10,8 @@ namespace regoplan {
 void mend_time(DriveRecording& drive);
 
 /// Takes out positions that only repeat the one before (stale), and those that jump: farther from
-/// the median of the fixes around than a vehicle of that speed can be. Told as findings.
+/// the median of the fixes around than a vehicle of that speed can be. Steps after which positions
+/// go on with another datum are taken back. Told as findings.
 /// \param speed_max_mps what the vehicle can do at most; a jump is at least twice that
 void mend_positions(DriveRecording& drive, double speed_max_mps);
 

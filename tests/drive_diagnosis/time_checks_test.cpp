@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace regoplan {
 namespace {
@@ -78,6 +79,32 @@ TEST(MendPositions, AJumpIsLeftOutAndItsSizeTold) {
   EXPECT_EQ(positions(drive), 59);
   ASSERT_TRUE(told(drive, "position_jump"));
   EXPECT_NEAR(*told(drive, "position_jump"), 40, 1);
+}
+
+TEST(MendPositions, AStepOfTheDatumIsTakenBackAndToldAndSoIsTheOneThatEndsIt) {
+  for (const std::size_t end : {40U, 60U}) {
+    DriveRecording drive = straight(3);
+    const DriveRecording sound = drive;
+    for (std::size_t i = 25; i < end; ++i) drive.y_m[i] += 5;
+    mend_positions(drive, 3);
+    ASSERT_TRUE(told(drive, "position_step"));
+    EXPECT_NEAR(*told(drive, "position_step"), 5, 0.1);
+    EXPECT_GE(positions(drive), 56);
+    for (std::size_t i = 0; i < 60; ++i) {
+      if (std::isnan(drive.x_m[i])) continue;
+      EXPECT_NEAR(drive.x_m[i], sound.x_m[i], 0.2);
+      EXPECT_NEAR(drive.y_m[i], sound.y_m[i], 0.2);
+    }
+  }
+}
+
+TEST(MendPositions, FixesThatScatterByMetresDoNotStep) {
+  DriveRecording drive = straight(3);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> scatter(0, 2);
+  for (double& y : drive.y_m) y += scatter(random);
+  mend_positions(drive, 3);
+  EXPECT_FALSE(told(drive, "position_step"));
 }
 
 TEST(MendPositions, RepeatsOfAFixAreStale) {
