@@ -40,7 +40,7 @@ void check_place(const DriveSetup& setup, const std::vector<DriveRecording>& dri
     if (std::isnan(window.x_m)) continue;
     ++placed[window.drive];
     ++all_placed;
-    if (setup.map.inside(window.x_m, window.y_m)) {
+    if (!std::isnan(setup.map.height_m(window.x_m, window.y_m))) {
       ++inside[window.drive];
       ++all_inside;
     }
@@ -55,8 +55,12 @@ void check_place(const DriveSetup& setup, const std::vector<DriveRecording>& dri
             ? "positions look like degrees of longitude and latitude, the map is in metres: bring "
               "them to the map's coordinates; off the map, the measured attitude counts"
             : fmt::format(
-                  "{:.0f} % of the way lies off the map: there the measured attitude counts",
-                  100 * (1 - share));
+                  "{:.0f} % of the way lies off the map, or where it knows no height: there "
+                  "the measured attitude counts{}",
+                  100 * (1 - share),
+                  inside[i] > 0 ? ""
+                                : "; are the positions in the map's coordinates, metres "
+                                  "and no degrees?");
     result.findings.push_back({.id = geographic[i] > 0 ? "other_coordinates" : "off_the_map",
                                .drive = drives[i].drive_id,
                                .text = text,
@@ -106,6 +110,11 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
   }
   if (claim.parameters.empty()) return;
   claim.text = "the attitude sensor does not sit as it is said to: its readings less the ground's";
+  for (const auto& [name, angle] : claim.parameters) {
+    claim.text +=
+        fmt::format("{} {} {:.2f} deg", name == claim.parameters.begin()->first ? "," : " and",
+                    name.substr(0, name.size() - std::string_view("_deg").size()), angle.value);
+  }
   result.claims.push_back(std::move(claim));
 }
 

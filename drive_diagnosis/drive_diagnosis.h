@@ -78,7 +78,7 @@ struct DriveDiagnosis {
   std::optional<VehicleEffects> effects;
   std::vector<SilentEffect> silent;
   std::vector<DriveWindow> windows;
-  double share_on_map = 0;  ///< of the windows with a position
+  double share_on_map = 0;  ///< of the windows with a position: where the map knows the height
   bool interrupted = false;
 };
 
