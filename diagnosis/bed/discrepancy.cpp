@@ -1,6 +1,8 @@
 #include "diagnosis/bed/discrepancy.h"
 
 #include <cmath>
+#include <mutex>
+#include <utility>
 
 #include "terramech/basics/interruption.h"
 
@@ -62,12 +64,26 @@ double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, cons
   return angle * std::exp(-d / 2);
 }
 
+struct Discrepancy::OfChannel {
+  struct Made {
+    std::once_flag once;
+    ChannelCovariance covariance;
+  };
+  double scale = 0;
+  Eigen::MatrixXd noise;
+  std::vector<Eigen::MatrixXd> kernels;  // one for each of the scales
+  std::vector<Made> made{discrepancy_settings().size()};
+};
+
 Discrepancy::Discrepancy(const TestBed& bed) {
   for (const ChannelData& data : bed.channels) {
+    throw_if_stopped(bed.stop);
     const Eigen::Index n = data.mean.size();
-    std::vector<Eigen::MatrixXd> kernels;
+    auto of_channel = std::make_shared<OfChannel>();
+    of_channel->scale = data.scale;
+    of_channel->noise = data.noise;
     for (const DiscrepancyScales& scales : discrepancy_scales()) {
-      Eigen::MatrixXd& kernel = kernels.emplace_back(n, n);
+      Eigen::MatrixXd& kernel = of_channel->kernels.emplace_back(n, n);
       for (Eigen::Index i = 0; i < n; ++i) {
         for (Eigen::Index k = 0; k < n; ++k) {
           kernel(i, k) = discrepancy_kernel(
@@ -76,19 +92,25 @@ Discrepancy::Discrepancy(const TestBed& bed) {
         }
       }
     }
-    std::vector<ChannelCovariance>& all = channels_.emplace_back();
-    for (const DiscrepancySetting& setting : discrepancy_settings()) {
-      throw_if_stopped(bed.stop);
-      ChannelCovariance& at = all.emplace_back();
-      Eigen::MatrixXd whole = data.noise;
-      if (setting.amplitude > 0) {
-        at.discrepancy = squared(setting.amplitude * data.scale) * kernels[setting.scales];
-        whole += at.discrepancy;
-      }
-      at.factor.compute(whole);
-      at.log_determinant = 2 * at.factor.matrixLLT().diagonal().array().log().sum();
-    }
+    channels_.push_back(std::move(of_channel));
   }
+}
+
+const ChannelCovariance& Discrepancy::at(std::size_t channel, std::size_t setting) const {
+  OfChannel& of_channel = *channels_[channel];
+  OfChannel::Made& made = of_channel.made[setting];
+  std::call_once(made.once, [&] {
+    const DiscrepancySetting& with = discrepancy_settings()[setting];
+    ChannelCovariance& at = made.covariance;
+    Eigen::MatrixXd whole = of_channel.noise;
+    if (with.amplitude > 0) {
+      at.discrepancy = squared(with.amplitude * of_channel.scale) * of_channel.kernels[with.scales];
+      whole += at.discrepancy;
+    }
+    at.factor.compute(whole);
+    at.log_determinant = 2 * at.factor.matrixLLT().diagonal().array().log().sum();
+  });
+  return made.covariance;
 }
 
 }  // namespace regoplan

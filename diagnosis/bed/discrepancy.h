@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <memory>
 #include <vector>
 
 #include "diagnosis/bed/wheel_bed.h"
@@ -37,17 +38,17 @@ struct ChannelCovariance {
   Eigen::MatrixXd discrepancy;  ///< the part that is no noise; empty where there is none
 };
 
-/// Noise plus smooth discrepancy of all channels under all settings.
+/// Noise plus smooth discrepancy of all channels under all settings, each made when it is asked for
+/// first: held-out fits need few of them. Threads may ask at once; copies share what is made.
 class Discrepancy {
  public:
   explicit Discrepancy(const TestBed& bed);
 
-  const ChannelCovariance& at(std::size_t channel, std::size_t setting) const {
-    return channels_[channel][setting];
-  }
+  const ChannelCovariance& at(std::size_t channel, std::size_t setting) const;
 
  private:
-  std::vector<std::vector<ChannelCovariance>> channels_;
+  struct OfChannel;
+  std::vector<std::shared_ptr<OfChannel>> channels_;
 };
 
 /// The Cholesky factor of each channel under its setting, as `whitened` takes it. What it is made
