@@ -19,18 +19,6 @@ Span span_of(const TestBed& bed, const auto& column) {
   return span;
 }
 
-/// Keeps 0 < a0 + a1 s < 1 for every slip s by a1, or by a0 where a1 is known: a fit that may not
-/// step beyond an edge between two numbers would end where it first meets it.
-void keep_maximum_stress_inside(const UncertainSoil& soil, Soil& at) {
-  constexpr double kEdge = 1e-3;
-  if (soil.standard_deviation.a1 > 0) {
-    const double most = std::max(std::min(at.a0, 1 - at.a0) - kEdge, 0.0);
-    at.a1 = std::clamp(at.a1, -most, most);
-  } else if (soil.standard_deviation.a0 > 0 && std::abs(at.a1) + kEdge < 0.5) {
-    at.a0 = std::clamp(at.a0, std::abs(at.a1) + kEdge, 1 - std::abs(at.a1) - kEdge);
-  }
-}
-
 Coordinate positive(std::string name, double low, double high) {
   return {.name = std::move(name),
           .logarithmic = true,
@@ -288,8 +276,36 @@ Soil soil_at(const UncertainSoil& soil, const std::vector<SoilCoordinate>& coord
     at.*soil_parameters()[coordinates[i].parameter].member =
         coordinates[i].coordinate.value(x[static_cast<Eigen::Index>(i)]);
   }
-  keep_maximum_stress_inside(soil, at);
   return at;
+}
+
+Eigen::VectorXd kept_inside(const UncertainSoil& soil,
+                            const std::vector<SoilCoordinate>& coordinates, Eigen::VectorXd x) {
+  constexpr double kEdge = 1e-3;
+  const Soil at = soil_at(soil, coordinates, x);
+  const double most = std::max(std::min(at.a0, 1 - at.a0) - kEdge, 0.0);
+  const bool known = std::abs(soil.mean.a1) > most && !(soil.standard_deviation.a1 > 0);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const Coordinate& c = coordinates[i].coordinate;
+    double& own = x[static_cast<Eigen::Index>(i)];
+    if (c.name == "a1" && std::abs(at.a1) > most) own = c.at(std::clamp(at.a1, -most, most));
+    if (c.name == "a0" && known) {
+      const double least = std::abs(at.a1) + kEdge;
+      own = c.at(std::clamp(at.a0, least, std::max(1 - least, least)));
+    }
+  }
+  return x;
+}
+
+double maximum_stress_pull(const std::vector<SoilCoordinate>& coordinates,
+                           const Eigen::VectorXd& x) {
+  double most = 0;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const std::string& name = coordinates[i].coordinate.name;
+    if (name != "a0" && name != "a1") continue;
+    most = std::max(most, std::abs(x[static_cast<Eigen::Index>(i)]));
+  }
+  return most;
 }
 
 bool is_instrument(const std::string& id) {

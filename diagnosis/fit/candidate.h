@@ -30,10 +30,19 @@ struct SoilCoordinate {
 /// \param widen factor on the prior standard deviations
 std::vector<SoilCoordinate> soil_coordinates(const UncertainSoil& soil, double widen = 1);
 
-/// The soil at x (one entry a coordinate; further entries are not read): every number in its valid
-/// range, and a0 + a1 s between 0 and 1 for every slip.
+/// The soil at x (one entry a coordinate; further entries are not read).
 Soil soil_at(const UncertainSoil& soil, const std::vector<SoilCoordinate>& coordinates,
              const Eigen::VectorXd& x);
+
+/// The same x with a1 (a0 where a1 is known) at the edge at which the maximum stress leaves the
+/// contact, a0 + a1 s = 0 or 1 at some slip, if x lies beyond it: what a fit's step is cut to.
+Eigen::VectorXd kept_inside(const UncertainSoil& soil,
+                            const std::vector<SoilCoordinate>& coordinates, Eigen::VectorXd x);
+
+/// Prior standard deviations by which a0 or a1 lies from its test, the larger. Where an edge is met
+/// far from the tests other physics is missing, and no fit is made to go along it.
+double maximum_stress_pull(const std::vector<SoilCoordinate>& coordinates,
+                           const Eigen::VectorXd& x);
 
 enum class EffectKind { kMechanism, kBias, kGain, kCrosstalk };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "diagnosis/bed/whitening.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
@@ -65,6 +66,19 @@ Eigen::MatrixXd marginal_precision(const Eigen::MatrixXd& precision, Eigen::Inde
          across.transpose() * precision.bottomRightCorner(others, others).llt().solve(across);
 }
 
+/// A step whose end lies beyond the edge of valid soils: the numbers that are cut there go as far
+/// as they may, all others where that leaves them best.
+Eigen::VectorXd cut_to_edge(const FitProblem& problem, const Eigen::VectorXd& x,
+                            const Eigen::MatrixXd& curvature, const Eigen::VectorXd& to_goal) {
+  const Eigen::VectorXd inside = kept_inside(problem.bed.setup.soil, problem.soil, x + to_goal);
+  const Eigen::VectorXd excess = x + to_goal - inside;
+  Eigen::Index cut = 0;
+  if (!(excess.cwiseAbs().maxCoeff(&cut) > 0)) return to_goal;
+  // The curve's bottom at a fixed number: the others move by -H_rr^-1 H_rj of what it lacks.
+  const Eigen::VectorXd response = curvature.llt().solve(Eigen::VectorXd::Unit(x.size(), cut));
+  return to_goal - excess[cut] / response[cut] * response;
+}
+
 /// One damped step; false where nothing better was found.
 bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, CandidateFit& fit) {
   if (fit.x.size() == 0) return false;
@@ -79,8 +93,7 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
   const Eigen::VectorXd to_goal = posterior.x.head(fit.x.size()) - fit.x;
   const double before = cost(fit.prediction, fit.x);
   bool is_worth_another = false;
-  const auto leads_on = [&](const Eigen::VectorXd& by) {
-    const Eigen::VectorXd x = (fit.x + by).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+  const auto leads_to = [&](const Eigen::VectorXd& x) {
     const auto prediction = predict(bed, problem.soil, fit.candidate, x);
     if (!prediction) return false;
     const double after = cost(*prediction, x);
@@ -90,7 +103,11 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
     is_worth_another = before - after > 1e-3 * (1 + 1e-3 * before);
     return true;
   };
-  for (const double share : {1.0, 0.4, 0.16, 0.064, 0.0256}) {
+  const auto leads_on = [&](const Eigen::VectorXd& by) {
+    return leads_to((fit.x + by).cwiseMin(kFarthest).cwiseMax(-kFarthest));
+  };
+  constexpr std::array kShares{1.0, 0.4, 0.16, 0.064, 0.0256};
+  for (const double share : kShares) {
     if (leads_on(share * to_goal)) return is_worth_another;
   }
   // Straight towards the goal it is worse at once: across a kink some column is far off. Damped, a
@@ -101,6 +118,15 @@ bool step(const FitProblem& problem, const std::vector<std::size_t>& settings, C
     Eigen::MatrixXd damped = curvature;
     damped.diagonal() *= 1 + damping;
     if (leads_on(damped.llt().solve(slope))) return is_worth_another;
+  }
+  // Or the goal lies beyond the edge of valid soils: along it, then.
+  const Eigen::VectorXd along_edge = cut_to_edge(problem, fit.x, curvature, to_goal);
+  const bool is_near = maximum_stress_pull(problem.soil, fit.x) < Thresholds::kUnsuspectPull;
+  if (along_edge == to_goal || !is_near) return false;
+  for (const double share : kShares) {
+    const Eigen::VectorXd goal =
+        (fit.x + share * along_edge).cwiseMin(kFarthest).cwiseMax(-kFarthest);
+    if (leads_to(kept_inside(bed.setup.soil, problem.soil, goal))) return is_worth_another;
   }
   return false;
 }

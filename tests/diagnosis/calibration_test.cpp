@@ -44,7 +44,7 @@ TEST(Calibration, FindsTheSoilWithinItsOwnUncertainty) {
   }
 }
 
-TEST(Calibration, AStepMayLeadBeyondTheEdgeAtWhichTheMaximumStressLeavesTheContact) {
+TEST(Calibration, AStepBeyondTheEdgeAtWhichTheMaximumStressLeavesTheContactIsCutThere) {
   DiagnosisSetup setup = simulant_setup();
   setup.soil.mean.a0 = 0.283;
   setup.soil.mean.a1 = 0.273;
@@ -54,7 +54,8 @@ TEST(Calibration, AStepMayLeadBeyondTheEdgeAtWhichTheMaximumStressLeavesTheConta
   for (const double pull : {-4.0, 4.0}) {
     const auto size = static_cast<Eigen::Index>(soil.size());
     for (Eigen::Index i = 0; i < size; ++i) {
-      const Eigen::VectorXd x = pull * Eigen::VectorXd::Unit(size, i);
+      const Eigen::VectorXd x =
+          kept_inside(setup.soil, soil, pull * Eigen::VectorXd::Unit(size, i));
       EXPECT_NO_THROW(validate(soil_at(setup.soil, soil, x)));
       EXPECT_TRUE(predict(bed, soil, {}, x)) << soil[static_cast<std::size_t>(i)].coordinate.name;
     }
