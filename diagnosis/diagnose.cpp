@@ -100,6 +100,11 @@ class Diagnosing {
       unfit_ = near.f > near.critical;
       beyond_doubt_ = unfit_;
     }
+    // so far no soil lies from its tests, however well it fits
+    if (base.x.size() > 0 && base.x.lpNorm<Eigen::Infinity>() > Thresholds::kWorstPull) {
+      unfit_ = true;
+      beyond_doubt_ = true;
+    }
     // replicates that follow a course differ by more than noise, whatever their means do
     const auto& course = recording.course;
     if (course && course->in_time()) {
@@ -163,7 +168,11 @@ class Diagnosing {
                                   tell("scoring what may be wrong", 0.15 + 0.7 * share);
                                 }});
     found_.support = support_of(scored_, plain_model());
-    rejected_ = rejected_ || found_.support.best_gain_nats > Thresholds::kUnprompted_nats;
+    if (found_.support.best_gain_nats > Thresholds::kNoChance_nats) {
+      unfit_ = true;
+      beyond_doubt_ = true;
+    }
+    rejected_ = rejected_ || unfit_ || found_.support.best_gain_nats > Thresholds::kUnprompted_nats;
     weigh(scored_, plain_model());
   }
 
@@ -219,6 +228,27 @@ class Diagnosing {
     weigh(scored_, PlainModel::kHolds);
   }
 
+  /// A fault of an instrument, known to the last term and so no name in part, that explains the
+  /// whole recording clearly better than a misfit without a name does and than the names of a
+  /// claim; null where there is none.
+  const ScoredId* fault_that_does_better(const Claim& claim) const {
+    const ScoredId* fault = nullptr;
+    double claimed = -INFINITY;
+    for (const ScoredId& s : scored_) {
+      if (s.fit.candidate.effects.size() != 1) continue;
+      const std::string& id = s.fit.candidate.effects.front().id;
+      if (id == claim.id || std::ranges::count(claim.equivalent, id) > 0) {
+        claimed = std::max(claimed, s.score);
+      } else if (has_one_form(s.fit.candidate.effects.front()) &&
+                 (fault == nullptr || s.score > fault->score)) {
+        fault = &s;
+      }
+    }
+    const double others = std::max(claimed, scored_as(Account::Kind::kUnexplained, scored_).score);
+    const bool better = fault != nullptr && fault->score > others + Thresholds::kAsGood_nats;
+    return better ? fault : nullptr;
+  }
+
   /// Names that stand beside an unnamed remainder.
   bool named_in_part() {
     tell("scoring names beside a remainder", 0.88);
@@ -227,6 +257,11 @@ class Diagnosing {
     found_.chance_nats = part.chance_nats;
     if (!part.claim) {
       if (!part.refused.empty()) found_.notes.push_back("no name in part: " + part.refused);
+      return false;
+    }
+    if (const ScoredId* fault = fault_that_does_better(part.claim->claims.front())) {
+      found_.notes.push_back(
+          fmt::format("no name in part: {} does better, without a remainder", fault->id()));
       return false;
     }
     found_.verdict = Verdict::kPartly;

@@ -15,6 +15,7 @@ struct CappedName {
   /// Of the likeliest form; where others are about as likely, of the one that predicts held-out
   /// conditions best. Its held-out share is then the best of a few, and that much too high.
   CandidateFit fit;
+  bool refused = false;  ///< something speaks against it: it weighs nothing beside the others
 };
 
 /// What the best name makes of a world whose misfit has no name.

@@ -16,9 +16,10 @@ constexpr int kWorlds = 39;
 
 std::vector<double> weights_of(const std::vector<CappedName>& names) {
   std::vector<double> weights;
-  const double top = names.empty() ? 0 : names.front().gain_nats;
+  const auto best = std::ranges::find(names, false, &CappedName::refused);
+  const double top = best == names.end() ? 0 : best->gain_nats;
   for (const CappedName& name : names) {
-    weights.push_back(std::exp((name.gain_nats - top) / temperature_of(top)));
+    weights.push_back(name.refused ? 0 : std::exp((name.gain_nats - top) / temperature_of(top)));
   }
   return weights;
 }
@@ -83,9 +84,10 @@ std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names
   double whole = 0;
   for (const double weight : weights) whole += weight;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    ranking.push_back({names[i].id, (1 - chance_p) * weights[i] / whole, names[i].gain_nats});
+    const double within = whole > 0 ? weights[i] / whole : 0;
+    ranking.push_back({names[i].id, (1 - chance_p) * within, names[i].gain_nats});
   }
-  ranking.push_back({Account{Account::Kind::kUnexplained}.id(), names.empty() ? 1 : chance_p, 0});
+  ranking.push_back({Account{Account::Kind::kUnexplained}.id(), whole > 0 ? chance_p : 1, 0});
   ranking.push_back({Account{Account::Kind::kNone}.id(), 0, 0});
   ranking.push_back({Account{Account::Kind::kParameters}.id(), 0, 0});
   std::ranges::stable_sort(ranking, std::greater{}, &ScoredCandidate::probability);
@@ -199,6 +201,10 @@ void add_evidence(const CappedContest& contest, int threads, PartialClaim& claim
   }
 }
 
+bool is_of(const Claim& claim, const std::string& id) {
+  return claim.id == id || std::ranges::find(claim.equivalent, id) != claim.equivalent.end();
+}
+
 /// A class where no name stands by its evidence.
 std::optional<PartialClaim> class_by_shares(const CalibratedRecording& calibrated,
                                             const CappedContest& contest,
@@ -214,21 +220,25 @@ std::optional<PartialClaim> class_by_shares(const CalibratedRecording& calibrate
   return claim;
 }
 
-/// What stands by its evidence beside a remainder.
+/// What stands by its evidence beside a remainder. A sensor's fault that is refused for its size
+/// may be there all the same: what does far worse does not take its place.
+/// \param names marked where they are refused
 PartialDecision by_evidence(const CalibratedRecording& calibrated, const CappedContest& contest,
-                            const std::vector<CappedName>& names,
-                            const std::vector<ByChance>& reached,
+                            std::vector<CappedName>& names, const std::vector<ByChance>& reached,
                             const std::vector<Effect>& effects, int threads) {
   PartialDecision decision;
   // what stands by itself, then what comes near the best of that
   std::vector<std::string> ids;
   double top = 0, p = 1;
-  for (const CappedName& name : names) {
+  double refused_fault = 0;
+  for (CappedName& name : names) {
     if (name.gain_nats <
         std::max(Thresholds::kOverRemainder_nats, top - Thresholds::kOverOthers_nats))
       break;
     const std::string doubt = objection_to(calibrated, contest, name, threads);
     if (!doubt.empty()) {
+      name.refused = true;
+      if (is_instrument(name.id)) refused_fault = std::max(refused_fault, name.gain_nats);
       if (ids.empty())
         decision.refused +=
             fmt::format("{}{}: {}", decision.refused.empty() ? "" : "; ", name.id, doubt);
@@ -242,6 +252,7 @@ PartialDecision by_evidence(const CalibratedRecording& calibrated, const CappedC
   }
   decision.ranking = capped_ranking(names, p);
   if (ids.empty()) return decision;
+  if (refused_fault - top > Thresholds::kOverOthers_nats) return decision;
   if (ids.size() == 1 && p > Thresholds::kByChance_p) {
     decision.refused = fmt::format(
         "{} gains {:.0f} nats over an unnamed remainder; nameless worlds let some name do as well "
@@ -261,7 +272,7 @@ PartialDecision by_evidence(const CalibratedRecording& calibrated, const CappedC
 PartialDecision decide_partly(const CalibratedRecording& calibrated,
                               const std::vector<Effect>& effects, std::uint64_t seed, int threads) {
   const CappedContest contest(calibrated);
-  const std::vector<CappedName> names = contest.score(effects, nullptr, threads);
+  std::vector<CappedName> names = contest.score(effects, nullptr, threads);
   if (names.empty()) return {.ranking = capped_ranking({}, 1)};
   const std::vector<ByChance> reached = contest.by_chance(names, kWorlds, seed, threads);
   PartialDecision decision = by_evidence(calibrated, contest, names, reached, effects, threads);
@@ -269,6 +280,11 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
   if (decision.claim) return decision;
   decision.claim = class_by_shares(calibrated, contest, effects, reached, threads);
   if (decision.claim) {
+    for (CappedName& name : names) {
+      for (const Claim& claim : decision.claim->claims) {
+        if (is_of(claim, name.id)) name.refused = false;
+      }
+    }
     decision.ranking = capped_ranking(names, 1 - decision.claim->claims.front().probability);
   }
   return decision;

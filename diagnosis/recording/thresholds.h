@@ -43,6 +43,9 @@ struct Thresholds {
   /// Share of the conditions that were run more than once in a recording that counts as a series
   /// repeated in rounds: chosen, the greater part.
   static constexpr double kInRounds_share = 0.5;
+  /// That days which nobody told must gain over scatter alone, one for each round of replicates:
+  /// chosen, one recording in some hundreds without days comes there.
+  static constexpr double kUntoldDays_nats = 5;
   /// That a course must gain over days and scatter: chosen above what 25 columns and kinds tried on
   /// replicates without a course reach (Course tests).
   static constexpr double kCourse_nats = 12;
@@ -77,6 +80,9 @@ struct Thresholds {
   /// .4 nats in the median, 3.5 in 99 of 100 and at most 3.6 of 235 nulls; 4.5 here named none of
   /// the weak effects that were looked at.
   static constexpr double kUnprompted_nats = 6;
+  /// Over `parameters`, so far that no calibrated soil is a clean bill, whatever name may stand:
+  /// chosen, twice the above; of 180 nulls and 120 recordings of another soil one came near (11.4).
+  static constexpr double kNoChance_nats = 12;
   /// Together the names of a claim must reach it; a class of more names says nothing.
   static constexpr double kSure = 0.9;
   static constexpr std::size_t kLargestClass = 4;

@@ -1,0 +1,50 @@
+#include "diagnosis/names/partial_claim.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace regoplan {
+namespace {
+
+double probability_in(const std::vector<ScoredCandidate>& ranking, const std::string& id) {
+  return std::ranges::find(ranking, id, &ScoredCandidate::id)->probability;
+}
+
+double whole(const std::vector<ScoredCandidate>& ranking) {
+  double sum = 0;
+  for (const ScoredCandidate& one : ranking) sum += one.probability;
+  return sum;
+}
+
+std::vector<CappedName> two_names() {
+  std::vector<CappedName> names(2);
+  names[0].id = "front_bulldozing";
+  names[0].gain_nats = 100;
+  names[1].id = "flank_friction";
+  names[1].gain_nats = 60;
+  return names;
+}
+
+TEST(CappedRanking, GivesTheBestNameWhatChanceLeaves) {
+  const auto ranking = capped_ranking(two_names(), 0.05);
+  EXPECT_NEAR(probability_in(ranking, "front_bulldozing"), 0.95, 1e-4);
+  EXPECT_NEAR(probability_in(ranking, "unexplained"), 0.05, 1e-9);
+  EXPECT_NEAR(whole(ranking), 1, 1e-9);
+}
+
+TEST(CappedRanking, WhatSomethingSpeaksAgainstWeighsNothing) {
+  std::vector<CappedName> names = two_names();
+  names[0].refused = true;
+  const auto one_left = capped_ranking(names, 0.05);
+  EXPECT_EQ(probability_in(one_left, "front_bulldozing"), 0);
+  EXPECT_NEAR(probability_in(one_left, "flank_friction"), 0.95, 1e-9);
+  EXPECT_NEAR(whole(one_left), 1, 1e-9);
+  names[1].refused = true;
+  const auto none_left = capped_ranking(names, 0.05);
+  EXPECT_EQ(probability_in(none_left, "unexplained"), 1);
+  EXPECT_NEAR(whole(none_left), 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace regoplan
