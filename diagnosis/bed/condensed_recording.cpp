@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/recording/untold_days.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
@@ -230,11 +231,6 @@ std::string course_note(const Course& course, const std::vector<ChannelNoise>& n
     }
     text += fmt::format("{} {} by {:.3g}", c == 0 ? ":" : ",", name(noise[c].channel), high - low);
   }
-  if (course.may_be_days) {
-    text +=
-        "; days that the recording does not tell, one for each round of replicates, would do as "
-        "well: a column `day` or `time_s` decides";
-  }
   return text;
 }
 
@@ -261,7 +257,7 @@ void take_off(const Course& course, const std::vector<ChannelNoise>& noise,
 
 }  // namespace
 
-ChannelData means_of(const Recording& recording, const std::vector<Condition>& conditions,
+ChannelData means_of(const std::vector<double>& day, const std::vector<Condition>& conditions,
                      const ChannelNoise& noise, const std::vector<double>& adjusted) {
   ChannelData data{.channel = noise.channel};
   struct Part {
@@ -277,7 +273,7 @@ ChannelData means_of(const Recording& recording, const std::vector<Condition>& c
       const double w = noise.weight[run];
       sum += w * adjusted[run];
       weights += w;
-      of_days.push_back({recording.runs[run].day, w});
+      of_days.push_back({day[run], w});
     }
     if (weights == 0) continue;
     for (Part& part : of_days) part.weight /= weights;
@@ -337,6 +333,14 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
                     "diagnosis needs {} and more",
                     grouped.conditions.size(), fewest));
   }
+  if (auto untold = untold_days(recording, grouped.conditions, grouped.channels, setup, stop)) {
+    result.notes.push_back(fmt::format(
+        "replicates differ by their round: {} days that the recording does not tell were assumed "
+        "({:.0f} nats over scatter alone); a column `day` or `time_s` decides",
+        untold->rounds.count, untold->gain_nats));
+    recording = std::move(untold->rounds.recording);
+  }
+  for (const WheelRun& run : recording.runs) result.day.push_back(run.day);
   result.course = course_of(recording, grouped.conditions, grouped.channels,
                             course_kinds(recording, usable, grouped, setup, stop), setup, stop);
   for (std::size_t c = 0; c < grouped.channels.size(); ++c) {
@@ -360,7 +364,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   for (std::size_t c = 0; c < result.noise.size(); ++c) {
     result.notes.push_back(noise_note(recording, result.noise[c]));
     bed.channels.push_back(
-        means_of(recording, bed.conditions, result.noise[c], result.adjusted[c]));
+        means_of(result.day, bed.conditions, result.noise[c], result.adjusted[c]));
   }
   bed.accuracy = sufficient_accuracy(bed);
   bed.stop = std::move(stop);

@@ -19,6 +19,7 @@ struct CondensedRecording {
   Eigen::MatrixXd correlation;                ///< of the noise between channels
   std::vector<std::vector<double>> adjusted;  ///< per channel, per run: at its condition's means
   std::vector<std::size_t> condition;         ///< per run; those not used: condition_count
+  std::vector<double> day;                    ///< per run: as told, or else as replicates tell it
   std::optional<Course> course;               ///< what replicates follow, if anything
   double side_sign = 1;                       ///< -1: fy_n opposes the convention and was turned
   std::vector<std::string> notes;
@@ -38,8 +39,9 @@ CondensedRecording condense(const Recording& recording, const DiagnosisSetup& se
 
 /// Means of one channel over the replicates, and their covariance: each run's own scatter, outliers
 /// weighted down, and what the runs of one day share.
+/// \param day per run
 /// \param adjusted per run: the value moved to its condition's mean load, slip and slip angle
-ChannelData means_of(const Recording& recording, const std::vector<Condition>& conditions,
+ChannelData means_of(const std::vector<double>& day, const std::vector<Condition>& conditions,
                      const ChannelNoise& noise, const std::vector<double>& adjusted);
 
 }  // namespace regoplan

@@ -142,7 +142,7 @@ CondensedRecording strays_weighed_down(const Recording& recording, CondensedReco
         noise.outliers.push_back(runs[i]);
         if (!was_out) strays += " " + recording.runs[runs[i]].run_id;
       }
-      bed.channels[c] = means_of(recording, bed.conditions, noise, adjusted);
+      bed.channels[c] = means_of(condensed.day, bed.conditions, noise, adjusted);
     }
     if (!strays.empty()) {
       condensed.notes.push_back(

@@ -92,19 +92,6 @@ double gain_nats(const ChannelContrasts& contrasts, const std::vector<std::vecto
   return gain;
 }
 
-/// Whether the recording tells when each replicate was run: a time that all replicates of a
-/// condition share belongs to the condition.
-bool tells_times_of_replicates(const Recording& recording,
-                               const std::vector<Condition>& conditions) {
-  if (!recording.columns.time) return false;
-  return std::ranges::any_of(conditions, [&](const Condition& at) {
-    return std::ranges::any_of(at.runs, [&](std::size_t run) {
-      return recording.runs[run].conditions.time_s !=
-             recording.runs[at.runs.front()].conditions.time_s;
-    });
-  });
-}
-
 }  // namespace
 
 std::optional<Course> course_of(const Recording& recording,
@@ -130,13 +117,6 @@ std::optional<Course> course_of(const Recording& recording,
       course.gain_nats = gain_nats(contrasts, course.trend);
       if (course.gain_nats > (best ? best->gain_nats : Thresholds::kCourse_nats)) best = course;
     }
-  }
-  // Time that is told leaves no days untold.
-  if (!best || !best->in_time() || tells_times_of_replicates(recording, conditions)) return best;
-  if (const auto rounds = rounds_as_days(recording, conditions)) {
-    const ChannelContrasts of_rounds =
-        contrasts_of(rounds->recording, conditions, channels, setup, stop);
-    best->may_be_days = gain_nats(of_rounds, best->trend) < Thresholds::kCourse_nats;
   }
   return best;
 }

@@ -18,14 +18,8 @@ struct Course {
   double low = 0, high = 0;                ///< what 0 and 1 stand for, in the column's unit
   std::vector<std::vector<double>> trend;  ///< per channel and run, as estimate_noise() takes it
 
-  /// Days that the recording does not tell, one for each round of replicates, would do as well.
-  bool may_be_days = false;
-
-  /// Whether it follows time, so that time can be a place: neither what the run before was nor
-  /// days.
-  bool in_time() const {
-    return column != "after_slip_ratio" && column != "after_load_n" && !may_be_days;
-  }
+  /// Whether it follows time, so that time can be a place, or what the run before was.
+  bool in_time() const { return column != "after_slip_ratio" && column != "after_load_n"; }
 };
 
 /// Changes of the model values of one channel that a course may follow, per run.

@@ -117,6 +117,7 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
         }
         if (!(score > best)) continue;
         best = score;
+        noise.log_likelihood = score;
         noise.trend = factor_of_trend;
         noise.constant = std::sqrt(s2);
         noise.proportional = p * noise.constant / rms;

@@ -28,6 +28,8 @@ struct ChannelNoise {
   std::size_t untold_days = 0;
   /// What replicates say of each step of days' differences, told or not; empty: nothing.
   std::vector<double> day_log_likelihood = {};
+  /// Restricted log likelihood of the replicates, less half a nat for each part but the constant.
+  double log_likelihood = 0;
   int degrees_of_freedom = 0;
   std::vector<double> weight;         ///< per run, in [0, 1]: below 1 for outliers
   std::vector<std::size_t> outliers;  ///< runs

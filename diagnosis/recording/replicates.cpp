@@ -39,6 +39,17 @@ Replicates replicates_of(const std::vector<Condition>& conditions,
   return all;
 }
 
+bool tells_times_of_replicates(const Recording& recording,
+                               const std::vector<Condition>& conditions) {
+  if (!recording.columns.time) return false;
+  return std::ranges::any_of(conditions, [&](const Condition& at) {
+    return std::ranges::any_of(at.runs, [&](std::size_t run) {
+      return recording.runs[run].conditions.time_s !=
+             recording.runs[at.runs.front()].conditions.time_s;
+    });
+  });
+}
+
 std::optional<Rounds> rounds_as_days(const Recording& recording,
                                      const std::vector<Condition>& conditions) {
   const std::vector<WheelRun>& runs = recording.runs;

@@ -18,6 +18,11 @@ struct Replicates {
 Replicates replicates_of(const std::vector<Condition>& conditions,
                          const std::vector<double>& value);
 
+/// Whether the recording tells when each replicate was run: a time that all replicates of a
+/// condition share belongs to the condition.
+bool tells_times_of_replicates(const Recording& recording,
+                               const std::vector<Condition>& conditions);
+
 /// A recording with a day for each round of its replicates.
 struct Rounds {
   Recording recording;
