@@ -237,7 +237,7 @@ class Diagnosing {
     for (const ScoredId& s : scored_) {
       if (s.fit.candidate.effects.size() != 1) continue;
       const std::string& id = s.fit.candidate.effects.front().id;
-      if (id == claim.id || std::ranges::count(claim.equivalent, id) > 0) {
+      if (claim.is_of(id)) {
         claimed = std::max(claimed, s.score);
       } else if (has_one_form(s.fit.candidate.effects.front()) &&
                  (fault == nullptr || s.score > fault->score)) {

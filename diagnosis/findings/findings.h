@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -48,6 +49,11 @@ struct Claim {
   double evidence_nats = 0;             ///< over the best score without it
   std::optional<Share> share;  ///< that it adds to those before it, where there is an excess
   std::map<std::string, Share> member_shares;  ///< of a class: what each id explains in its place
+
+  /// Whether `name` is among the ids that may be at work.
+  bool is_of(const std::string& name) const {
+    return name == id || std::ranges::find(equivalent, name) != equivalent.end();
+  }
 };
 
 /// What the tests say of the calibrated model without any effect.

@@ -157,9 +157,8 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
   while (claim.claims.size() < kMostNames) {
     std::vector<Effect> further = effects;
     std::erase_if(further, [&](const Effect& e) {
-      return is_instrument(e.id) || std::ranges::any_of(claim.claims, [&](const Claim& c) {
-               return c.id == e.id || std::ranges::find(c.equivalent, e.id) != c.equivalent.end();
-             });
+      return is_instrument(e.id) ||
+             std::ranges::any_of(claim.claims, [&](const Claim& c) { return c.is_of(e.id); });
     });
     const auto names = contest.score(further, &claim.fit, threads);
     if (names.empty()) return;
@@ -199,10 +198,6 @@ void add_evidence(const CappedContest& contest, int threads, PartialClaim& claim
     claim.claims[k].evidence_nats = gain - before;
     before = gain;
   }
-}
-
-bool is_of(const Claim& claim, const std::string& id) {
-  return claim.id == id || std::ranges::find(claim.equivalent, id) != claim.equivalent.end();
 }
 
 /// A class where no name stands by its evidence.
@@ -282,7 +277,7 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
   if (decision.claim) {
     for (CappedName& name : names) {
       for (const Claim& claim : decision.claim->claims) {
-        if (is_of(claim, name.id)) name.refused = false;
+        if (claim.is_of(name.id)) name.refused = false;
       }
     }
     decision.ranking = capped_ranking(names, 1 - decision.claim->claims.front().probability);
