@@ -125,15 +125,15 @@ class EffectList {
       push({.id = "sensor_bias",
             .form = std::string(name(bed_.channels[c].channel)),
             .kind = EffectKind::kBias,
-            .coordinates = {{.name = "bias",
-                             .spread = std::max(0.1 * rms, 3 * bed_.channels[c].scale)}},
+            .coordinates = {bias_of(c)},
             .to = c});
       push({.id = "sensor_gain",
             .form = std::string(name(bed_.channels[c].channel)),
             .kind = EffectKind::kGain,
-            .coordinates = {{.name = "gain", .spread = 0.1}},
+            .coordinates = {gain()},
             .to = c});
-      add_changing_gains({c});
+      add_changing("sensor_bias", {c});
+      add_changing("sensor_gain", {c});
       for (std::size_t k = 0; k < bed_.channels.size(); ++k) {
         if (k == c || !crosses(bed_.channels[c].channel) || !crosses(bed_.channels[k].channel)) {
           continue;
@@ -155,7 +155,7 @@ class EffectList {
       const Channel channel = bed_.channels[c].channel;
       if (channel == Channel::kFx || channel == Channel::kFy) forces.push_back(c);
     }
-    if (forces.size() > 1) add_changing_gains(forces);
+    if (forces.size() > 1) add_changing("sensor_gain", forces);
   }
 
   std::vector<Effect> take() { return std::move(effects_); }
@@ -165,6 +165,12 @@ class EffectList {
   double arm(std::size_t c) const {
     return bed_.channels[c].channel == Channel::kTorque ? bed_.setup.wheel.radius_m : 1;
   }
+
+  Coordinate bias_of(std::size_t c) const {
+    return {.name = "bias", .spread = std::max(0.1 * signal(c), 3 * bed_.channels[c].scale)};
+  }
+
+  static Coordinate gain() { return {.name = "gain", .spread = 0.1}; }
 
   static bool crosses(Channel channel) {
     return channel == Channel::kFx || channel == Channel::kFy || channel == Channel::kTorque;
@@ -177,25 +183,26 @@ class EffectList {
     return std::nullopt;
   }
 
-  /// A gain of these channels that settles or drifts, where the recording tells the time.
-  void add_changing_gains(const std::vector<std::size_t>& channels) {
+  /// A bias or gain of these channels that settles or drifts, where the recording tells the time.
+  void add_changing(const std::string& id, const std::vector<std::size_t>& channels) {
     if (!columns_.time || columns_.difference) return;
     const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
-    Effect effect{.id = "sensor_gain",
-                  .kind = EffectKind::kGain,
-                  .coordinates = {{.name = "gain", .spread = 0.1}},
+    const bool bias = id == "sensor_bias";
+    Effect effect{.id = id,
+                  .kind = bias ? EffectKind::kBias : EffectKind::kGain,
+                  .coordinates = {bias ? bias_of(channels.front()) : gain()},
                   .fixed = {{"first_time_s", time.low}, {"last_time_s", time.high}},
                   .to = channels.front(),
                   .also = {channels.begin() + 1, channels.end()}};
     std::string names;
     for (const std::size_t c : channels) names += " " + std::string(name(bed_.channels[c].channel));
     effect.form = "drifting" + names;
-    effect.course = GainCourse::kDrifting;
+    effect.course = FaultCourse::kDrifting;
     push(effect);
     effect.form = "settling" + names;
-    effect.course = GainCourse::kSettling;
+    effect.course = FaultCourse::kSettling;
     effect.coordinates.push_back(positive("settling_time_s", 0.05 * time.width(), time.width()));
-    // Without a gain, the time in which it settles would change nothing.
+    // Without a fault, the time in which it settles would change nothing.
     effect.start = {0.5, 0};
     effects_.push_back(effect);
   }
@@ -215,25 +222,60 @@ class EffectList {
   std::vector<Effect> effects_;
 };
 
-/// Multiplies one channel by what an effect's gain is at the time of each condition.
+/// What is there of an instrument's fault at the time of each condition of a channel.
 /// \param x the effect's coordinates
-void apply_gain(const TestBed& bed, const Effect& effect, std::size_t channel,
-                const Eigen::VectorXd& x, Eigen::VectorXd& values) {
-  const double gain = effect.coordinates.front().value(x[0]);
+Eigen::ArrayXd course_of(const TestBed& bed, const Effect& effect, std::size_t channel,
+                         const Eigen::VectorXd& x) {
   const ChannelData& data = bed.channels[channel];
-  auto to = values.segment(bed.offset(channel), data.mean.size());
-  if (effect.course == GainCourse::kConstant) {
-    to *= 1 + gain;
-    return;
-  }
+  Eigen::ArrayXd course = Eigen::ArrayXd::Ones(data.mean.size());
+  if (effect.course == FaultCourse::kConstant) return course;
   const double first = effect.fixed.at("first_time_s"), last = effect.fixed.at("last_time_s");
-  for (Eigen::Index i = 0; i < to.size(); ++i) {
+  for (Eigen::Index i = 0; i < course.size(); ++i) {
     const std::size_t at = data.conditions[static_cast<std::size_t>(i)];
     const double passed = bed.conditions[at].conditions.time_s - first;
-    const double share = effect.course == GainCourse::kDrifting
-                             ? passed / (last - first)
-                             : std::exp(-passed / effect.coordinates[1].value(x[1]));
-    to[i] *= 1 + gain * share;
+    course[i] = effect.course == FaultCourse::kDrifting
+                    ? passed / (last - first)
+                    : std::exp(-passed / effect.coordinates[1].value(x[1]));
+  }
+  return course;
+}
+
+/// Adds a share of one channel to another. Both stand at their conditions; what lacks the other's
+/// value stays as it is.
+void leak(const TestBed& bed, const Effect& effect, double share, Eigen::VectorXd& values) {
+  const ChannelData& source = bed.channels[effect.from];
+  const ChannelData& sink = bed.channels[effect.to];
+  const Eigen::VectorXd from = values.segment(bed.offset(effect.from), source.mean.size());
+  auto to = values.segment(bed.offset(effect.to), sink.mean.size());
+  Eigen::Index k = 0;
+  for (Eigen::Index i = 0; i < to.size(); ++i) {
+    const std::size_t at = sink.conditions[static_cast<std::size_t>(i)];
+    while (k < from.size() && source.conditions[static_cast<std::size_t>(k)] < at) ++k;
+    if (k < from.size() && source.conditions[static_cast<std::size_t>(k)] == at) {
+      to[i] += share * from[k];
+    }
+  }
+}
+
+/// What an instrument's fault makes of the model's values.
+/// \param x the effect's coordinates
+void apply_fault(const TestBed& bed, const Effect& effect, const Eigen::VectorXd& x,
+                 Eigen::VectorXd& values) {
+  const double amount = effect.coordinates.front().value(x[0]);
+  if (effect.kind == EffectKind::kCrosstalk) {
+    leak(bed, effect, amount, values);
+    return;
+  }
+  std::vector<std::size_t> channels = effect.also;
+  channels.push_back(effect.to);
+  for (const std::size_t c : channels) {
+    auto to = values.segment(bed.offset(c), bed.channels[c].mean.size()).array();
+    const Eigen::ArrayXd now = amount * course_of(bed, effect, c, x);
+    if (effect.kind == EffectKind::kBias) {
+      to += now;
+    } else {
+      to *= 1 + now;
+    }
   }
 }
 
@@ -313,12 +355,12 @@ bool is_instrument(const std::string& id) {
 }
 
 bool has_one_form(const Effect& effect) {
-  if (effect.course != GainCourse::kConstant) return false;
+  if (effect.course != FaultCourse::kConstant) return false;
   return effect.id.starts_with("sensor_") || effect.id == "slip_scale" || effect.id == "slope_tilt";
 }
 
 bool is_told_by_time(const Effect& effect) {
-  return effect.id == "cohesion_drift" || effect.course != GainCourse::kConstant;
+  return effect.id == "cohesion_drift" || effect.course != FaultCourse::kConstant;
 }
 
 std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, EffectsOf of) {
@@ -372,7 +414,6 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const std::vector<Soi
                                        const Hypothesis& candidate, const Eigen::VectorXd& x) {
   std::vector<Mechanism> mechanisms;
   auto next = static_cast<Eigen::Index>(soil.size());
-  std::vector<double> faults;
   for (const Effect& effect : candidate.effects) {
     const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
     if (effect.kind == EffectKind::kMechanism) {
@@ -386,28 +427,7 @@ std::optional<Eigen::VectorXd> predict(const TestBed& bed, const std::vector<Soi
   for (const Effect& effect : candidate.effects) {
     const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
     if (effect.kind != EffectKind::kMechanism) {
-      const double amount = effect.coordinates.front().value(x[next]);
-      auto to = values->segment(bed.offset(effect.to), bed.channels[effect.to].mean.size());
-      if (effect.kind == EffectKind::kBias) to.array() += amount;
-      if (effect.kind == EffectKind::kGain) {
-        apply_gain(bed, effect, effect.to, x.segment(next, size), *values);
-        for (const std::size_t c : effect.also) {
-          apply_gain(bed, effect, c, x.segment(next, size), *values);
-        }
-      }
-      if (effect.kind == EffectKind::kCrosstalk) {
-        // both channels stand at their conditions; one that lacks the other's value stays as it is
-        const ChannelData& source = bed.channels[effect.from];
-        const Eigen::VectorXd from = values->segment(bed.offset(effect.from), source.mean.size());
-        Eigen::Index k = 0;
-        for (Eigen::Index i = 0; i < to.size(); ++i) {
-          const std::size_t at = bed.channels[effect.to].conditions[static_cast<std::size_t>(i)];
-          while (k < from.size() && source.conditions[static_cast<std::size_t>(k)] < at) ++k;
-          if (k < from.size() && source.conditions[static_cast<std::size_t>(k)] == at) {
-            to[i] += amount * from[k];
-          }
-        }
-      }
+      apply_fault(bed, effect, x.segment(next, size), *values);
     }
     next += size;
   }

@@ -46,11 +46,11 @@ double maximum_stress_pull(const std::vector<SoilCoordinate>& coordinates,
 
 enum class EffectKind { kMechanism, kBias, kGain, kCrosstalk };
 
-/// How a gain changes in time, t from 0 at the first condition to 1 at the last.
-enum class GainCourse {
-  kConstant,  ///< gain
-  kSettling,  ///< gain exp(-(time - first time)/settling_time_s): an amplifier that warms up
-  kDrifting,  ///< gain t
+/// What is there of an instrument's bias or gain, t from 0 at the first condition to 1 at the last.
+enum class FaultCourse {
+  kConstant,  ///< 1
+  kSettling,  ///< exp(-(time - first time)/settling_time_s): an amplifier that warms up
+  kDrifting,  ///< t
 };
 
 /// One form of one thing that may be wrong: a mechanism of the wheel or a fault of an instrument.
@@ -61,8 +61,8 @@ struct Effect {
   std::vector<Coordinate> coordinates;
   std::map<std::string, double> fixed;
   std::size_t to = 0, from = 0;   ///< instruments: index into TestBed::channels
-  std::vector<std::size_t> also;  ///< further channels that the same gain acts on
-  GainCourse course = GainCourse::kConstant;
+  std::vector<std::size_t> also;  ///< further channels that the same fault acts on
+  FaultCourse course = FaultCourse::kConstant;
   std::vector<double> start;  ///< x to start a fit from
   /// Its last coordinate is a factor on kx and ky of the soil: the modulus of another shear law is
   /// not the one that soil tests state.

@@ -153,12 +153,14 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
     if (claimed.size() < 2) return claimed;
     const auto idle = idle_effect(claimed);
     if (!idle) return claimed;
-    notes_.push_back(fmt::format(
-        "{} and {} score best together, but on held-out conditions {} adds {:.1f} standard "
-        "errors only: the pair is given up",
-        claimed[0].ids.front(), claimed[1].ids.front(), claimed[idle->effect].ids.front(),
-        idle->gain));
     const ScoredId idle_pair = *best_of(scored_, claimed);
+    const ScoredId* alone = likeliest_single(scored_, claimed[1 - idle->effect]);
+    notes_.push_back(fmt::format(
+        "{} and {} score best together, by {:.1f} nats, but on held-out conditions {} adds {:.1f} "
+        "standard errors only: the pair is given up",
+        claimed[0].ids.front(), claimed[1].ids.front(),
+        idle_pair.score - (alone ? alone->score : 0), claimed[idle->effect].ids.front(),
+        idle->gain));
     for (ScoredId& s : scored_) {
       if (s.account.effects.size() < 2) continue;
       const bool less_likely = s.score < idle_pair.score - Thresholds::kAsGood_nats;

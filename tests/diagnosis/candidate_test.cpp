@@ -81,47 +81,98 @@ TEST(Hypothesis, OfATorqueAsMuchMayLeakIntoAForceAsOfItsForceAtTheRim) {
   EXPECT_NEAR(spread_of("fx_n into torque_nm") / setup.wheel.radius_m, 0.08, 0.03);
 }
 
-const Effect& changing_gain(const std::vector<Effect>& effects, const std::string& form) {
-  return *std::ranges::find_if(
-      effects, [&](const Effect& e) { return e.id == "sensor_gain" && e.form == form; });
-}
-
-TEST(Hypothesis, AGainMayChangeInTimeWhereTheRecordingTellsTimes) {
-  const DiagnosisSetup setup = simulant_setup();
+/// A recording of one day whose runs are ten minutes apart.
+Recording timed(const DiagnosisSetup& setup) {
   Recording recording = record({}, setup, setup.soil.mean, {.conditions = 12}, 1);
-  const auto changes = [](const Effect& e) { return e.course != GainCourse::kConstant; };
-  for (WheelRun& run : recording.runs) run.day = 0;
-  EXPECT_TRUE(
-      std::ranges::none_of(effects_for(condense(recording, setup).bed, recording), changes));
-
   recording.columns.time = true;
   for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    recording.runs[i].day = 0;
     recording.runs[i].conditions.time_s = 600 * static_cast<double>(i);
   }
+  return recording;
+}
+
+/// What a fault makes of each model value, beside that value and the time passed as a share of all.
+struct FaultyValue {
+  double before, after, passed;
+};
+
+std::vector<FaultyValue> faulty_values(const TestBed& bed, const Effect& effect, std::size_t c) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect.start.size()));
+  x[0] = 2;
+  const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
+  const Eigen::VectorXd after = *predict(bed, {}, {{effect}}, x);
+  const double first = effect.fixed.at("first_time_s"), last = effect.fixed.at("last_time_s");
+  std::vector<FaultyValue> values;
+  for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
+    const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
+    const double time_s = bed.conditions[bed.channels[c].conditions[i]].conditions.time_s;
+    values.push_back({before[row], after[row], (time_s - first) / (last - first)});
+  }
+  return values;
+}
+
+const Effect& fault(const std::vector<Effect>& effects, const std::string& id,
+                    const std::string& form) {
+  return *std::ranges::find_if(effects,
+                               [&](const Effect& e) { return e.id == id && e.form == form; });
+}
+
+TEST(Hypothesis, NoFaultChangesInTimeWhereTheRecordingTellsNone) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = timed(setup);
+  recording.columns.time = false;
+  for (WheelRun& run : recording.runs) run.conditions.time_s = 0;
+  const auto changes = [](const Effect& e) { return e.course != FaultCourse::kConstant; };
+  EXPECT_TRUE(
+      std::ranges::none_of(effects_for(condense(recording, setup).bed, recording), changes));
+}
+
+TEST(Hypothesis, AGainThatSettlesIsLargestAtFirst) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = timed(setup);
   const TestBed bed = condense(recording, setup).bed;
   const auto effects = effects_for(bed, recording);
-  const Effect& settling = changing_gain(effects, "settling fx_n fy_n");
-  const Effect& drifting = changing_gain(effects, "drifting torque_nm");
-  for (const Effect* effect : {&settling, &drifting}) {
-    Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(effect->start.size()));
-    x[0] = 2;  // a gain of 0.2
-    const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
-    const Eigen::VectorXd after = *predict(bed, {}, {{*effect}}, x);
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      const bool acts = c == effect->to || std::ranges::count(effect->also, c) > 0;
-      for (std::size_t i = 0; i < bed.channels[c].conditions.size(); ++i) {
-        const Eigen::Index row = bed.offset(c) + static_cast<Eigen::Index>(i);
-        const double passed = bed.conditions[bed.channels[c].conditions[i]].conditions.time_s -
-                              effect->fixed.at("first_time_s");
-        const double width = effect->fixed.at("last_time_s") - effect->fixed.at("first_time_s");
-        const double share = effect == &drifting
-                                 ? passed / width
-                                 : std::exp(-passed / effect->coordinates[1].value(0));
-        EXPECT_NEAR(after[row], before[row] * (acts ? 1 + 0.2 * share : 1), 1e-9);
-      }
+  const Effect& settling = fault(effects, "sensor_gain", "settling fx_n fy_n");
+  const double width = settling.fixed.at("last_time_s") - settling.fixed.at("first_time_s");
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const bool acts = c == settling.to || std::ranges::count(settling.also, c) > 0;
+    for (const FaultyValue& v : faulty_values(bed, settling, c)) {
+      const double share = std::exp(-v.passed * width / settling.coordinates[1].value(0));
+      EXPECT_NEAR(v.after, v.before * (acts ? 1 + 0.2 * share : 1), 1e-9);
     }
   }
   EXPECT_TRUE(is_told_by_time(settling));
+  EXPECT_FALSE(has_one_form(settling));
+}
+
+TEST(Hypothesis, AGainThatDriftsIsLargestAtLast) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = timed(setup);
+  const TestBed bed = condense(recording, setup).bed;
+  const auto effects = effects_for(bed, recording);
+  const Effect& drifting = fault(effects, "sensor_gain", "drifting torque_nm");
+  for (const FaultyValue& v : faulty_values(bed, drifting, drifting.to)) {
+    EXPECT_NEAR(v.after, v.before * (1 + 0.2 * v.passed), 1e-9);
+  }
+}
+
+TEST(Hypothesis, AZeroThatSettlesOrDriftsIsAddedWhateverIsMeasured) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = timed(setup);
+  const TestBed bed = condense(recording, setup).bed;
+  const auto effects = effects_for(bed, recording);
+  const Effect& settling = fault(effects, "sensor_bias", "settling fy_n");
+  const Effect& drifting = fault(effects, "sensor_bias", "drifting fy_n");
+  const double width = settling.fixed.at("last_time_s") - settling.fixed.at("first_time_s");
+  const double bias = 2 * settling.coordinates.front().spread;
+  for (const FaultyValue& v : faulty_values(bed, settling, settling.to)) {
+    const double share = std::exp(-v.passed * width / settling.coordinates[1].value(0));
+    EXPECT_NEAR(v.after - v.before, bias * share, 1e-9);
+  }
+  for (const FaultyValue& v : faulty_values(bed, drifting, drifting.to)) {
+    EXPECT_NEAR(v.after - v.before, bias * v.passed, 1e-9);
+  }
   EXPECT_FALSE(has_one_form(settling));
 }
 
