@@ -154,13 +154,11 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
     const auto idle = idle_effect(claimed);
     if (!idle) return claimed;
     const ScoredId idle_pair = *best_of(scored_, claimed);
-    const ScoredId* alone = likeliest_single(scored_, claimed[1 - idle->effect]);
     notes_.push_back(fmt::format(
         "{} and {} score best together, by {:.1f} nats, but on held-out conditions {} adds {:.1f} "
         "standard errors only: the pair is given up",
-        claimed[0].ids.front(), claimed[1].ids.front(),
-        idle_pair.score - (alone ? alone->score : 0), claimed[idle->effect].ids.front(),
-        idle->gain));
+        claimed[0].ids.front(), claimed[1].ids.front(), idle->over_one_nats,
+        claimed[idle->effect].ids.front(), idle->gain));
     for (ScoredId& s : scored_) {
       if (s.account.effects.size() < 2) continue;
       const bool less_likely = s.score < idle_pair.score - Thresholds::kAsGood_nats;
@@ -237,7 +235,9 @@ bool NameContest::another_holds(const std::vector<NameClass>& refuted,
   return false;
 }
 
-/// The effect of a pair without which held-out conditions are predicted as well.
+/// The effect of a pair without which held-out conditions are predicted as well, unless the whole
+/// recording says so clearly that it is there that it only must not spoil them: a remainder beside
+/// the other name may predict there what it does.
 std::optional<NameContest::IdleEffect> NameContest::idle_effect(
     const std::vector<NameClass>& claimed) const {
   const ScoredId* pair = best_of(scored_, claimed);
@@ -259,8 +259,12 @@ std::optional<NameContest::IdleEffect> NameContest::idle_effect(
     }
   }
   const std::size_t least = gain[0] < gain[1] ? 0 : 1;
-  if (is_borne_out(claimed[1].probability, gain[least])) return std::nullopt;
-  return IdleEffect{least, gain[least]};
+  const ScoredId* alone = likeliest_single(scored_, claimed[1 - least]);
+  const double over_one_nats = alone == nullptr ? 0 : pair->score - alone->score;
+  const bool clear = over_one_nats > Thresholds::kClearSecond_nats &&
+                     gain[least] > -Thresholds::kLeastOfOne_errors;
+  if (clear || is_borne_out(claimed[1].probability, gain[least])) return std::nullopt;
+  return IdleEffect{least, gain[least], over_one_nats};
 }
 
 }  // namespace regoplan

@@ -44,7 +44,8 @@ class NameContest {
  private:
   struct IdleEffect {
     std::size_t effect = 0;
-    double gain = 0;  // standard errors
+    double gain = 0;           // standard errors
+    double over_one_nats = 0;  // what the pair scores over the other effect alone
   };
 
   std::vector<NameClass> proven_one_by_one();

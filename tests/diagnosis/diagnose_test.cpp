@@ -52,6 +52,15 @@ TEST(Diagnose, WrongSoilNumbersAreParameters) {
   EXPECT_EQ(found.verdict, Verdict::kParameters) << found.sentence;
 }
 
+TEST(Diagnose, ASoilFartherFromItsTestsThanSoilsLieIsNoCleanBill) {
+  const DiagnosisSetup setup = simulant_setup();
+  Soil soil = setup.soil.mean;
+  soil.friction_angle_rad -= 9 * setup.soil.standard_deviation.friction_angle_rad;
+  const Diagnosis found = diagnose(record({}, setup, soil, {}, 3), setup);
+  EXPECT_NE(found.verdict, Verdict::kParameters) << found.sentence;
+  EXPECT_NE(found.verdict, Verdict::kConsistent) << found.sentence;
+}
+
 TEST(Diagnose, SinkageThatGrowsWithSlipIsNamedInAFormTheToolDoesNotCarry) {
   const Diagnosis found = diagnosed(digging_by_slip(), 4);
   EXPECT_TRUE(names(found, "slip_sinkage")) << found.sentence;
