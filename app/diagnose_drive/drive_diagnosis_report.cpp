@@ -25,10 +25,11 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
     return fmt::format("Consistent: in {} nothing is otherwise than the model has it.", of);
   }
   std::vector<std::string> names;
-  for (const DriveClaim& claim : diagnosis.claims) names.push_back(claim.id);
-  return fmt::format("{} in {}: {}.",
-                     diagnosis.verdict == DriveVerdict::kClass ? "Told as a class" : "Named", of,
-                     fmt::join(names, ", "));
+  for (const DriveClaim& claim : diagnosis.claims) {
+    const bool alone = claim.equivalent.size() < 2;
+    names.push_back(alone ? claim.id : fmt::format("{}", fmt::join(claim.equivalent, " or ")));
+  }
+  return fmt::format("Found in {}: {}.", of, fmt::join(names, "; "));
 }
 
 std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis) {
