@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive_diagnosis/position_lag.h"
 #include "drive_diagnosis/swapped_sides.h"
 #include "drive_diagnosis/time_checks.h"
 #include "terramech/basics/angles.h"
@@ -297,6 +298,7 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
       tell_torques(setup.uncertain.motor_constant->value, drives[i]);
     }
     mend_positions(drives[i], speed_max_mps);
+    mend_position_lag(drives[i]);
     std::vector<DriveWindow> windows =
         drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0);
     if (windows.empty()) {
@@ -306,14 +308,6 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
            .text =
                fmt::format("{} samples, none of them {:.0f} s without a gap: nothing to compare",
                            drives[i].size(), setup.window_s)});
-    }
-    if (const auto lag_s = position_lag_s(drives[i])) {
-      drives[i].findings.push_back(
-          {.id = "lag",
-           .drive = drives[i].drive_id,
-           .text = fmt::format("positions come {:.1f} s after the wheel speeds", *lag_s),
-           .value = *lag_s,
-           .unit = "s"});
     }
     std::ranges::move(windows, std::back_inserter(result.windows));
     std::ranges::copy(drives[i].findings, std::back_inserter(result.findings));

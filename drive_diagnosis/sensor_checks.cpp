@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
 #include <span>
 
 #include "drive_diagnosis/robust_statistics.h"
@@ -234,45 +232,6 @@ void Checker::check_current_sides() {
        turning.r(), "", true);
 }
 
-/// Speeds every tenth of a second, NaN where unknown.
-std::vector<double> track_speeds(const DriveRecording& drive, double step_s, std::size_t count) {
-  std::vector<double> speeds(count, kNotSampled);
-  std::optional<std::size_t> last;
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    if (std::isnan(drive.x_m[i])) continue;
-    if (last) {
-      const double dt_s = drive.time_s[i] - drive.time_s[*last];
-      const double speed =
-          std::hypot(drive.x_m[i] - drive.x_m[*last], drive.y_m[i] - drive.y_m[*last]) / dt_s;
-      for (auto k = static_cast<std::size_t>((drive.time_s[*last] - drive.time_s[0]) / step_s);
-           k <
-           std::min(count, static_cast<std::size_t>((drive.time_s[i] - drive.time_s[0]) / step_s));
-           ++k) {
-        if (dt_s <= 2) speeds[k] = speed;
-      }
-    }
-    last = i;
-  }
-  return speeds;
-}
-
-std::vector<double> wheel_speeds(const DriveRecording& drive, double step_s, std::size_t count) {
-  std::vector<double> speeds(count, kNotSampled);
-  const auto wheels = channels_of(drive, "wheel_speed_");
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    double sum = 0;
-    int n = 0;
-    for (const DriveChannel* wheel : wheels) {
-      if (std::isnan(wheel->values[i])) continue;
-      sum += std::abs(static_cast<double>(wheel->values[i]));
-      ++n;
-    }
-    const auto k = static_cast<std::size_t>((drive.time_s[i] - drive.time_s[0]) / step_s);
-    if (n > 0 && k < count) speeds[k] = sum / n;
-  }
-  return speeds;
-}
-
 }  // namespace
 
 double side_mean(const DriveRecording& drive, const DriveWindow& window, std::string_view quantity,
@@ -295,49 +254,6 @@ double side_mean(const DriveRecording& drive, const DriveWindow& window, std::st
 SensorChecks check_sensors(const std::vector<DriveRecording>& drives,
                            const std::vector<DriveWindow>& windows, const SideGeometry& sides) {
   return Checker(drives, windows, sides).check();
-}
-
-/// Whether wheel speeds are sampled often enough to place a position in time: held values do not.
-static bool wheels_are_fresh(const DriveRecording& drive) {
-  std::size_t changes = 0, steps = 0;
-  for (const DriveChannel* wheel : channels_of(drive, "wheel_speed_")) {
-    for (std::size_t i = 1; i < wheel->values.size(); ++i) {
-      if (std::isnan(wheel->values[i]) || wheel->values[i] == 0) continue;
-      ++steps;
-      changes += wheel->values[i] != wheel->values[i - 1];
-    }
-  }
-  return 2 * changes > steps;
-}
-
-std::optional<double> position_lag_s(const DriveRecording& drive) {
-  constexpr double kStep_s = 0.1, kReach_s = 3;
-  if (drive.size() < 100 || !wheels_are_fresh(drive)) return {};
-  const double duration_s = drive.time_s.back() - drive.time_s.front();
-  if (duration_s > 1e5) return {};
-  const auto count = static_cast<std::size_t>(duration_s / kStep_s) + 1;
-  const std::vector<double> track = track_speeds(drive, kStep_s, count);
-  const std::vector<double> wheels = wheel_speeds(drive, kStep_s, count);
-  const auto reach = static_cast<std::ptrdiff_t>(kReach_s / kStep_s);
-  double best = 0, at_zero = 0, best_lag_s = 0;
-  for (std::ptrdiff_t lag = -reach; lag <= reach; ++lag) {
-    Pairs pairs;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(k) - lag;
-      if (from < 0 || from >= static_cast<std::ptrdiff_t>(count)) continue;
-      pairs.add(wheels[static_cast<std::size_t>(from)], track[k]);
-    }
-    if (pairs.a.size() < 100) continue;
-    const double r = pairs.r();
-    if (lag == 0) at_zero = r;
-    if (r > best) {
-      best = r;
-      best_lag_s = static_cast<double>(lag) * kStep_s;
-    }
-  }
-  constexpr double kLeast_s = 0.25;
-  if (best < 0.8 || std::abs(best_lag_s) < kLeast_s || 1 - at_zero < 2 * (1 - best)) return {};
-  return best_lag_s;
 }
 
 }  // namespace regoplan

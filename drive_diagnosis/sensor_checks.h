@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,10 +30,6 @@ struct SensorChecks {
 /// km/h), wheel speeds and currents of the sides against the turning.
 SensorChecks check_sensors(const std::vector<DriveRecording>& drives,
                            const std::vector<DriveWindow>& windows, const SideGeometry& sides);
-
-/// How long positions come after the wheel speeds that made them, by their correlation; nothing
-/// where the drive does not show it.
-std::optional<double> position_lag_s(const DriveRecording& drive);
 
 /// The mean over the wheels of a side of a quantity, `wheel_speed`, `current`, `torque`; NaN where
 /// there is none.
