@@ -177,18 +177,27 @@ DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveR
       .p_value = 1e-3 * std::exp((finding.chance - finding.gain) / 2)};
 }
 
-std::string zone_text(const SoilZoneFound& zone, const TerrainMap& map, const std::string& where) {
+std::string resistance_text(const VehicleFinding& finding) {
+  const DriveEstimate& resistance = finding.zone->resistance;
+  const double low = 100 * (resistance.value - kTwoSided95 * resistance.std);
+  const double high = 100 * (resistance.value + kTwoSided95 * resistance.std);
+  const bool open = low < 0 && high > 0;
+  return fmt::format("{} {:.1f} % of its load {} to roll there (95 %: {:.1f} to {:.1f}{})",
+                     open ? "a wheel may take" : "a wheel takes", 100 * std::abs(resistance.value),
+                     resistance.value < 0 ? "less" : "more", low, high,
+                     open ? ", so that by this number alone it may be none" : "");
+}
+
+std::string zone_text(const VehicleFinding& finding, const TerrainMap& map,
+                      const std::string& where) {
+  const SoilZoneFound& zone = *finding.zone;
   const std::vector<MapSoil>& soils = map.soils();
   const std::string& said = soils[static_cast<std::size_t>(zone.soil)].name;
-  const auto percent = [&zone](double deviations) {
-    return 100 * (zone.resistance.value + deviations * zone.resistance.std);
-  };
-  const std::string resistance =
-      fmt::format("a wheel takes {:.1f} % of its load more to roll there (95 %: {:.1f} to {:.1f})",
-                  percent(0), percent(-kTwoSided95), percent(kTwoSided95));
-  if (!zone.like) return fmt::format("other soil than {} in {}: {}", said, where, resistance);
-  return fmt::format("{} in place of {} in {}: {}",
-                     soils[static_cast<std::size_t>(*zone.like)].name, said, where, resistance);
+  const std::string what =
+      zone.like ? fmt::format("{} in place of", soils[static_cast<std::size_t>(*zone.like)].name)
+                : "other soil than";
+  return fmt::format("{} {} in {}, {:.1f} standard deviations from nothing; {}", what, said, where,
+                     finding.sigmas, resistance_text(finding));
 }
 
 void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
@@ -210,7 +219,7 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
         claim.equivalent.emplace_back("zone_border");
       }
       DriveMismatch where = mismatch_of(result, drives, finding);
-      claim.text = zone_text(*finding.zone, setup.map, where.where);
+      claim.text = zone_text(finding, setup.map, where.where);
       result.where.push_back(std::move(where));
     }
     result.claims.push_back(std::move(claim));
