@@ -53,7 +53,7 @@ def truth(chance, with_zone):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("program")
+    parser.add_argument("program", type=lambda program: Path(program).resolve())
     parser.add_argument("first", type=int)
     parser.add_argument("last", type=int)
     parser.add_argument("--zone", action="store_true")
