@@ -137,7 +137,7 @@ std::optional<double> position_lag_s(const DriveRecording& drive) {
   }
   // The body follows its wheels by some tenths of a second. Chosen above what 60 drives without a
   // lag show: 28 nats and a factor of 1.3 at most.
-  constexpr double kLeast_s = 0.75, kLeast_nats = 50, kLeastFactor = 2;
+  constexpr double kLeast_s = 0.5, kLeast_nats = 50, kLeastFactor = 2;
   const double gain_nats = static_cast<double>(legs.size()) / 2 * std::log(at_zero / least);
   const bool clear = gain_nats > kLeast_nats && at_zero > kLeastFactor * least;
   if (!clear || std::abs(lag_s) < kLeast_s) return {};

@@ -8,7 +8,7 @@ namespace regoplan {
 
 /// How long positions come after the wheel speeds that made them, within 3 s: the shift at which
 /// the ways between positions a second apart are what the wheels rolled, but for one factor.
-/// Nothing where the drive does not show it clearly, or less than .75 s: a body follows its wheels
+/// Nothing where the drive does not show it clearly, or less than .5 s: a body follows its wheels
 /// by some tenths of a second. Accuracy .2 s (test PositionLag).
 std::optional<double> position_lag_s(const DriveRecording& drive);
 

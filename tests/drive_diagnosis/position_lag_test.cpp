@@ -11,7 +11,7 @@
 namespace regoplan {
 namespace {
 
-constexpr double kStep_s = 0.1;
+constexpr double kSample_s = 0.1;
 
 /// Where a vehicle is that speeds up and slows down along a bend.
 struct Way {
@@ -22,10 +22,10 @@ Way way_of(double change_mps) {
   Way way;
   double x = 0, y = 0;
   for (int i = 0; i < 3000; ++i) {
-    const double t = i * kStep_s, yaw = 0.5 * std::sin(t / 40);
+    const double t = i * kSample_s, yaw = 0.5 * std::sin(t / 40);
     const double speed = 1 + change_mps * std::sin(t / 4) * std::cos(t / 11);
-    way.x_m.push_back(x += speed * kStep_s * std::cos(yaw));
-    way.y_m.push_back(y += speed * kStep_s * std::sin(yaw));
+    way.x_m.push_back(x += speed * kSample_s * std::cos(yaw));
+    way.y_m.push_back(y += speed * kSample_s * std::sin(yaw));
     way.speed_mps.push_back(speed);
   }
   return way;
@@ -37,12 +37,12 @@ DriveRecording recorded(const Way& way, double lag_s, double scatter_m = 0.02) {
   std::normal_distribution<double> scatter(0, scatter_m);
   DriveRecording drive{.drive_id = "d"};
   drive.channels = {{"wheel_speed_left_rad_s", {}}, {"wheel_speed_right_rad_s", {}}};
-  const auto late = static_cast<int>(std::lround(lag_s / kStep_s));
+  const auto late = static_cast<int>(std::lround(lag_s / kSample_s));
   const int last = static_cast<int>(way.x_m.size()) - 1;
   for (int i = 0; i <= last; ++i) {
     const auto fix = static_cast<std::size_t>(std::clamp(i - late, 0, last));
-    const double slip = 0.1 + 0.05 * std::sin(i * kStep_s / 15);
-    drive.time_s.push_back(i * kStep_s);
+    const double slip = 0.1 + 0.05 * std::sin(i * kSample_s / 15);
+    drive.time_s.push_back(i * kSample_s);
     drive.x_m.push_back(way.x_m[fix] + scatter(random));
     drive.y_m.push_back(way.y_m[fix] + scatter(random));
     for (DriveChannel& wheel : drive.channels) {
