@@ -91,8 +91,8 @@ struct Thresholds {
   /// it once more.
   static constexpr double kLikelySecond = 0.5;
   /// By which two names must beat the one for the second to stand where held-out conditions are
-  /// predicted as well without it, a remainder beside the first: of
-  /// such pairs in 270 generated recordings 4 of 4 were right above 18 nats, 4 of 9 below.
+  /// predicted as well without it, a remainder beside the first: of such pairs in 270 generated
+  /// recordings 4 of 4 were right above 18 nats, 4 of 9 below.
   static constexpr double kClearSecond_nats = 20;
   /// What an effect must add on held-out conditions at least. Its log odds with the nats of what it
   /// adds there, z^2/2, must reach those of kSure with kClear_errors: the surer it is by the

@@ -113,6 +113,20 @@ TEST(PositionLag, GapsAndJumpsThatWereTakenOutDoNotHideIt) {
   EXPECT_NEAR(*found, 1.2, 0.2);
 }
 
+TEST(PositionLag, WheelSpeedsThatDropOutForSecondsAreNoLagAndHideNone) {
+  for (const double lag_s : {0.0, 1.2}) {
+    DriveRecording drive = recorded(way_of(0.6), lag_s);
+    for (DriveChannel& wheel : drive.channels) {
+      for (std::size_t i = 0; i < drive.size(); ++i) {
+        if (i % 400 < 30) wheel.values[i] = NAN;
+      }
+    }
+    const auto found = position_lag_s(drive);
+    ASSERT_EQ(found.has_value(), lag_s > 0);
+    if (found) EXPECT_NEAR(*found, lag_s, 0.2);
+  }
+}
+
 TEST(PositionLag, OfNothingIsNone) {
   EXPECT_FALSE(position_lag_s({}));
   EXPECT_FALSE(position_lag_s(recorded({}, 0)));
