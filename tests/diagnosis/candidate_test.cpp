@@ -128,11 +128,16 @@ TEST(Hypothesis, NoFaultChangesInTimeWhereTheRecordingTellsNone) {
       std::ranges::none_of(effects_for(condense(recording, setup).bed, recording), changes));
 }
 
-TEST(Hypothesis, AGainThatSettlesIsLargestAtFirst) {
+/// The faults that a recording of one day may have.
+class ChangingFault : public testing::Test {
+ protected:
   const DiagnosisSetup setup = simulant_setup();
   const Recording recording = timed(setup);
   const TestBed bed = condense(recording, setup).bed;
-  const auto effects = effects_for(bed, recording);
+  const std::vector<Effect> effects = effects_for(bed, recording);
+};
+
+TEST_F(ChangingFault, AGainThatSettlesIsLargestAtFirst) {
   const Effect& settling = fault(effects, "sensor_gain", "settling fx_n fy_n");
   const double width = settling.fixed.at("last_time_s") - settling.fixed.at("first_time_s");
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
@@ -146,22 +151,14 @@ TEST(Hypothesis, AGainThatSettlesIsLargestAtFirst) {
   EXPECT_FALSE(has_one_form(settling));
 }
 
-TEST(Hypothesis, AGainThatDriftsIsLargestAtLast) {
-  const DiagnosisSetup setup = simulant_setup();
-  const Recording recording = timed(setup);
-  const TestBed bed = condense(recording, setup).bed;
-  const auto effects = effects_for(bed, recording);
+TEST_F(ChangingFault, AGainThatDriftsIsLargestAtLast) {
   const Effect& drifting = fault(effects, "sensor_gain", "drifting torque_nm");
   for (const FaultyValue& v : faulty_values(bed, drifting, drifting.to)) {
     EXPECT_NEAR(v.after, v.before * (1 + 0.2 * v.passed), 1e-9);
   }
 }
 
-TEST(Hypothesis, AZeroThatSettlesOrDriftsIsAddedWhateverIsMeasured) {
-  const DiagnosisSetup setup = simulant_setup();
-  const Recording recording = timed(setup);
-  const TestBed bed = condense(recording, setup).bed;
-  const auto effects = effects_for(bed, recording);
+TEST_F(ChangingFault, AZeroThatSettlesOrDriftsIsAddedWhateverIsMeasured) {
   const Effect& settling = fault(effects, "sensor_bias", "settling fy_n");
   const Effect& drifting = fault(effects, "sensor_bias", "drifting fy_n");
   const double width = settling.fixed.at("last_time_s") - settling.fixed.at("first_time_s");
