@@ -23,8 +23,12 @@ std::vector<std::size_t> rank_order(const std::vector<Standing>& standings) {
            std::tuple(standings[b].tier, -standings[b].value);
   };
   const auto sooner = [&](std::size_t a, std::size_t b) {
-    return std::tuple(standings[a].duration_s, standings[a].length_m) <
-           std::tuple(standings[b].duration_s, standings[b].length_m);
+    const auto key = [](const Standing& path) {
+      // Too few draws to tell which is safer: soils that are known better are.
+      const bool last = path.tier == Standing::kByShareOfDraws && !path.off_doubtful_soils;
+      return std::tuple(last, path.duration_s, path.length_m);
+    };
+    return key(standings[a]) < key(standings[b]);
   };
   for (auto group = order.begin(); group != order.end();) {
     const Standing& leader = standings[*std::min_element(group, order.end(), better)];

@@ -15,6 +15,7 @@ struct Standing {
   Tier tier = kByMarginAtMeanSoils;
   double value = 0;  ///< the larger the better
   double high = 0;   ///< upper end of the value's own sampling error
+  bool off_doubtful_soils = false;
   double duration_s = 0;
   double length_m = 0;
 };
@@ -26,7 +27,7 @@ void set_by_draws(Standing& standing, double p05, double p05_high, const Probabi
 
 /// Indices from the best down. The best of those left leads a group: whoever is of its tier and
 /// lies within its own sampling error of the leader is tied with it. In a group the faster ranks
-/// first, then the shorter.
+/// first, then the shorter; where limits break in draws, those off doubtful soils before them.
 std::vector<std::size_t> rank_order(const std::vector<Standing>& standings);
 
 }  // namespace regoplan

@@ -62,6 +62,7 @@ std::vector<VerifiedPath> in_order_of_choice(std::vector<VerifiedPath> paths) {
 Standing standing_of(const Candidate& candidate) {
   Standing standing{.value = candidate.margin_min,
                     .high = candidate.margin_min,
+                    .off_doubtful_soils = candidate.off_doubtful_soils,
                     .duration_s = candidate.duration_s,
                     .length_m = candidate.length_m};
   if (const auto& spread = candidate.spread) {
