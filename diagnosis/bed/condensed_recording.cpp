@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "diagnosis/recording/untold_days.h"
 #include "terramech/basics/angles.h"
@@ -74,17 +76,33 @@ Recording with_times(Recording recording) {
   return recording;
 }
 
-/// Whether most side forces push the way the wheel moves.
-bool side_is_turned(const Recording& recording, const std::vector<std::size_t>& used) {
-  constexpr double kClearly_rad = 0.05;
-  double along = 0, against = 0;
+/// A channel whose sign the wheel's motion tells: that of a number of the run, where it is clear.
+struct SignConvention {
+  Channel channel;
+  double WheelRun::*motion;
+  double clearly_from, clearly_below;  ///< of the motion; between them nothing is told
+  std::string_view text;
+};
+
+constexpr std::array kSignConventions{
+    SignConvention{Channel::kFy, &WheelRun::slip_angle_rad, 0.05, -0.05,
+                   "the convention (positive for a positive slip angle)"},
+    // a wheel that is held back may be driven all the same
+    SignConvention{Channel::kTorque, &WheelRun::slip_ratio, 0.1, -INFINITY,
+                   "a driving wheel (positive)"}};
+
+/// Whether most of a channel's values have the other sign.
+bool is_turned(const Recording& recording, const std::vector<std::size_t>& used,
+               const SignConvention& convention) {
+  double as_told = 0, turned = 0;
   for (const std::size_t i : used) {
     const WheelRun& run = recording.runs[i];
-    const double fy = run.value(Channel::kFy);
-    if (!std::isfinite(fy) || std::abs(run.slip_angle_rad) < kClearly_rad) continue;
-    (fy * run.slip_angle_rad > 0 ? against : along) += std::abs(fy);
+    const double value = run.value(convention.channel), motion = run.*convention.motion;
+    if (!std::isfinite(value)) continue;
+    if (motion < convention.clearly_from && motion > convention.clearly_below) continue;
+    (value * motion > 0 ? as_told : turned) += std::abs(value);
   }
-  return along > 3 * against;
+  return turned > 3 * as_told;
 }
 
 /// Between its smallest and its largest value.
@@ -317,12 +335,15 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   const Usable usable = usable_runs(recording, model, stop);
   note_left_out(usable, result.notes);
   result.used = usable.runs;
-  if (side_is_turned(recording, usable.runs)) {
-    result.side_sign = -1;
-    result.notes.push_back(
-        "fy_n opposes the convention (positive for a positive slip angle): it "
-        "was turned for the analysis");
-    for (WheelRun& run : recording.runs) run.measured[1] = -run.measured[1];
+  for (const SignConvention& convention : kSignConventions) {
+    if (!is_turned(recording, usable.runs, convention)) continue;
+    result.turned.push_back(convention.channel);
+    result.notes.push_back(fmt::format("{} opposes {}: it was turned for the analysis",
+                                       name(convention.channel), convention.text));
+    for (WheelRun& run : recording.runs) {
+      double& value = run.measured[static_cast<std::size_t>(convention.channel)];
+      value = -value;
+    }
   }
   TestBed& bed = result.bed;
   bed.setup = setup;

@@ -94,7 +94,7 @@ class EffectList {
       }
     } else if (form.id == "slope_tilt") {
       // along x and y apart: the heading of a test bed's wheel is not recorded
-      effect.coordinates = {Coordinate{.name = "tilt_rad", .spread = 0.03}};
+      effect.coordinates = {Coordinate{.name = "tilt_rad", .spread = 0.06}};
       for (const double direction : {0.0, 1.5707963267948966}) {
         effect.fixed["direction_rad"] = direction;
         push(effect);
@@ -107,12 +107,10 @@ class EffectList {
                                              positive("tau_s", 0.1 * time.high, 2 * time.high)};
       push(effect);
     } else if (form.id == "flexible_wheel") {
-      const Span load = span_of(bed_, [](const auto& at) { return at.load_n; });
-      effect.coordinates = {positive("per_n", 0.02 / load.high, 0.3 / load.high)};
+      effect.coordinates = {positive("per_n", 0.02 / largest_load_n(), 0.3 / largest_load_n())};
       push(effect);
     } else if (form.form == "offset") {
-      const Span load = span_of(bed_, [](const auto& at) { return at.load_n; });
-      effect.coordinates.front().spread = 0.1 * load.high;
+      effect.coordinates.front().spread = 0.1 * largest_load_n();
       push(effect);
     } else {
       push(effect);
@@ -151,26 +149,51 @@ class EffectList {
     }
     // One transducer measures both forces.
     std::vector<std::size_t> forces;
-    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
-      const Channel channel = bed_.channels[c].channel;
-      if (channel == Channel::kFx || channel == Channel::kFy) forces.push_back(c);
+    for (const Channel channel : {Channel::kFx, Channel::kFy}) {
+      if (const auto c = index_of(channel)) forces.push_back(*c);
     }
-    if (forces.size() > 1) add_changing("sensor_gain", forces);
+    if (forces.size() < 2) return;
+    add_changing("sensor_gain", forces);
+    push({.id = "sensor_crosstalk",
+          .form = "turned about z",
+          .kind = EffectKind::kTurn,
+          .coordinates = {{.name = "turn_rad", .spread = 0.1}},
+          .to = forces[0],
+          .from = forces[1]});
   }
 
   std::vector<Effect> take() { return std::move(effects_); }
 
  private:
+  double largest_load_n() const {
+    return span_of(bed_, [](const auto& at) { return at.load_n; }).high;
+  }
+
   /// By what a force at the wheel's rim is multiplied in a channel: the radius for a torque.
   double arm(std::size_t c) const {
     return bed_.channels[c].channel == Channel::kTorque ? bed_.setup.wheel.radius_m : 1;
   }
 
-  Coordinate bias_of(std::size_t c) const {
-    return {.name = "bias", .spread = std::max(0.1 * signal(c), 3 * bed_.channels[c].scale)};
+  std::optional<std::size_t> index_of(Channel channel) const {
+    for (std::size_t c = 0; c < bed_.channels.size(); ++c) {
+      if (bed_.channels[c].channel == channel) return c;
+    }
+    return std::nullopt;
   }
 
-  static Coordinate gain() { return {.name = "gain", .spread = 0.1}; }
+  /// A zero lies off by a share of what the sensor is made for: the largest load, its moment about
+  /// the axle, a sinkage of half the radius. What is measured would say too little: the bias is in
+  /// it.
+  Coordinate bias_of(std::size_t c) const {
+    const Channel channel = bed_.channels[c].channel;
+    const bool of_load =
+        channel == Channel::kFx || channel == Channel::kFy || channel == Channel::kTorque;
+    const double full_scale = of_load ? largest_load_n() * arm(c) : bed_.setup.wheel.radius_m / 2;
+    return {.name = "bias", .spread = std::max(0.1 * full_scale, 3 * bed_.channels[c].scale)};
+  }
+
+  /// Wide enough for a bridge or an amplifier on another range.
+  static Coordinate gain() { return {.name = "gain", .spread = 0.2}; }
 
   static bool crosses(Channel channel) {
     return channel == Channel::kFx || channel == Channel::kFy || channel == Channel::kTorque;
@@ -242,11 +265,12 @@ Eigen::ArrayXd course_of(const TestBed& bed, const Effect& effect, std::size_t c
 
 /// Adds a share of one channel to another. Both stand at their conditions; what lacks the other's
 /// value stays as it is.
-void leak(const TestBed& bed, const Effect& effect, double share, Eigen::VectorXd& values) {
-  const ChannelData& source = bed.channels[effect.from];
-  const ChannelData& sink = bed.channels[effect.to];
-  const Eigen::VectorXd from = values.segment(bed.offset(effect.from), source.mean.size());
-  auto to = values.segment(bed.offset(effect.to), sink.mean.size());
+void leak(const TestBed& bed, std::size_t from_channel, std::size_t to_channel, double share,
+          Eigen::VectorXd& values) {
+  const ChannelData& source = bed.channels[from_channel];
+  const ChannelData& sink = bed.channels[to_channel];
+  const Eigen::VectorXd from = values.segment(bed.offset(from_channel), source.mean.size());
+  auto to = values.segment(bed.offset(to_channel), sink.mean.size());
   Eigen::Index k = 0;
   for (Eigen::Index i = 0; i < to.size(); ++i) {
     const std::size_t at = sink.conditions[static_cast<std::size_t>(i)];
@@ -263,7 +287,15 @@ void apply_fault(const TestBed& bed, const Effect& effect, const Eigen::VectorXd
                  Eigen::VectorXd& values) {
   const double amount = effect.coordinates.front().value(x[0]);
   if (effect.kind == EffectKind::kCrosstalk) {
-    leak(bed, effect, amount, values);
+    leak(bed, effect.from, effect.to, amount, values);
+    return;
+  }
+  if (effect.kind == EffectKind::kTurn) {
+    // Three shears are a rotation.
+    const double shear = std::tan(amount / 2);
+    leak(bed, effect.from, effect.to, shear, values);
+    leak(bed, effect.to, effect.from, -std::sin(amount), values);
+    leak(bed, effect.from, effect.to, shear, values);
     return;
   }
   std::vector<std::size_t> channels = effect.also;

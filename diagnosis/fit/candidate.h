@@ -44,7 +44,13 @@ Eigen::VectorXd kept_inside(const UncertainSoil& soil,
 double maximum_stress_pull(const std::vector<SoilCoordinate>& coordinates,
                            const Eigen::VectorXd& x);
 
-enum class EffectKind { kMechanism, kBias, kGain, kCrosstalk };
+enum class EffectKind {
+  kMechanism,
+  kBias,
+  kGain,
+  kCrosstalk,  ///< a share of one channel in another
+  kTurn,       ///< a sensor of two forces turned about the axis across both
+};
 
 /// What is there of an instrument's bias or gain, t from 0 at the first condition to 1 at the last.
 enum class FaultCourse {

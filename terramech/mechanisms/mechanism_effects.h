@@ -48,9 +48,10 @@ struct Effects {
   Wheel wheel;
   Soil soil;
   double load_n = 0;
-  double rim_factor = 1;  ///< true rim speed over the one told
-  double stiffness = 1;   ///< factor on k
-  double limit = 1;       ///< factor on cohesion and tan(phi)
+  double load_per_drawbar = 0;  ///< load gained a newton of drawbar pull
+  double rim_factor = 1;        ///< true rim speed over the one told
+  double stiffness = 1;         ///< factor on k
+  double limit = 1;             ///< factor on cohesion and tan(phi)
   ShearLaw shear = ShearLaw::kSeparate;
   double residual = 1;        ///< shear hump: residual over peak
   double coupling = 1;        ///< kWithinLimit: how far shares are cut back, 1 at the limit

@@ -104,11 +104,20 @@ std::vector<Definition> of_wheel() {
          e.load_n += p[0];
          return e;
        }},
+      {{"load_transfer",
+        "drawbar",
+        "W = W0 + k Fx",
+        "statics: the arm of a carriage that is not level",
+        {{"share", -.3, .3, .1}}},
+       [](E e, P p, S) {
+         e.load_per_drawbar += p[0];
+         return e;
+       }},
       {{"slip_scale",
         "rim_speed",
         "true rim speed = (1 + e) times the one told",
         "rolling radius or encoder",
-        {{"error", -.05, .05, .03}}},
+        {{"error", -.12, .12, .03}}},
        [](E e, P p, S) {
          e.rim_factor *= 1 + p[0];
          return e;

@@ -118,23 +118,39 @@ double wall_n(const Effects& effects, const Ground& ground, const Ratios& ratios
 
 WheelChannels mechanism_channels(const WheelModel& model, double load_n, const WheelMotion& motion,
                                  const WheelConditions& conditions) {
-  const WheelModelSpec& spec = model.spec_;
   const ForwardMotion told = forward_motion(motion);
-  WheelState state{.load_n = load_n,
-                   .slip = told.ratios.slip,
-                   .beta_abs_rad = told.ratios.beta_abs_rad,
-                   .beta_sign = told.y_sign,
-                   .rim_speed_mps = motion.rim_speed_mps,
-                   .speed_mps = conditions.speed_mps > 0 ? conditions.speed_mps
-                                                         : std::hypot(motion.vx_mps, motion.vy_mps),
-                   .conditions = conditions};
+  const WheelState state{.load_n = load_n,
+                         .slip = told.ratios.slip,
+                         .beta_abs_rad = told.ratios.beta_abs_rad,
+                         .beta_sign = told.y_sign,
+                         .rim_speed_mps = motion.rim_speed_mps,
+                         .speed_mps = conditions.speed_mps > 0
+                                          ? conditions.speed_mps
+                                          : std::hypot(motion.vx_mps, motion.vy_mps),
+                         .conditions = conditions};
   Effects effects;
-  effects.wheel = spec.wheel;
-  effects.soil = spec.soil;
+  effects.wheel = model.spec_.wheel;
+  effects.soil = model.spec_.soil;
   effects.load_n = load_n;
   effects = apply(model.mechanisms_, effects, state);
-  if (!(effects.load_n > 0)) return {.forces = {.status = WheelStatus::kLifted}};
+  const double without_pull_n = effects.load_n;
+  WheelChannels channels = channels_under(model, effects, state, motion);
+  if (effects.load_per_drawbar == 0) return channels;
+  // Drawbar pull changes by less than half of what the load does: a step leaves a sixth at most.
+  constexpr int kSteps = 8;
+  for (int step = 0; step < kSteps && has_forces(channels.forces.status); ++step) {
+    effects.load_n = without_pull_n + effects.load_per_drawbar * channels.forces.fx_n;
+    channels = channels_under(model, effects, state, motion);
+  }
+  return channels;
+}
 
+WheelChannels channels_under(const WheelModel& model, const Effects& effects,
+                             const WheelState& state, const WheelMotion& motion) {
+  if (!(effects.load_n > 0)) return {.forces = {.status = WheelStatus::kLifted}};
+  const WheelModelSpec& spec = model.spec_;
+  const WheelConditions& conditions = state.conditions;
+  const ForwardMotion told = forward_motion(motion);
   WheelMotion moved = motion;
   moved.rim_speed_mps *= effects.rim_factor;
   const ForwardMotion forward = forward_motion(moved);

@@ -9,4 +9,8 @@ namespace regoplan {
 WheelChannels mechanism_channels(const WheelModel& model, double load_n, const WheelMotion& motion,
                                  const WheelConditions& conditions);
 
+/// The same under what the mechanisms have made of wheel, soil and load.
+WheelChannels channels_under(const WheelModel& model, const Effects& effects,
+                             const WheelState& state, const WheelMotion& motion);
+
 }  // namespace regoplan

@@ -113,6 +113,8 @@ class WheelModel {
   friend WheelChannels mechanism_channels(const WheelModel& model, double load_n,
                                           const WheelMotion& motion,
                                           const WheelConditions& conditions);
+  friend WheelChannels channels_under(const WheelModel& model, const Effects& effects,
+                                      const WheelState& state, const WheelMotion& motion);
 
   WheelModelSpec spec_;
   WheelAccuracy accuracy_;

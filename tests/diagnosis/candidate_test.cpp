@@ -65,6 +65,26 @@ TEST(Hypothesis, ABiasMovesItsOwnChannelAlone) {
   EXPECT_NEAR(change.norm(), change.segment(bed.offset(1), n).norm(), 1e-12);
 }
 
+TEST(Hypothesis, ASensorThatIsTurnedKeepsTheResultantOfBothForces) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = record({}, setup, setup.soil.mean, {.conditions = 12}, 1);
+  const TestBed bed = condense(recording, setup).bed;
+  const Effect turned{.id = "sensor_crosstalk",
+                      .kind = EffectKind::kTurn,
+                      .coordinates = {{.name = "turn_rad", .spread = 1}},
+                      .to = 0,
+                      .from = 1};
+  Eigen::VectorXd x(1);
+  x << 0.3;
+  const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
+  const Eigen::VectorXd after = *predict(bed, {}, {{turned}}, x);
+  for (Eigen::Index i = 0; i < bed.channels[0].mean.size(); ++i) {
+    const double fx_n = before[bed.offset(0) + i], fy_n = before[bed.offset(1) + i];
+    EXPECT_NEAR(after[bed.offset(0) + i], fx_n * std::cos(0.3) + fy_n * std::sin(0.3), 1e-9);
+    EXPECT_NEAR(after[bed.offset(1) + i], fy_n * std::cos(0.3) - fx_n * std::sin(0.3), 1e-9);
+  }
+}
+
 /// A torque is the smaller number by the wheel's radius, but no weaker a signal.
 TEST(Hypothesis, OfATorqueAsMuchMayLeakIntoAForceAsOfItsForceAtTheRim) {
   const DiagnosisSetup setup = simulant_setup();
@@ -139,12 +159,13 @@ class ChangingFault : public testing::Test {
 
 TEST_F(ChangingFault, AGainThatSettlesIsLargestAtFirst) {
   const Effect& settling = fault(effects, "sensor_gain", "settling fx_n fy_n");
+  const double gain = 2 * settling.coordinates.front().spread;
   const double width = settling.fixed.at("last_time_s") - settling.fixed.at("first_time_s");
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const bool acts = c == settling.to || std::ranges::count(settling.also, c) > 0;
     for (const FaultyValue& v : faulty_values(bed, settling, c)) {
       const double share = std::exp(-v.passed * width / settling.coordinates[1].value(0));
-      EXPECT_NEAR(v.after, v.before * (acts ? 1 + 0.2 * share : 1), 1e-9);
+      EXPECT_NEAR(v.after, v.before * (acts ? 1 + gain * share : 1), 1e-9);
     }
   }
   EXPECT_TRUE(is_told_by_time(settling));
@@ -153,8 +174,9 @@ TEST_F(ChangingFault, AGainThatSettlesIsLargestAtFirst) {
 
 TEST_F(ChangingFault, AGainThatDriftsIsLargestAtLast) {
   const Effect& drifting = fault(effects, "sensor_gain", "drifting torque_nm");
+  const double gain = 2 * drifting.coordinates.front().spread;
   for (const FaultyValue& v : faulty_values(bed, drifting, drifting.to)) {
-    EXPECT_NEAR(v.after, v.before * (1 + 0.2 * v.passed), 1e-9);
+    EXPECT_NEAR(v.after, v.before * (1 + gain * v.passed), 1e-9);
   }
 }
 

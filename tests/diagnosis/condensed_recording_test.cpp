@@ -27,21 +27,23 @@ TEST(CondensedRecording, NoiseBeyondAllThatIsMeasuredIsDoubted) {
   EXPECT_FALSE(doubted(0.09));
 }
 
-/// What a recording's side force is taken to be, where so many of ten runs have it turned.
-double side_sign(int turned_of_ten) {
+/// The channels that are turned, where so many of ten runs have one of them turned.
+std::vector<Channel> turned(Channel channel, int turned_of_ten) {
   const DiagnosisSetup setup = simulant_setup();
   int run_number = 0;
   const BedPlan plan{.instruments = [&](WheelRun& run) {
-    if (++run_number % 10 < turned_of_ten) run.measured[1] *= -1;
+    if (++run_number % 10 < turned_of_ten) run.measured[static_cast<std::size_t>(channel)] *= -1;
   }};
-  return condense(record({}, setup, setup.soil.mean, plan, 1), setup).side_sign;
+  return condense(record({}, setup, setup.soil.mean, plan, 1), setup).turned;
 }
 
-TEST(CondensedRecording, ASideForceIsTurnedWhereNearlyAllOfItOpposesTheConvention) {
-  EXPECT_EQ(side_sign(0), 1);
-  EXPECT_EQ(side_sign(3), 1);  // some other fault, which turning all would hide
-  EXPECT_EQ(side_sign(5), 1);
-  EXPECT_EQ(side_sign(10), -1);
+TEST(CondensedRecording, AForceIsTurnedWhereNearlyAllOfItOpposesTheConvention) {
+  for (const Channel channel : {Channel::kFy, Channel::kTorque}) {
+    EXPECT_EQ(turned(channel, 0), std::vector<Channel>{});
+    EXPECT_EQ(turned(channel, 3), std::vector<Channel>{});  // some other fault, which turning hides
+    EXPECT_EQ(turned(channel, 5), std::vector<Channel>{});
+    EXPECT_EQ(turned(channel, 10), std::vector{channel});
+  }
 }
 
 }  // namespace

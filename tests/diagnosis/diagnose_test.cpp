@@ -83,6 +83,28 @@ TEST(Diagnose, ABiasedSensorIsCalledASensor) {
   EXPECT_TRUE(found.corrected_model.mechanisms.empty());
 }
 
+TEST(Diagnose, AnAmplifierOnAnotherRangeIsASensorHoweverFarOff) {
+  BedPlan plan;
+  plan.instruments = [](WheelRun& run) { run.measured[0] *= 1.5; };
+  const Diagnosis found = diagnosed({}, 5, plan);
+  EXPECT_TRUE(names(found, "sensor_gain")) << found.sentence;
+  EXPECT_TRUE(found.corrected_model.mechanisms.empty());
+}
+
+TEST(Diagnose, ASensorTurnedAboutTheVerticalIsASensorAndToldByItsAngle) {
+  constexpr double kTurn_rad = 0.12;
+  BedPlan plan;
+  plan.instruments = [](WheelRun& run) {
+    const double along = run.measured[0], across = run.measured[1];
+    run.measured[0] = along * std::cos(kTurn_rad) + across * std::sin(kTurn_rad);
+    run.measured[1] = across * std::cos(kTurn_rad) - along * std::sin(kTurn_rad);
+  };
+  const Diagnosis found = diagnosed({}, 5, plan);
+  ASSERT_TRUE(names(found, "sensor_crosstalk")) << found.sentence;
+  ASSERT_EQ(found.claims.front().form, "turned about z");
+  EXPECT_NEAR(found.claims.front().parameters.at("turn_rad").value, kTurn_rad, 0.03);
+}
+
 /// A recording of one day, a run every two minutes, of instruments that change in time.
 Diagnosis diagnosed_in_time(const std::function<void(WheelRun&, double time_s)>& instruments) {
   constexpr double kRun_s = 120;
@@ -147,14 +169,18 @@ TEST(Diagnose, AnOffsetThatComesAndGoesIsNoSensorsBiasInPart) {
   EXPECT_EQ(found.verdict, Verdict::kUnexplained) << found.sentence;
 }
 
-TEST(Diagnose, ASideForceAgainstTheConventionIsTurnedAndReported) {
-  BedPlan plan;
-  plan.instruments = [](WheelRun& run) { run.measured[1] *= -1; };
-  const Diagnosis found = diagnosed({}, 7, plan);
-  EXPECT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
-    return note.find("opposes the convention") != std::string::npos;
-  }));
-  EXPECT_TRUE(found.claims.empty()) << found.sentence;
+TEST(Diagnose, AForceAgainstTheConventionIsTurnedAndReported) {
+  for (const Channel channel : {Channel::kFy, Channel::kTorque}) {
+    BedPlan plan;
+    plan.instruments = [channel](WheelRun& run) {
+      run.measured[static_cast<std::size_t>(channel)] *= -1;
+    };
+    const Diagnosis found = diagnosed({}, 7, plan);
+    EXPECT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
+      return note.find("was turned for the analysis") != std::string::npos;
+    }));
+    EXPECT_TRUE(found.claims.empty()) << found.sentence;
+  }
 }
 
 TEST(Diagnose, IsTheSameWhateverTheThreads) {

@@ -168,6 +168,8 @@ const std::vector<Case> kBundles{
     {"bearing_drag", "linear", 0.3, 10, 60, "0", "0", "+", "0"},
     {"load_transfer", "proportional", 0.3, 10, 60, "+", "+", "+", "+"},
     {"load_transfer", "offset", 0.3, 10, 60, "+", "+", "+", "+"},
+    {"load_transfer", "drawbar", 0.3, 10, 60, "+", "+", "+", "+"},
+    {"load_transfer", "drawbar", -0.3, 10, 60, "+", "-", "?", "-"},
     {"slip_scale", "rim_speed", 0.05, 0, 60, "+", "0", "+", "?"},
 };
 
@@ -175,6 +177,20 @@ const std::vector<Case> kBundles{
 
 TEST(Mechanism, HasItsBundleOfSigns) {
   for (const Case& at : kBundles) expect_bundle(at);
+}
+
+TEST(Mechanism, ACarriagesArmAddsItsShareOfTheDrawbarPullThatTheWheelThenHas) {
+  const auto pair = named_soils::shipped_pairs().front();
+  for (const double slip : {-0.3, 0.1, 0.6}) {
+    for (const double share : {-0.3, 0.3}) {
+      const WheelForces on_arm = with(pair.spec, "load_transfer", "drawbar", {{"share", share}})
+                                     .forces(pair.nominal_load_n, motion_at(slip, 0.2));
+      const WheelForces alone = WheelModel(pair.spec).forces(
+          pair.nominal_load_n + share * on_arm.fx_n, motion_at(slip, 0.2));
+      EXPECT_NEAR(on_arm.fx_n, alone.fx_n, 1e-4 * pair.nominal_load_n) << slip << " " << share;
+      EXPECT_NEAR(on_arm.sinkage_m, alone.sinkage_m, 1e-4 * alone.sinkage_m);
+    }
+  }
 }
 
 TEST(Mechanism, SlipSinkageDeepensTheRutAndCostsTorqueOnEverySoil) {
