@@ -328,6 +328,7 @@ std::vector<Measure> measures(const std::vector<CaseResult>& results, const std:
   count(kInstruments, "named (class counts)", false, 0.85, right);
   count(kInstruments, "called physics", true, 0.03,
         [](const Scored& s) { return s.score.called_physics; });
+  count(kLargeFaults, "named (class counts)", false, 0.85, right);
   count(kOneEffect, "right name or class", false, 0.9, right);
   count(kOneEffect, "exact name", false, 0.75, exact);
   Measure sure{.stratum = "one_effect", .what = "claims of p > .9 right", .target = 0.95};

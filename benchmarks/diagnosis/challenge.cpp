@@ -18,15 +18,16 @@ struct NamedStratum {
   Stratum stratum;
   std::string_view name;
 };
-constexpr std::array<NamedStratum, 9> kNames{{{Stratum::kNulls, "nulls"},
-                                              {Stratum::kParameters, "parameters"},
-                                              {Stratum::kInstruments, "instruments"},
-                                              {Stratum::kOneEffect, "one_effect"},
-                                              {Stratum::kTwoEffects, "two_effects"},
-                                              {Stratum::kUnlisted, "unlisted"},
-                                              {Stratum::kRutHidden, "rut_hidden"},
-                                              {Stratum::kRutShown, "rut_shown"},
-                                              {Stratum::kDrift, "drift"}}};
+constexpr std::array<NamedStratum, 10> kNames{{{Stratum::kNulls, "nulls"},
+                                               {Stratum::kParameters, "parameters"},
+                                               {Stratum::kInstruments, "instruments"},
+                                               {Stratum::kOneEffect, "one_effect"},
+                                               {Stratum::kTwoEffects, "two_effects"},
+                                               {Stratum::kUnlisted, "unlisted"},
+                                               {Stratum::kRutHidden, "rut_hidden"},
+                                               {Stratum::kRutShown, "rut_shown"},
+                                               {Stratum::kDrift, "drift"},
+                                               {Stratum::kLargeFaults, "large_faults"}}};
 
 /// Everything that makes a recording, before it is recorded.
 struct Plan {
@@ -77,31 +78,61 @@ TrueCause cause_of(const DrawnEffect& effect, double signal) {
           .signal = signal};
 }
 
-InstrumentFault draw_fault(Random& random, const Rig& rig, std::uint64_t turn) {
+/// What a bias is a share of.
+double unit(const Rig& rig, Channel channel) {
+  if (channel == Channel::kTorque) return rig.middle_load_n * rig.setup.wheel.radius_m;
+  return channel == Channel::kSinkage ? 3 * rig.middle_sinkage_m : rig.middle_load_n;
+}
+
+/// Of force into force, or torque into drawbar pull where no side force is measured.
+InstrumentFault crosstalk(Random& random, const Rig& rig, double share) {
   using enum Channel;
-  const double w = rig.middle_load_n, r = rig.setup.wheel.radius_m;
-  const auto unit = [&](Channel c) {
-    return c == kTorque ? w * r : (c == kSinkage ? 3 * rig.middle_sinkage_m : w);
-  };
+  const bool side = std::ranges::count(rig.channels, kFy) > 0;
+  const Channel to = side && chance(random, 0.6) ? kFy : kFx;
+  const Channel from = to == kFy ? kFx : (side ? kFy : kTorque);
+  return {"sensor_crosstalk", to, from,
+          share * (from == kTorque ? 1 / rig.setup.wheel.radius_m : 1)};
+}
+
+InstrumentFault draw_fault(Random& random, const Rig& rig, std::uint64_t turn) {
   const Channel channel = one_of(random, rig.channels);
   const double s = sign(random);
   switch (turn % 6) {
     case 0:
     case 1:
-      return {"sensor_bias", channel, channel, s * uniform(random, 0.03, 0.12) * unit(channel)};
+      return {"sensor_bias", channel, channel,
+              s * uniform(random, 0.03, 0.12) * unit(rig, channel)};
     case 2:
       return {"sensor_gain", channel, channel, s * uniform(random, 0.06, 0.25)};
     case 3: {
-      const bool side = std::ranges::count(rig.channels, kFy) > 0;
-      const Channel to = side && chance(random, 0.6) ? kFy : kFx;
-      const Channel from = to == kFy ? kFx : (side ? kFy : kTorque);
-      const double lever = from == kTorque ? 1 / r : 1;
-      return {"sensor_crosstalk", to, from, s * uniform(random, 0.04, 0.2) * lever};
+      const double share = s * uniform(random, 0.04, 0.2);
+      return crosstalk(random, rig, share);
     }
     case 4:
       return {"slip_scale", channel, channel, s * uniform(random, 0.02, 0.08)};
     default:
       return {"load_cell", channel, channel, s * uniform(random, 0.06, 0.25)};
+  }
+}
+
+InstrumentFault draw_large_fault(Random& random, const Rig& rig, std::uint64_t turn) {
+  const Channel channel = one_of(random, rig.channels);
+  const double s = sign(random);
+  switch (turn % 6) {
+    case 0:
+      return {"sensor_bias", channel, channel, s * uniform(random, 0.12, 0.3) * unit(rig, channel)};
+    case 1:
+      return {"sensor_gain", channel, channel, s * uniform(random, 0.25, 0.5)};
+    case 2: {
+      const double share = s * uniform(random, 0.2, 0.4);
+      return crosstalk(random, rig, share);
+    }
+    case 3:
+      return {"slip_scale", channel, channel, s * uniform(random, 0.08, 0.15)};
+    case 4:
+      return {"load_cell", channel, channel, s * uniform(random, 0.25, 0.4)};
+    default:
+      return {"sensor_turned", Channel::kFx, Channel::kFy, s * uniform(random, 0.04, 0.3)};
   }
 }
 
@@ -189,20 +220,23 @@ std::optional<Plan> with_two_effects(Random& random, const TruthEffect& first) {
   return plan;
 }
 
-std::optional<Plan> with_fault(Random& random, std::uint64_t turn) {
+std::vector<std::string> accepted_for(const std::string& fault) {
+  if (fault == "load_cell") return {"load_transfer", "sensor_gain"};
+  if (fault == "sensor_turned") return {"sensor_crosstalk"};
+  return {fault};
+}
+
+std::optional<Plan> with_fault(Random& random, bool large, std::uint64_t turn) {
   Plan plan = planned(random, {.torque = chance(random, 0.5), .sinkage = chance(random, 0.5)});
-  const InstrumentFault fault = draw_fault(random, plan.rig, turn);
+  const InstrumentFault fault = (large ? draw_large_fault : draw_fault)(random, plan.rig, turn);
   plan.faults = {fault};
-  if (fault.id == "sensor_crosstalk" && !std::ranges::count(plan.rig.channels, fault.from)) {
-    return std::nullopt;
-  }
+  const bool of_two = fault.id == "sensor_crosstalk" || fault.id == "sensor_turned";
+  if (of_two && !std::ranges::count(plan.rig.channels, fault.from)) return std::nullopt;
   const auto signal = signal_of(plan.rig, plan.noise, {}, plan.faults);
   if (!signal || !(signal->after >= kOneEffectSigma)) return std::nullopt;
-  std::vector<std::string> accepted{fault.id};
-  if (fault.id == "load_cell") accepted = {"load_transfer", "sensor_gain"};
   plan.truth.causes = {{.id = fault.id,
                         .form = std::string(regoplan::name(fault.channel)),
-                        .accepted = accepted,
+                        .accepted = accepted_for(fault.id),
                         .instrument = true,
                         .amplitude = fault.amount,
                         .signal = signal->after}};
@@ -232,7 +266,8 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
       return plan;
     }
     case Stratum::kInstruments:
-      return with_fault(random, turn);
+    case Stratum::kLargeFaults:
+      return with_fault(random, stratum == Stratum::kLargeFaults, turn);
     case Stratum::kOneEffect:
       return with_effect(random, in_turn(listed_effects(), turn), kOneEffectSigma, false);
     case Stratum::kTwoEffects:

@@ -19,6 +19,7 @@ enum class Stratum {
   kRutHidden,    ///< rut asymmetry, 8 sigma and more, no rut depths recorded
   kRutShown,     ///< rut asymmetry with rut depths
   kDrift,        ///< one effect that follows time, order or place, 8 sigma and more
+  kLargeFaults,  ///< as kInstruments, larger than those, or a sensor that is turned
 };
 
 const std::vector<Stratum>& strata();

@@ -94,6 +94,12 @@ std::optional<ChannelValues> ideal_values(const Rig& rig, const RigCondition& co
     if (fault.id == "sensor_bias") value += fault.amount;
     if (fault.id == "sensor_gain") value += fault.amount * seen[at(fault.channel)];
     if (fault.id == "sensor_crosstalk") value += fault.amount * seen[at(fault.from)];
+    if (fault.id == "sensor_turned") {
+      double& other = shown[at(fault.from)];
+      const double along = value, across = other, turn = fault.amount;
+      value = along * std::cos(turn) + across * std::sin(turn);
+      other = across * std::cos(turn) - along * std::sin(turn);
+    }
   }
   for (std::size_t i = 0; i < kChannelCount; ++i) {
     if (!std::ranges::count(rig.channels, static_cast<Channel>(i))) {

@@ -13,10 +13,11 @@ using ChannelValues = std::array<double, kChannelCount>;
 
 /// Something wrong with the instruments, not with the physics.
 struct InstrumentFault {
-  std::string id;  ///< sensor_bias, sensor_gain, sensor_crosstalk, slip_scale, load_cell
+  /// sensor_bias, sensor_gain, sensor_crosstalk, sensor_turned, slip_scale, load_cell
+  std::string id;
   Channel channel = Channel::kFx;
-  Channel from = Channel::kFy;  ///< of a crosstalk
-  double amount = 0;            ///< the channel's unit (bias), else a share
+  Channel from = Channel::kFy;  ///< of a crosstalk; the other channel of a turned sensor
+  double amount = 0;            ///< the channel's unit (bias), rad (turned), else a share
 };
 
 /// How the test bed scatters. Channel arrays in the order of Channel.

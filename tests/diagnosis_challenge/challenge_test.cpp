@@ -37,6 +37,7 @@ TEST(Challenge, KeepsTheTermsOfItsStratum) {
     EXPECT_GE(generate(Stratum::kOneEffect, 7, index).truth.signal.after, 5);
     EXPECT_GE(generate(Stratum::kUnlisted, 7, index).truth.signal.after, 8);
     EXPECT_TRUE(generate(Stratum::kInstruments, 7, index).truth.causes.at(0).instrument);
+    EXPECT_TRUE(generate(Stratum::kLargeFaults, 7, index).truth.causes.at(0).instrument);
   }
 }
 
