@@ -232,6 +232,28 @@ std::vector<RowRange> ranges_of(const std::vector<RecordedMoment>& moments) {
   return ranges;
 }
 
+/// Without the ranges that get nowhere: about a place where it all but stands, a vehicle may drive
+/// to and fro by less than what points of a curve are apart. They are parts of their neighbours.
+std::vector<RowRange> that_get_on(const std::vector<RowRange>& ranges,
+                                  const std::vector<RecordedMoment>& moments) {
+  const auto gets_on = [&](const RowRange& range) {
+    const VehicleState &from = moments[range.first].state, &to = moments[range.last].state;
+    return std::hypot(to.x_m - from.x_m, to.y_m - from.y_m) >= PathCurve::kSpacingMin_m;
+  };
+  std::vector<RowRange> legs;
+  for (const RowRange& range : ranges) {
+    if (!gets_on(range)) {
+      if (!legs.empty()) legs.back().last = range.last;
+    } else if (!legs.empty() && legs.back().reverse == range.reverse) {
+      legs.back().last = range.last;
+    } else {
+      legs.push_back(range);
+      if (legs.size() == 1) legs.back().first = 0;
+    }
+  }
+  return legs.empty() ? ranges : legs;
+}
+
 /// Speeds of a range's rows along its curve; the vehicle stands where its direction changes.
 SpeedProfile speed_of(const std::vector<RecordedMoment>& moments, const RowRange& rows,
                       const PathCurve& curve) {
@@ -272,7 +294,7 @@ GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
   }
   if (!table.has("acceleration_mps2")) add_accelerations(moments, vehicle.acceleration_max_mps2);
   std::vector<PathLeg> legs;
-  for (const RowRange& rows : ranges_of(moments)) {
+  for (const RowRange& rows : that_get_on(ranges_of(moments), moments)) {
     PathCurve curve = curve_of(table, rows, problem.map.elevation().frame);
     SpeedProfile speed = speed_of(moments, rows, curve);
     // A row that two legs share is of the former's record.

@@ -45,5 +45,25 @@ TEST(PathFiles, ACandidateThatChangesItsDirectionHasLegs) {
   EXPECT_LT(path.legs[1].speed.at(0).speed_mps, 1e-6);
 }
 
+TEST(PathFiles, GoingBackByAHandAtAPlaceWhereItAllButStandsIsNoLeg) {
+  const ScratchFolder folder;
+  std::string text = "time_s,x_m,y_m,yaw_deg,speed_mps,steer_deg,demand_n,margin,curvature_1pm\n";
+  double time_s = 0;
+  const auto row = [&](double x_m, double speed_mps) {
+    text += fmt::format("{},{},5100,0,{},0,0,0.5,0\n", time_s++, x_m, speed_mps);
+  };
+  for (int i = 0; i <= 4; ++i) row(1050 + i, i < 4 ? 1 : 0.03);
+  row(1053.98, -0.05);
+  row(1053.97, 0.03);
+  for (int i = 5; i <= 8; ++i) row(1050 + i, i < 8 ? 1 : 0);
+  folder.write("candidate-1.csv", text);
+  const PlanningProblem problem = report_test_problem(report_test_map(40));
+  const ReferencePath path = read_path(folder.path("candidate-1.csv"), problem, 3).path;
+  ASSERT_EQ(path.legs.size(), 1u);
+  EXPECT_FALSE(path.legs[0].reverse);
+  EXPECT_NEAR(path.length_m(), 8, 0.05);
+  EXPECT_EQ(path.legs[0].recorded.size(), 11u);
+}
+
 }  // namespace
 }  // namespace regoplan
