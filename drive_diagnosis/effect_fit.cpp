@@ -164,8 +164,19 @@ EffectFit::Linearised EffectFit::linearise() {
                     .inputs = inputs};
   const ResidualNoise noise = whiten(result, contest_.zones_known);
   shifts_ = noise.inputs_given(left);
-  result.nats = noise.nats(left);
+  result.nats =
+      is_carried(result.soil) ? noise.nats(left) : std::numeric_limits<double>::infinity();
   return result;
+}
+
+/// Whether every zone's soil carries the vehicle somewhere in it: else nothing is predicted there
+/// but what the map says, and no soil is likelier than another.
+bool EffectFit::is_carried(const std::vector<Eigen::MatrixXd>& soil) const {
+  return std::ranges::all_of(contest_.zones_known, [&](const Eigen::VectorXd& share) {
+    return std::ranges::any_of(soil, [&](const Eigen::MatrixXd& number) {
+      return !(share.asDiagonal() * number).isZero(0);
+    });
+  });
 }
 
 /// Makes data and columns of the contest white.
@@ -246,7 +257,7 @@ void EffectFit::settle_with(const EffectFound& effect) {
 void EffectFit::settle_zone() {
   const Settled start{.fit = fit_, .shifts = shifts_};
   Settled best;
-  for (const double weakness : {0.0, 0.5, 1.0}) {
+  for (const double weakness : {0.0, 0.5, 1.0, 1.5, 2.0}) {
     go_on_from(start);
     fit_.zones.back() = weakness * (contest_.wide_directions[0] + contest_.wide_directions[1]);
     Settled settled = settled_from_here();

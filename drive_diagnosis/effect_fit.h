@@ -31,8 +31,8 @@ class EffectFit {
   /// their means change what everything else does.
   void settle();
   /// The same with the effect that was added last. Soils far off are no longer linear, so that
-  /// steps may lead away again, and lead elsewhere from a soil like the map's than from one far
-  /// weaker, or half as far: the likeliest of where they led counts.
+  /// steps may lead away again, and lead elsewhere from a soil like the map's than from weaker
+  /// ones, down to what carries no vehicle: the likeliest of where they led counts.
   void settle_with(const EffectFound& effect);
 
   const ContestFit& fit() const { return fit_; }
@@ -55,7 +55,7 @@ class EffectFit {
   struct Linearised {
     Eigen::MatrixXd data, base;
     std::vector<Eigen::MatrixXd> columns, soil, inputs;
-    double nats = 0;  ///< by which what the fit leaves is unlikely
+    double nats = 0;  ///< by which what the fit leaves is unlikely; infinite where no zone carries
   };
 
   /// A fit, and by how many nats what it leaves is unlikely.
@@ -68,6 +68,7 @@ class EffectFit {
   Eigen::VectorXd other_bearing() const;
   std::vector<WindowZone> zones() const;
   Linearised linearise();
+  bool is_carried(const std::vector<Eigen::MatrixXd>& soil) const;
   ResidualNoise whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones);
   void go_on_from(Settled settled);
   void settle_zone();
