@@ -261,7 +261,8 @@ void EffectFit::settle_zone() {
     go_on_from(start);
     fit_.zones.back() = weakness * (contest_.wide_directions[0] + contest_.wide_directions[1]);
     Settled settled = settled_from_here();
-    if (settled.nats < best.nats) best = std::move(settled);
+    // The map's soil is the answer where none of all says anything.
+    if (best.fit.zones.empty() || settled.nats < best.nats) best = std::move(settled);
   }
   go_on_from(std::move(best));
 }

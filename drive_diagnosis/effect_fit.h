@@ -55,7 +55,8 @@ class EffectFit {
   struct Linearised {
     Eigen::MatrixXd data, base;
     std::vector<Eigen::MatrixXd> columns, soil, inputs;
-    double nats = 0;  ///< by which what the fit leaves is unlikely; infinite where no zone carries
+    double nats =
+        0;  ///< by which what the fit leaves is unlikely; infinite where a zone carries nowhere
   };
 
   /// A fit, and by how many nats what it leaves is unlikely.

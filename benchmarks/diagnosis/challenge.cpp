@@ -84,56 +84,44 @@ double unit(const Rig& rig, Channel channel) {
   return channel == Channel::kSinkage ? 3 * rig.middle_sinkage_m : rig.middle_load_n;
 }
 
-/// Of force into force, or torque into drawbar pull where no side force is measured.
-InstrumentFault crosstalk(Random& random, const Rig& rig, double share) {
+/// Faults of one kind and how large they are: shares, or rad where a sensor is turned.
+struct FaultRange {
+  std::string_view id;
+  double low, high;
+};
+constexpr std::array<FaultRange, 6> kUsualFaults{{{"sensor_bias", 0.03, 0.12},
+                                                  {"sensor_bias", 0.03, 0.12},
+                                                  {"sensor_gain", 0.06, 0.25},
+                                                  {"sensor_crosstalk", 0.04, 0.2},
+                                                  {"slip_scale", 0.02, 0.08},
+                                                  {"load_cell", 0.06, 0.25}}};
+constexpr std::array<FaultRange, 6> kLargeFaults{{{"sensor_bias", 0.12, 0.3},
+                                                  {"sensor_gain", 0.25, 0.5},
+                                                  {"sensor_crosstalk", 0.2, 0.4},
+                                                  {"slip_scale", 0.08, 0.15},
+                                                  {"load_cell", 0.25, 0.4},
+                                                  {"sensor_turned", 0.04, 0.3}}};
+
+/// Crosstalk is of force into force, or of torque into drawbar pull where no side force is
+/// measured.
+InstrumentFault draw_fault(Random& random, const Rig& rig, const FaultRange& range) {
   using enum Channel;
-  const bool side = std::ranges::count(rig.channels, kFy) > 0;
-  const Channel to = side && chance(random, 0.6) ? kFy : kFx;
-  const Channel from = to == kFy ? kFx : (side ? kFy : kTorque);
-  return {"sensor_crosstalk", to, from,
-          share * (from == kTorque ? 1 / rig.setup.wheel.radius_m : 1)};
-}
-
-InstrumentFault draw_fault(Random& random, const Rig& rig, std::uint64_t turn) {
-  const Channel channel = one_of(random, rig.channels);
+  InstrumentFault fault{.id = std::string(range.id), .channel = one_of(random, rig.channels)};
+  fault.from = fault.channel;
   const double s = sign(random);
-  switch (turn % 6) {
-    case 0:
-    case 1:
-      return {"sensor_bias", channel, channel,
-              s * uniform(random, 0.03, 0.12) * unit(rig, channel)};
-    case 2:
-      return {"sensor_gain", channel, channel, s * uniform(random, 0.06, 0.25)};
-    case 3: {
-      const double share = s * uniform(random, 0.04, 0.2);
-      return crosstalk(random, rig, share);
-    }
-    case 4:
-      return {"slip_scale", channel, channel, s * uniform(random, 0.02, 0.08)};
-    default:
-      return {"load_cell", channel, channel, s * uniform(random, 0.06, 0.25)};
+  fault.amount = s * uniform(random, range.low, range.high);
+  if (range.id == "sensor_bias") fault.amount *= unit(rig, fault.channel);
+  if (range.id == "sensor_turned") {
+    fault.channel = kFx;
+    fault.from = kFy;
   }
-}
-
-InstrumentFault draw_large_fault(Random& random, const Rig& rig, std::uint64_t turn) {
-  const Channel channel = one_of(random, rig.channels);
-  const double s = sign(random);
-  switch (turn % 6) {
-    case 0:
-      return {"sensor_bias", channel, channel, s * uniform(random, 0.12, 0.3) * unit(rig, channel)};
-    case 1:
-      return {"sensor_gain", channel, channel, s * uniform(random, 0.25, 0.5)};
-    case 2: {
-      const double share = s * uniform(random, 0.2, 0.4);
-      return crosstalk(random, rig, share);
-    }
-    case 3:
-      return {"slip_scale", channel, channel, s * uniform(random, 0.08, 0.15)};
-    case 4:
-      return {"load_cell", channel, channel, s * uniform(random, 0.25, 0.4)};
-    default:
-      return {"sensor_turned", Channel::kFx, Channel::kFy, s * uniform(random, 0.04, 0.3)};
+  if (range.id == "sensor_crosstalk") {
+    const bool side = std::ranges::count(rig.channels, kFy) > 0;
+    fault.channel = side && chance(random, 0.6) ? kFy : kFx;
+    fault.from = fault.channel == kFy ? kFx : (side ? kFy : kTorque);
+    if (fault.from == kTorque) fault.amount /= rig.setup.wheel.radius_m;
   }
+  return fault;
 }
 
 /// Moves one or two soil numbers out of what the tests say.
@@ -228,7 +216,8 @@ std::vector<std::string> accepted_for(const std::string& fault) {
 
 std::optional<Plan> with_fault(Random& random, bool large, std::uint64_t turn) {
   Plan plan = planned(random, {.torque = chance(random, 0.5), .sinkage = chance(random, 0.5)});
-  const InstrumentFault fault = (large ? draw_large_fault : draw_fault)(random, plan.rig, turn);
+  const auto& kinds = large ? kLargeFaults : kUsualFaults;
+  const InstrumentFault fault = draw_fault(random, plan.rig, kinds.at(turn % kinds.size()));
   plan.faults = {fault};
   const bool of_two = fault.id == "sensor_crosstalk" || fault.id == "sensor_turned";
   if (of_two && !std::ranges::count(plan.rig.channels, fault.from)) return std::nullopt;
