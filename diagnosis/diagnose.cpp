@@ -10,6 +10,7 @@
 #include "diagnosis/checks/location.h"
 #include "diagnosis/checks/smallest_detectable.h"
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/fit/effect_list.h"
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/names/calibrated_recording.h"
 #include "diagnosis/names/claim.h"

@@ -9,6 +9,7 @@
 #include "diagnosis/bed/compared_recordings.h"
 #include "diagnosis/checks/location.h"
 #include "diagnosis/checks/shared_shortcomings.h"
+#include "diagnosis/fit/effect_list.h"
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/names/capped_contest.h"
 #include "diagnosis/names/claim.h"

@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "diagnosis/fit/candidate.h"
+#include "diagnosis/bed/wheel_bed.h"
+#include "diagnosis/fit/coordinate.h"
 
 namespace regoplan {
 

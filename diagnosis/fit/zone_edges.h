@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "diagnosis/fit/candidate.h"
+#include "diagnosis/bed/wheel_bed.h"
 
 namespace regoplan {
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "calibrated_bed.h"
+#include "diagnosis/fit/effect_list.h"
 
 namespace regoplan {
 namespace {

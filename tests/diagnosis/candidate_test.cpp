@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/fit/effect_list.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {

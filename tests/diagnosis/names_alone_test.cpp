@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "diagnosis/fit/effect_list.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "calibrated_bed.h"
+#include "diagnosis/fit/effect_list.h"
 #include "terramech/basics/angles.h"
 
 namespace regoplan {

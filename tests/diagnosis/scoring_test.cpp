@@ -8,6 +8,7 @@
 
 #include "account_of.h"
 #include "calibrated_bed.h"
+#include "diagnosis/fit/effect_list.h"
 
 namespace regoplan {
 namespace {
