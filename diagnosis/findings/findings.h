@@ -41,7 +41,7 @@ struct Share {
 /// One effect that the diagnosis claims.
 struct Claim {
   std::string id;
-  std::string form;        ///< the one that fits best; empty for instruments
+  std::string form;        ///< the one that fits best; of instruments, the channels or how
   double probability = 0;  ///< of the class
   std::map<std::string, Estimate> parameters;
   std::vector<std::string> equivalent;  ///< further ids that these data cannot tell apart

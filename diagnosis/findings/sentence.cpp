@@ -128,6 +128,19 @@ std::vector<std::string> names_of(const Claim& claim) {
   return names;
 }
 
+/// " (turned about z: turn_rad 0.17, std 0.01)" of a claim that one fitted number tells.
+std::string number_words(const Claim& claim) {
+  const auto is_fitted = [](const auto& parameter) {
+    return parameter.second.standard_deviation > 0;
+  };
+  if (!claim.equivalent.empty() || std::ranges::count_if(claim.parameters, is_fitted) != 1) {
+    return "";
+  }
+  const auto& [name, estimate] = *std::ranges::find_if(claim.parameters, is_fitted);
+  return fmt::format(" ({}: {} {:.3g}, std {:.2g})", claim.form, name, estimate.value,
+                     estimate.standard_deviation);
+}
+
 /// "slip_sinkage explains 45 %; max_stress_angle or rear_contact explains 30 %".
 std::string partial_words(const Diagnosis& diagnosis) {
   std::string what;
@@ -164,8 +177,8 @@ std::string parameters_words(const Diagnosis& diagnosis) {
 std::string named_words(const Diagnosis& diagnosis) {
   std::string what;
   for (const Claim& claim : diagnosis.claims) {
-    what += fmt::format("{}{}, {}", what.empty() ? "" : "; and ", list_of(names_of(claim)),
-                        probability_words(claim.probability));
+    what += fmt::format("{}{}, {}{}", what.empty() ? "" : "; and ", list_of(names_of(claim)),
+                        probability_words(claim.probability), number_words(claim));
   }
   std::string text = "the data say " + what + ".";
   const double left = 1 - diagnosis.share_explained;

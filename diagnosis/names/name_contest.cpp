@@ -8,6 +8,7 @@
 
 #include "diagnosis/checks/bed_memory.h"
 #include "diagnosis/fit/unnamed_correction.h"
+#include "diagnosis/names/correction.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
@@ -119,8 +120,7 @@ std::optional<ProvenClaim> NameContest::decide() {
     doubt.clear();
   }
   const std::vector<std::size_t> left = remainder_settings(problem, best->fit);
-  HeldOut proof = best_hold_out(calibrated_.recording(), calibrated_.soil(), calibrated_.base(),
-                                {.fit = &best->fit, .remainder = left}, threads_);
+  HeldOut proof = proof_of(best->fit, left);
   const Worth worth = worth_of(calibrated_, best->fit, proof);
   if (doubt.empty() && !worth.proves(claimed.front().probability)) {
     doubt = fmt::format(
@@ -141,6 +141,12 @@ std::optional<ProvenClaim> NameContest::decide() {
   }
   notes_.push_back(fmt::format("{} scores best but is not claimed: {}", best->id(), doubt));
   return std::nullopt;
+}
+
+HeldOut NameContest::proof_of(const CandidateFit& fit,
+                              const std::vector<std::size_t>& remainder) const {
+  return best_hold_out(calibrated_.recording(), calibrated_.soil(), calibrated_.base(),
+                       {.fit = &fit, .remainder = remainder}, threads_);
 }
 
 /// Of two effects each must do its part on held-out conditions, whatever the kind of families:
@@ -193,6 +199,7 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
       deviations_of_memory(calibrated_.problem(), fit) > Thresholds::kMemory_deviations) {
     doubt = "what it leaves follows the slip of the run before";
   }
+  if (doubt.empty()) doubt = doubt_about_fault(fit);
   if (!doubt.empty() || !is_known_exactly(fit)) return doubt;
   const CandidateFit alone = fitted_alone(calibrated_, fit);
   const LackOfFit left =
@@ -207,6 +214,23 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
       "what it does is known exactly, and a remainder beside it predicts held-out conditions "
       "better by {:.1f} standard errors",
       held_out.errors);
+}
+
+/// A fault of an instrument is easily blamed for physics on no list: beside it, whatever else is
+/// claimed, a remainder must leave no lack of fit.
+std::string NameContest::doubt_about_fault(const CandidateFit& fit) const {
+  const bool blames_instrument = std::ranges::any_of(
+      fit.candidate.effects, [](const Effect& effect) { return is_instrument(effect.id); });
+  if (!blames_instrument) return "";
+  const std::vector<std::size_t> remainder = remainder_settings(calibrated_.problem(), fit);
+  const Correction correction =
+      correction_by(calibrated_, fit, remainder, proof_of(fit, remainder), threads_);
+  const LackOfFit left = lack_of_fit(calibrated_.recording(), correction.remainder, seed_);
+  if (left.p_value >= Thresholds::kBeyondDoubt_p) return "";
+  return fmt::format(
+      "it blames an instrument, and a remainder beside it leaves a lack of fit "
+      "(p = {:.2g})",
+      left.p_value);
 }
 
 /// What speaks against the best of a class need not speak against its other names, nor against

@@ -50,7 +50,9 @@ class NameContest {
 
   std::vector<NameClass> proven_one_by_one();
   std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const;
+  HeldOut proof_of(const CandidateFit& fit, const std::vector<std::size_t>& remainder) const;
   std::string doubt_about(const CandidateFit& fit) const;
+  std::string doubt_about_fault(const CandidateFit& fit) const;
   void share_with_unlisted(std::vector<NameClass>& claimed);
   bool another_holds(const std::vector<NameClass>& refuted, const std::set<std::string>& best);
 

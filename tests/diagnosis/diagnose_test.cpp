@@ -103,6 +103,8 @@ TEST(Diagnose, ASensorTurnedAboutTheVerticalIsASensorAndToldByItsAngle) {
   ASSERT_TRUE(names(found, "sensor_crosstalk")) << found.sentence;
   ASSERT_EQ(found.claims.front().form, "turned about z");
   EXPECT_NEAR(found.claims.front().parameters.at("turn_rad").value, kTurn_rad, 0.03);
+  EXPECT_NE(found.sentence.find("(turned about z: turn_rad 0."), std::string::npos)
+      << found.sentence;
 }
 
 /// A recording of one day, a run every two minutes, of instruments that change in time.

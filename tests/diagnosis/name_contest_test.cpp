@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 
+#include "diagnosis/fit/effect_list.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {
@@ -16,13 +18,17 @@ namespace {
 /// Two ids scored against the plain models, the soil calibrated.
 class NameContestOf : public testing::Test {
  protected:
-  void hold(const TrueWheel& truth, const BedPlan& plan = {.conditions = 24},
-            const std::set<std::string>& ids = {"slip_sinkage", "shear_hump"}) {
+  void hold(
+      const TrueWheel& truth, const BedPlan& plan = {.conditions = 24},
+      const std::set<std::string>& ids = {"slip_sinkage", "shear_hump"},
+      const std::function<bool(const Effect&)>& is_left_out = [](const Effect&) { return false; }) {
     setup_ = simulant_setup();
     recording_ = record(truth, setup_, setup_.soil.mean, plan, 5);
+    recording_.columns.time = std::ranges::any_of(
+        recording_.runs, [](const WheelRun& run) { return run.conditions.time_s > 0; });
     calibrated_ = std::make_unique<CalibratedRecording>(recording_, setup_);
     std::vector<Effect> effects = effects_for(calibrated_->bed(), recording_);
-    std::erase_if(effects, [&](const Effect& e) { return !ids.contains(e.id); });
+    std::erase_if(effects, [&](const Effect& e) { return !ids.contains(e.id) || is_left_out(e); });
     scored_ = score_candidates(calibrated_->problem(), calibrated_->wide_problem(), effects, {});
   }
 
@@ -76,6 +82,29 @@ TEST_F(NameContestOf, AFaultThatIsKnownExactlyIsNotClaimedWhereItLeavesWhatIsWor
   EXPECT_FALSE(contest.decide());
   ASSERT_FALSE(contest.notes().empty());
   EXPECT_NE(contest.notes().back().find("known exactly, and leaves"), std::string::npos)
+      << contest.notes().back();
+}
+
+TEST_F(NameContestOf, NoInstrumentIsBlamedBesideMisfitThatNoRemainderTakes) {
+  // Traction comes and goes three times in the series: no amplifier that drifts or settles does.
+  BedPlan plan{.conditions = 24};
+  plan.instruments = [time_s = 0.0](WheelRun& run) mutable {
+    constexpr double kRun_s = 120, kPeriod_s = 24 * kRun_s;
+    run.conditions.time_s = time_s;
+    run.day = 0;
+    run.measured[0] *= 1.2 + 0.5 * std::sin(2 * M_PI * time_s / kPeriod_s);
+    time_s += kRun_s;
+  };
+  hold({}, plan, {"sensor_gain"}, has_one_form);
+  for (ScoredId& one : scored_) {
+    if (one.id() == "sensor_gain") one.score += 1e4;
+  }
+  weigh(scored_, PlainModel::kRefuted);
+  ASSERT_EQ(scored_.front().id(), "sensor_gain");
+  NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
+  EXPECT_FALSE(contest.decide());
+  ASSERT_FALSE(contest.notes().empty());
+  EXPECT_NE(contest.notes().back().find("blames an instrument"), std::string::npos)
       << contest.notes().back();
 }
 
