@@ -53,12 +53,8 @@ Eigen::MatrixXd free_columns(const EffectContest& contest) {
   if (zones == 0) return columns;
   const Eigen::MatrixXd factor = zone_factor(contest);
   for (Eigen::Index z = 0; z < zones; ++z) {
-    const Eigen::VectorXd& share = contest.zones_known[static_cast<std::size_t>(z)];
-    for (Eigen::Index w = 0; w < share.size(); ++w) {
-      if (share[w] == 0) continue;
-      columns.middleCols(parameters + z * q, q) +=
-          share[w] * contest.soil.middleCols(w * q, q) * factor;
-    }
+    columns.middleCols(parameters + z * q, q) =
+        contest.zones_known[static_cast<std::size_t>(z)].columns * factor;
   }
   return columns;
 }
@@ -157,7 +153,7 @@ class ZoneGains {
 std::vector<bool> free_of_zones(const EffectContest& contest) {
   const std::size_t n = contest.follows.size();
   std::vector<bool> free(n, true);
-  for (const Eigen::VectorXd& share : contest.zones_known) {
+  for (const auto& [share, columns] : contest.zones_known) {
     for (std::size_t w = 0; w < n; ++w) {
       if (share[static_cast<Eigen::Index>(w)] == 0) continue;
       free[w] = false;
@@ -295,13 +291,15 @@ class Contest {
         const double begins = static_cast<double>(most_likely.first) + from;
         const double ends = static_cast<double>(most_likely.last) + 1 + to;
         if (begins < 0 || ends > static_cast<double>(n) || ends - begins < 1) continue;
-        const Eigen::VectorXd share = shares(begins, ends);
+        const Eigen::VectorXd share = shares_between(begins, ends, contest_.follows.size());
         places.push_back({begins, ends, gain_of(share, most_likely.soil)});
       }
     }
     const auto& most = *std::ranges::max_element(places, {}, [](const auto& at) { return at[2]; });
     zone.gain = std::max(zone.gain, most[2]);
-    zone.share = shares(most[0], most[1]);
+    zone.begins = most[0];
+    zone.ends = most[1];
+    zone.share = shares_between(zone.begins, zone.ends, contest_.follows.size());
     zone.first_at = {most[0], most[0]};
     zone.last_at = {most[1], most[1]};
     for (const auto& [begins, ends, gain] : places) {
@@ -327,15 +325,6 @@ class Contest {
       zone.like_size = towards / (1 + along);
       zone.like_std = 1 / std::sqrt(1 + along);
     }
-  }
-
-  Eigen::VectorXd shares(double begins, double ends) const {
-    Eigen::VectorXd share(static_cast<Eigen::Index>(contest_.follows.size()));
-    for (Eigen::Index w = 0; w < share.size(); ++w) {
-      const auto from = static_cast<double>(w);
-      share[w] = std::clamp(std::min(ends, from + 1) - std::max(begins, from), 0.0, 1.0);
-    }
-    return share;
   }
 
   void judge(Eigen::VectorXd& largest, EffectFound& best) const {
@@ -374,6 +363,15 @@ class Contest {
 };
 
 }  // namespace
+
+Eigen::VectorXd shares_between(double begins, double ends, std::size_t windows) {
+  Eigen::VectorXd share(static_cast<Eigen::Index>(windows));
+  for (Eigen::Index w = 0; w < share.size(); ++w) {
+    const auto from = static_cast<double>(w);
+    share[w] = std::clamp(std::min(ends, from + 1) - std::max(begins, from), 0.0, 1.0);
+  }
+  return share;
+}
 
 EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed) {
   return Contest(contest, seed).strongest();

@@ -9,6 +9,12 @@
 
 namespace regoplan {
 
+/// A stretch whose soil is free.
+struct KnownZone {
+  Eigen::VectorXd share;    ///< of each window that lies in it
+  Eigen::MatrixXd columns;  ///< white, what each number of its soil changes, by a deviation
+};
+
 /// Everything that competes to explain a drive, in white data: to first order, what each changes.
 struct EffectContest {
   Eigen::VectorXd data;
@@ -28,8 +34,8 @@ struct EffectContest {
   /// less evidence shows one of these than a soil of which nothing is known.
   std::vector<Eigen::VectorXd> likely_soils;
   std::vector<bool> follows;  ///< whether a window follows the one before: zones do not jump
-  std::vector<Eigen::VectorXd> zones_known;  ///< shares of each window whose soil is free already
-  std::vector<std::size_t> faults_known;     ///< parameters that are free already
+  std::vector<KnownZone> zones_known;     ///< whose soil is free already
+  std::vector<std::size_t> faults_known;  ///< parameters that are free already
 };
 
 /// An effect that the data may need: a parameter or a zone.
@@ -37,6 +43,7 @@ struct EffectFound {
   bool is_zone = false;
   std::size_t parameter = 0;
   double size = 0, std = 0;                     ///< in units of the parameter's column
+  double begins = 0, ends = 0;                  ///< of the zone, in windows
   Eigen::VectorXd share;                        ///< of each window that lies in the zone
   std::array<double, 2> first_at{}, last_at{};  ///< 95 % of where it begins and ends, in windows
   /// The likely soil whose evidence is most in the zone, and how much of it is there; nothing where
@@ -50,6 +57,9 @@ struct EffectFound {
   std::vector<std::size_t> alike;  ///< parameters that explain as much, or the same
   bool zone_alike = false;         ///< some zone explains as much
 };
+
+/// How much of each window lies between two places along them.
+Eigen::VectorXd shares_between(double begins, double ends, std::size_t windows);
 
 /// The strongest of all effects, judged against the largest gain in null draws of the whole
 /// contest: sound vehicles, soils within their spread, normal noise.

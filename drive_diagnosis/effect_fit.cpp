@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "drive_diagnosis/likely_edges.h"
 #include "drive_diagnosis/slope_errors.h"
 
 namespace regoplan {
@@ -45,19 +47,22 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
 }
 
 EffectFound EffectFit::strongest(std::uint64_t seed) {
-  const Linearised here = linearise();
+  Linearised here = linearise();
   EffectFound strongest = strongest_effect(contest_, seed);
   if (strongest.stands_out || !strongest.is_zone) return strongest;
   // A zone that is there has widened the noise that it was held against.
-  std::vector<Eigen::VectorXd> zones = contest_.zones_known;
-  zones.push_back(strongest.share);
-  whiten(here, zones);
+  std::vector<Eigen::MatrixXd>& numbers = here.zones.emplace_back();
+  for (const Eigen::MatrixXd& number : here.soil) {
+    numbers.emplace_back(strongest.share.asDiagonal() * number);
+  }
+  whiten(here);
   return strongest_effect(contest_, seed);
 }
 
 void EffectFit::add(const EffectFound& effect) {
   if (effect.is_zone) {
-    contest_.zones_known.push_back(effect.share);
+    contest_.zones_known.push_back({.share = effect.share, .columns = {}});
+    edges_.push_back({effect.begins, effect.ends});
     fit_.zones.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size())));
   } else {
     contest_.faults_known.push_back(effect.parameter);
@@ -105,9 +110,9 @@ Eigen::VectorXd EffectFit::other_bearing() const {
 std::vector<WindowZone> EffectFit::zones() const {
   std::vector<WindowZone> result;
   for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
-    const Eigen::VectorXd& share = contest_.zones_known[z];
-    result.push_back({.share = {share.begin(), share.end()},
-                      .soil = soil_of(share),
+    result.push_back({.begins = edges_[z][0],
+                      .ends = edges_[z][1],
+                      .soil = soil_of(z),
                       .numbers = numbers_of(fit_.zones[z])});
   }
   return result;
@@ -130,7 +135,7 @@ EffectFit::Linearised EffectFit::linearise() {
   const Eigen::MatrixXd base = predicted();
   std::vector<Eigen::MatrixXd> columns;
   // Told of the measured inputs, to first order about the likely ones.
-  const std::vector<Eigen::MatrixXd> inputs = comparison_.of_inputs(here, base, stop_);
+  const std::vector<Eigen::MatrixXd> inputs = comparison_.of_inputs(here, zones_here, base, stop_);
   Eigen::MatrixXd data = comparison_.measured() - base;
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     data += shifts_.col(static_cast<Eigen::Index>(k)).asDiagonal() * inputs[k];
@@ -149,61 +154,77 @@ EffectFit::Linearised EffectFit::linearise() {
     for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
     soil.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
   }
+  std::vector<std::vector<Eigen::MatrixXd>> of_zones;
   for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
-    for (Eigen::Index w = 0; w < data.rows(); ++w) {
-      for (std::size_t k = 0; k < numbers_.size(); ++k) {
-        data.row(w) += contest_.zones_known[z][w] * fit_.zones[z][static_cast<Eigen::Index>(k)] *
-                       soil[k].row(w);
-      }
+    std::vector<Eigen::MatrixXd>& of_zone = of_zones.emplace_back();
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      std::vector<WindowZone> there = zones_here;
+      there[z].numbers.at(numbers_[k]) += 1;
+      of_zone.push_back(comparison_.predicted_on(there[z], here, there, base, stop_) - base);
+      data += fit_.zones[z][static_cast<Eigen::Index>(k)] * of_zone.back();
     }
   }
+  // Where a zone's soil carries the vehicle nowhere in it nothing is predicted there but what the
+  // map says, and no soil is likelier than another.
+  const bool is_carried = std::ranges::all_of(of_zones, [](const auto& numbers) {
+    return !std::ranges::all_of(numbers,
+                                [](const Eigen::MatrixXd& number) { return number.isZero(0); });
+  });
   Linearised result{.data = std::move(data),
                     .base = base,
                     .columns = std::move(columns),
                     .soil = std::move(soil),
-                    .inputs = inputs};
-  const ResidualNoise noise = whiten(result, contest_.zones_known);
+                    .inputs = inputs,
+                    .zones = std::move(of_zones)};
+  const ResidualNoise noise = whiten(result);
   shifts_ = noise.inputs_given(left);
-  result.nats =
-      is_carried(result.soil) ? noise.nats(left) : std::numeric_limits<double>::infinity();
+  result.nats = is_carried ? noise.nats(left) : std::numeric_limits<double>::infinity();
   return result;
 }
 
-/// Whether every zone's soil carries the vehicle somewhere in it: else nothing is predicted there
-/// but what the map says, and no soil is likelier than another.
-bool EffectFit::is_carried(const std::vector<Eigen::MatrixXd>& soil) const {
-  return std::ranges::all_of(contest_.zones_known, [&](const Eigen::VectorXd& share) {
-    return std::ranges::any_of(soil, [&](const Eigen::MatrixXd& number) {
-      return !(share.asDiagonal() * number).isZero(0);
-    });
-  });
-}
-
-/// Makes data and columns of the contest white.
-/// \param zones stretches whose soil is no noise
-ResidualNoise EffectFit::whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones) {
-  const auto& [data, base, columns, soil, inputs, nats] = here;
-  std::vector<Eigen::MatrixXd> global = columns;
+ResidualParts EffectFit::residual_parts(const Linearised& here) const {
+  std::vector<Eigen::MatrixXd> global = here.columns;
   std::vector<bool> may_be_wrong = contest_.claimable;
-  for (const Eigen::VectorXd& share : zones) {
-    for (const Eigen::MatrixXd& number : soil) {
-      global.emplace_back(share.asDiagonal() * number);
+  for (const std::vector<Eigen::MatrixXd>& numbers : here.zones) {
+    for (const Eigen::MatrixXd& number : numbers) {
+      global.push_back(number);
       may_be_wrong.push_back(true);
     }
   }
   std::vector<bool> unknown;
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
+  for (std::size_t k = 0; k < here.inputs.size(); ++k) {
     unknown.push_back(k >= comparison_.slope_along());
   }
-  ResidualNoise noise({.residuals = data,
-                       .columns = std::move(global),
-                       .may_be_wrong = std::move(may_be_wrong),
-                       .inputs = inputs,
-                       .scatters_unknown = unknown,
-                       .follows = contest_.follows,
-                       .sizes = comparison_.sizes(),
-                       .sampled_std = comparison_.sampled_std(),
-                       .more_std = comparison_.more_std()});
+  return {.residuals = here.data,
+          .columns = std::move(global),
+          .may_be_wrong = std::move(may_be_wrong),
+          .inputs = here.inputs,
+          .scatters_unknown = unknown,
+          .follows = contest_.follows,
+          .sizes = comparison_.sizes(),
+          .sampled_std = comparison_.sampled_std(),
+          .more_std = comparison_.more_std()};
+}
+
+/// How far residuals scatter in the windows that do not touch a zone; nothing where those are too
+/// few to tell.
+std::optional<ScatterSources> EffectFit::scatter_outside(const Eigen::VectorXd& zone) {
+  constexpr std::size_t kFewest = 10;
+  std::vector<Eigen::Index> outside;
+  for (Eigen::Index w = 0; w < zone.size(); ++w) {
+    if (zone[w] == 0) outside.push_back(w);
+  }
+  if (outside.size() < kFewest) return std::nullopt;
+  const ResidualParts all = residual_parts(linearise());
+  return ResidualNoise(parts_of(all, outside)).sources();
+}
+
+/// Makes data and columns of the contest white.
+ResidualNoise EffectFit::whiten(const Linearised& here) {
+  const auto& [data, base, columns, soil, inputs, zones, nats] = here;
+  ResidualParts parts = residual_parts(here);
+  ResidualNoise noise =
+      scatter_ ? ResidualNoise(std::move(parts), *scatter_) : ResidualNoise(std::move(parts));
   noise_ = noise.scales();
   contest_.data = noise.whitened(data);
   contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(columns.size()));
@@ -220,9 +241,16 @@ ResidualNoise EffectFit::whiten(const Linearised& here, const std::vector<Eigen:
                         static_cast<Eigen::Index>(k)) = noise.whitened(alone);
     }
   }
+  for (std::size_t z = 0; z < contest_.zones_known.size(); ++z) {
+    Eigen::MatrixXd& known = contest_.zones_known[z].columns;
+    known.resize(contest_.data.size(), static_cast<Eigen::Index>(numbers_.size()));
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      known.col(static_cast<Eigen::Index>(k)) = noise.whitened(zones[z][k]);
+    }
+  }
   const std::size_t along = comparison_.slope_along();
   const auto white = [&](std::size_t input) {
-    return Eigen::VectorXd(noise.input_scales()[input] * noise.whitened(here.inputs[input]));
+    return Eigen::VectorXd(noise.sources().inputs[input] * noise.whitened(here.inputs[input]));
   };
   contest_.ground = likely_slope_errors(
       contest_, {.along = white(along), .across = white(along + 1), .channels = base.cols()},
@@ -244,9 +272,9 @@ void EffectFit::settle() {
   }
 }
 
-void EffectFit::settle_with(const EffectFound& effect) {
+void EffectFit::settle_with(EffectFound& effect) {
   if (effect.is_zone) {
-    settle_zone();
+    settle_zone(effect);
   } else if (fit_.zones.empty()) {
     settle();
   } else {
@@ -254,10 +282,12 @@ void EffectFit::settle_with(const EffectFound& effect) {
   }
 }
 
-void EffectFit::settle_zone() {
+void EffectFit::settle_zone(EffectFound& zone) {
   const Settled start{.fit = fit_, .shifts = shifts_};
   Settled best;
-  for (const double weakness : {0.0, 0.5, 1.0, 1.5, 2.0}) {
+  // A soil that fits badly leaves misfit in its zone, which would pass for noise.
+  scatter_ = scatter_outside(zone.share);
+  for (const double weakness : {0.0, 0.7, 1.4}) {
     go_on_from(start);
     fit_.zones.back() = weakness * (contest_.wide_directions[0] + contest_.wide_directions[1]);
     Settled settled = settled_from_here();
@@ -265,6 +295,40 @@ void EffectFit::settle_zone() {
     if (best.fit.zones.empty() || settled.nats < best.nats) best = std::move(settled);
   }
   go_on_from(std::move(best));
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds && place_edges(zone); ++round) {
+    go_on_from(settled_from_here());
+  }
+  scatter_.reset();
+}
+
+/// Moves the edges of the zone that was added last to where its soil makes them likeliest.
+/// \returns whether they moved
+bool EffectFit::place_edges(EffectFound& zone) {
+  const Eigen::MatrixXd shifts = shifts_;
+  const Linearised here = linearise();
+  const ResidualNoise noise = whiten(here);
+  // What the inputs' scatter explains stays what it is.
+  Eigen::MatrixXd measured = comparison_.measured();
+  for (std::size_t k = 0; k < here.inputs.size(); ++k) {
+    measured += shifts.col(static_cast<Eigen::Index>(k)).asDiagonal() * here.inputs[k];
+  }
+  const VehicleDeviation vehicle = deviation();
+  const ZoneEdges edges = likely_edges({.comparison = comparison_,
+                                        .deviation = vehicle,
+                                        .measured = std::move(measured),
+                                        .predicted = here.base,
+                                        .noise = noise},
+                                       zones(), stop_);
+  zone.begins = edges.begins;
+  zone.ends = edges.ends;
+  zone.first_at = edges.begins_ci95;
+  zone.last_at = edges.ends_ci95;
+  zone.share = shares_between(edges.begins, edges.ends, comparison_.size());
+  contest_.zones_known.back().share = zone.share;
+  const std::array<double, 2> before = edges_.back();
+  edges_.back() = {edges.begins, edges.ends};
+  return edges_.back() != before;
 }
 
 /// Steps are taken where they lead to what is likelier, and else shortened, until nothing changes
@@ -337,7 +401,8 @@ int EffectFit::soil_at(std::size_t i) const {
 }
 
 /// The soil of the map that most of a zone is said to be.
-int EffectFit::soil_of(const Eigen::VectorXd& share) const {
+int EffectFit::soil_of(std::size_t zone) const {
+  const Eigen::VectorXd& share = contest_.zones_known[zone].share;
   std::vector<double> lies_on(map_.soils().size());
   for (std::size_t i = 0; i < comparison_.size(); ++i) {
     lies_on[static_cast<std::size_t>(soil_at(i))] += share[static_cast<Eigen::Index>(i)];

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -33,7 +35,8 @@ class EffectFit {
   /// The same with the effect that was added last. Soils far off are no longer linear, so that
   /// steps may lead away again, and lead elsewhere from a soil like the map's than from weaker
   /// ones, down to what carries no vehicle: the likeliest of where they led counts.
-  void settle_with(const EffectFound& effect);
+  /// A zone then begins and ends where that soil makes it likeliest.
+  void settle_with(EffectFound& effect);
 
   const ContestFit& fit() const { return fit_; }
   /// How far each channel scatters.
@@ -45,8 +48,8 @@ class EffectFit {
   VehicleDeviation deviation() const;
   /// What the model says of each window with them and the known zones.
   Eigen::MatrixXd predicted() const;
-  /// The soil of the map that most of a zone is said to be. \param share of each window
-  int soil_of(const Eigen::VectorXd& share) const;
+  /// The soil of the map that most of a zone is said to be. \param zone index of those added
+  int soil_of(std::size_t zone) const;
   /// The soil of the map in the middle of a window.
   int soil_at(std::size_t window) const;
 
@@ -55,6 +58,7 @@ class EffectFit {
   struct Linearised {
     Eigen::MatrixXd data, base;
     std::vector<Eigen::MatrixXd> columns, soil, inputs;
+    std::vector<std::vector<Eigen::MatrixXd>> zones;  ///< of each, what its soil's numbers change
     double nats =
         0;  ///< by which what the fit leaves is unlikely; infinite where a zone carries nowhere
   };
@@ -69,10 +73,12 @@ class EffectFit {
   Eigen::VectorXd other_bearing() const;
   std::vector<WindowZone> zones() const;
   Linearised linearise();
-  bool is_carried(const std::vector<Eigen::MatrixXd>& soil) const;
-  ResidualNoise whiten(const Linearised& here, const std::vector<Eigen::VectorXd>& zones);
+  ResidualParts residual_parts(const Linearised& here) const;
+  ResidualNoise whiten(const Linearised& here);
+  std::optional<ScatterSources> scatter_outside(const Eigen::VectorXd& zone);
+  bool place_edges(EffectFound& zone);
   void go_on_from(Settled settled);
-  void settle_zone();
+  void settle_zone(EffectFound& zone);
   Settled settled_from_here();
   double step();
   double longest_of_sound(const Eigen::VectorXd& step) const;
@@ -85,6 +91,9 @@ class EffectFit {
   std::vector<std::size_t> numbers_;  ///< of soil, that vary
   EffectContest contest_;
   ContestFit fit_;
+  std::vector<std::array<double, 2>> edges_;  ///< where each zone begins and ends, in windows
+  /// How far residuals scatter, where fits are compared by it; else as each fit leaves it.
+  std::optional<ScatterSources> scatter_;
   std::vector<double> noise_;
 };
 

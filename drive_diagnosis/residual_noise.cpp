@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "drive_diagnosis/robust_statistics.h"
@@ -32,6 +33,33 @@ class Evidence {
 
 }  // namespace
 
+ResidualParts parts_of(const ResidualParts& all, const std::vector<Eigen::Index>& windows) {
+  const auto some = [&windows](const Eigen::MatrixXd& of) -> Eigen::MatrixXd {
+    return of(windows, Eigen::all);
+  };
+  ResidualParts parts{.residuals = some(all.residuals),
+                      .columns = {},
+                      .may_be_wrong = all.may_be_wrong,
+                      .inputs = {},
+                      .scatters_unknown = all.scatters_unknown,
+                      .follows = {},
+                      .sizes = some(all.sizes),
+                      .sampled_std = all.sampled_std,
+                      .more_std = some(all.more_std)};
+  std::ranges::transform(all.columns, std::back_inserter(parts.columns), some);
+  std::ranges::transform(all.inputs, std::back_inserter(parts.inputs), some);
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    parts.follows.push_back(i > 0 && windows[i] == windows[i - 1] + 1 &&
+                            all.follows[static_cast<std::size_t>(windows[i])]);
+  }
+  return parts;
+}
+
+ResidualNoise::ResidualNoise(ResidualParts parts, ScatterSources sources)
+    : parts_(std::move(parts)), sources_(std::move(sources)) {
+  factor();
+}
+
 ResidualNoise::ResidualNoise(ResidualParts parts) : parts_(std::move(parts)) {
   start();
   constexpr int kRounds = 40;
@@ -48,8 +76,8 @@ ResidualNoise::ResidualNoise(ResidualParts parts) : parts_(std::move(parts)) {
 /// Floors begin with how residuals change from window to window, the share with that of a whole.
 void ResidualNoise::start() {
   const Eigen::MatrixXd& residuals = parts_.residuals;
-  input_scale_.assign(parts_.inputs.size(), 1);
-  widened_.assign(static_cast<std::size_t>(residuals.cols()), 1);
+  sources_.inputs.assign(parts_.inputs.size(), 1);
+  sources_.widened.assign(static_cast<std::size_t>(residuals.cols()), 1);
   double alike = 0, size = 0;
   Eigen::Index channels_alike = 0;
   for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
@@ -59,7 +87,7 @@ void ResidualNoise::start() {
       steps.push_back(std::abs(residuals(i, k) - residuals(i - 1, k)));
     }
     const double scale = steps.empty() ? 1 : median_value(steps) / kMad / std::sqrt(2);
-    floor_.push_back(std::max(least_floor(k), scale));
+    sources_.floor.push_back(std::max(least_floor(k), scale));
     if (!is_alike(k)) continue;
     ++channels_alike;
     alike += scale;
@@ -67,9 +95,9 @@ void ResidualNoise::start() {
   }
   for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
     if (!is_alike(k)) continue;
-    floor_[static_cast<std::size_t>(k)] =
+    sources_.floor[static_cast<std::size_t>(k)] =
         std::max(least_floor(k), alike / static_cast<double>(channels_alike));
-    share_ = alike / size;
+    sources_.share = alike / size;
   }
 }
 
@@ -90,7 +118,8 @@ Eigen::VectorXd ResidualNoise::variances(Eigen::Index window) const {
   for (Eigen::Index k = 0; k < result.size(); ++k) {
     const auto channel = static_cast<std::size_t>(k);
     const double scale =
-        widened_[channel] * std::hypot(floor_[channel], share_ * parts_.sizes(window, k));
+        sources_.widened[channel] *
+        std::hypot(sources_.floor[channel], sources_.share * parts_.sizes(window, k));
     const double more = parts_.more_std(window, k);
     result[k] = scale * scale + more * more;
   }
@@ -112,7 +141,7 @@ void ResidualNoise::factor() {
   for (Eigen::Index w = 0; w < parts_.residuals.rows(); ++w) {
     Eigen::MatrixXd known = variances(w).asDiagonal(), estimated = 0 * known;
     for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
-      const Eigen::VectorXd column = input_scale_[k] * parts_.inputs[k].row(w).transpose();
+      const Eigen::VectorXd column = sources_.inputs[k] * parts_.inputs[k].row(w).transpose();
       (parts_.scatters_unknown[k] ? estimated : known) += column * column.transpose();
     }
     const auto root_of = [channels](const Eigen::MatrixXd& covariance) -> Eigen::MatrixXd {
@@ -156,7 +185,7 @@ Eigen::MatrixXd ResidualNoise::inputs_given(const Eigen::MatrixXd& residuals) co
     const Eigen::VectorXd white = root * residuals.row(w).transpose();
     for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
       const Eigen::VectorXd column = root * parts_.inputs[k].row(w).transpose();
-      const double variance = input_scale_[k] * input_scale_[k];
+      const double variance = sources_.inputs[k] * sources_.inputs[k];
       result(w, static_cast<Eigen::Index>(k)) = variance * column.dot(white);
     }
   }
@@ -205,7 +234,7 @@ ResidualNoise::Fitted ResidualNoise::fitted() const {
 /// it would with the source as it is told.
 /// \returns the largest relative change of a deviation
 double ResidualNoise::update(const Fitted& fitted) {
-  std::vector<Evidence> of_floor(floor_.size()), of_input(parts_.inputs.size());
+  std::vector<Evidence> of_floor(sources_.floor.size()), of_input(parts_.inputs.size());
   Evidence of_share, of_alike;
   for (Eigen::Index w = 0; w < fitted.left.rows(); ++w) {
     const Eigen::MatrixXd& root = root_[static_cast<std::size_t>(w)];
@@ -228,17 +257,17 @@ double ResidualNoise::update(const Fitted& fitted) {
     most = std::max(most, std::abs(deviation - before) / before);
   };
   constexpr double kAny = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < floor_.size(); ++k) {
+  for (std::size_t k = 0; k < sources_.floor.size(); ++k) {
     const auto channel = static_cast<Eigen::Index>(k);
     const Evidence& evidence = is_alike(channel) ? of_alike : of_floor[k];
-    multiply(floor_[k], evidence.factor(), least_floor(channel), kAny);
+    multiply(sources_.floor[k], evidence.factor(), least_floor(channel), kAny);
   }
   constexpr double kLeastShare = 1e-4;
-  if (share_ > 0) multiply(share_, of_share.factor(), kLeastShare, kAny);
+  if (sources_.share > 0) multiply(sources_.share, of_share.factor(), kLeastShare, kAny);
   constexpr double kLeastInput = 0.01, kMostInput = 20;  // of what it was given by
   for (std::size_t k = 0; k < parts_.inputs.size(); ++k) {
     if (!parts_.scatters_unknown[k]) continue;
-    multiply(input_scale_[k], of_input[k].factor(), kLeastInput, kMostInput);
+    multiply(sources_.inputs[k], of_input[k].factor(), kLeastInput, kMostInput);
   }
   return most;
 }
@@ -259,7 +288,8 @@ void ResidualNoise::widen_what_goes_on(const Eigen::MatrixXd& left) {
     constexpr double kMost = 0.6;
     const double by_chance = 1 / std::sqrt(static_cast<double>(before.size()));
     const double rho = std::min(kMost, correlation(before, after));
-    if (rho > by_chance) widened_[static_cast<std::size_t>(k)] = std::sqrt((1 + rho) / (1 - rho));
+    if (rho > by_chance)
+      sources_.widened[static_cast<std::size_t>(k)] = std::sqrt((1 + rho) / (1 - rho));
   }
 }
 

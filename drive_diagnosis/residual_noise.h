@@ -24,6 +24,17 @@ struct ResidualParts {
   Eigen::MatrixXd more_std;
 };
 
+/// Those of some windows. \param windows indices, increasing
+ResidualParts parts_of(const ResidualParts& all, const std::vector<Eigen::Index>& windows);
+
+/// How far each source of scatter goes.
+struct ScatterSources {
+  std::vector<double> floor;    ///< of each channel
+  std::vector<double> widened;  ///< of each channel, by what goes on from window to window
+  double share = 0;             ///< of their size, by which channels scatter that do
+  std::vector<double> inputs;   ///< of each input, in what it was given by
+};
+
 /// How residuals scatter: each channel by a floor of its own, some by a share of their size as well
 /// (floor and share are common to them), and all by what the inputs' scatter does to them. Makes
 /// them white but for what inputs of unknown scatter do: those may go together from window to
@@ -34,6 +45,8 @@ class ResidualNoise {
   /// less what that fit takes (restricted maximum likelihood), robustly: a zone of the map, or a
   /// stray window, does not widen them. Residuals that go on from window to window widen theirs.
   explicit ResidualNoise(ResidualParts parts);
+  /// As far as is told.
+  ResidualNoise(ResidualParts parts, ScatterSources sources);
 
   /// Window by window, its channels one behind the other.
   Eigen::VectorXd whitened(const Eigen::MatrixXd& by_window) const;
@@ -41,14 +54,11 @@ class ResidualNoise {
   /// the inputs' scatter has done to the residuals, and not what parameters do.
   Eigen::MatrixXd inputs_given(const Eigen::MatrixXd& residuals) const;
   /// By how many nats residuals are unlikely as such noise, but for what all have in common; far
-  /// ones count less. Fits of the same windows compare, each by the noise that it leaves.
+  /// ones count less.
   double nats(const Eigen::MatrixXd& residuals) const;
   /// Of each channel, the root mean square of its own scatter.
   std::vector<double> scales() const;
-  /// By what share of their size channels scatter that do.
-  double share() const { return share_; }
-  /// How far each input scatters, in what it was given by.
-  const std::vector<double>& input_scales() const { return input_scale_; }
+  const ScatterSources& sources() const { return sources_; }
 
  private:
   static Eigen::VectorXd whitened(const Eigen::MatrixXd& by_window,
@@ -70,9 +80,7 @@ class ResidualNoise {
   bool is_alike(Eigen::Index channel) const { return !parts_.sizes.col(channel).isZero(); }
 
   ResidualParts parts_;
-  std::vector<double> floor_, widened_;  ///< of each channel
-  double share_ = 0;
-  std::vector<double> input_scale_;          ///< of each input, in that which it was given by
+  ScatterSources sources_;
   std::vector<Eigen::MatrixXd> root_;        ///< of each window: inverse of its Cholesky factor
   std::vector<Eigen::MatrixXd> known_root_;  ///< the same without inputs of unknown scatter
   std::vector<Eigen::MatrixXd> covariance_;

@@ -114,35 +114,19 @@ class EffectSearch {
     return finding;
   }
 
-  double time_s(double at) const {
-    const auto last = static_cast<double>(comparison_.size() - 1);
-    const auto i = static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, last));
-    const DriveWindow& window = windows_[comparison_.window(i)];
-    return window.start_s + (at - static_cast<double>(i)) * window.duration_s();
-  }
-
   SoilZoneFound zone_of(const EffectFound& effect, std::size_t index) const {
-    std::size_t first = comparison_.size(), last = 0;
-    double begins = 0, ends = 0;
-    for (std::size_t i = 0; i < comparison_.size(); ++i) {
-      const double share = effect.share[static_cast<Eigen::Index>(i)];
-      if (share == 0) continue;
-      if (first == comparison_.size()) {
-        first = i;
-        begins = static_cast<double>(i) + 1 - share;
-      }
-      last = i;
-      ends = static_cast<double>(i) + share;
-    }
-    const auto before_end = [this](double at) { return time_s(at - 1e-9); };
+    const auto first = static_cast<std::size_t>(effect.begins);
+    const auto last = static_cast<std::size_t>(std::ceil(effect.ends)) - 1;
+    const auto time_s = [this](double at) { return comparison_.time_s(at); };
+    const auto before_end = [&time_s](double at) { return time_s(at - 1e-9); };
     SoilZoneFound zone{.drive = windows_[comparison_.window(first)].drive,
                        .first = comparison_.window(first),
                        .last = comparison_.window(last),
-                       .starts_s = time_s(begins),
-                       .ends_s = before_end(ends),
+                       .starts_s = time_s(effect.begins),
+                       .ends_s = before_end(effect.ends),
                        .start_s = {time_s(effect.first_at[0]), time_s(effect.first_at[1])},
                        .end_s = {before_end(effect.last_at[0]), before_end(effect.last_at[1])},
-                       .soil = fit_.soil_of(effect.share)};
+                       .soil = fit_.soil_of(index)};
     zone.at_border =
         (first > 0 && fit_.soil_at(first - 1) != fit_.soil_at(first)) ||
         (last + 1 < comparison_.size() && fit_.soil_at(last + 1) != fit_.soil_at(last));

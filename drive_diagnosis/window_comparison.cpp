@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "drive_diagnosis/fix_scatter.h"
 #include "drive_diagnosis/robust_statistics.h"
@@ -299,37 +300,86 @@ Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
   Eigen::MatrixXd result = otherwise;
   parallel_for(size(), threads_, [&](std::size_t i) {
     throw_if_stopped(stop);
-    const auto row = static_cast<Eigen::Index>(i);
-    const WindowZone* zone = nullptr;
-    double share = 0;
-    for (const WindowZone& one : zones) {
-      if (!(one.share[i] > share)) continue;
-      share = one.share[i];
-      zone = &one;
-    }
-    const WindowInput input = shifted(i);
-    const auto plain = share < 1 ? model_.predict(input, deviation) : std::nullopt;
-    const auto zoned =
-        zone ? model_.predict(input, deviation, zone->numbers, zone->soil) : std::nullopt;
-    if ((share < 1 && !plain) || (zone && !zoned)) return;
-    Eigen::VectorXd values = Eigen::VectorXd::Zero(result.cols());
-    if (plain) values += (1 - share) * vector_of(*plain);
-    if (zoned) values += share * vector_of(*zoned);
-    result.row(row) = values;
+    const auto values = predicted_in(i, deviation, zones);
+    if (values) result.row(static_cast<Eigen::Index>(i)) = *values;
   });
   return result;
+}
+
+Eigen::MatrixXd WindowComparison::predicted_on(const WindowZone& stretch,
+                                               const VehicleDeviation& deviation,
+                                               const std::vector<WindowZone>& zones,
+                                               const Eigen::MatrixXd& predicted,
+                                               const std::stop_token& stop) const {
+  Eigen::MatrixXd result = predicted;
+  parallel_for(size(), threads_, [&](std::size_t i) {
+    throw_if_stopped(stop);
+    if (!touches(i, stretch)) return;
+    const auto values = predicted_in(i, deviation, zones);
+    if (values) result.row(static_cast<Eigen::Index>(i)) = *values;
+  });
+  return result;
+}
+
+/// Nothing where a window's motion does not balance.
+std::optional<Eigen::VectorXd> WindowComparison::predicted_in(
+    std::size_t i, const VehicleDeviation& deviation, const std::vector<WindowZone>& zones) const {
+  const auto prediction = model_.predict(shifted(i), deviation, stretches_in(i, zones));
+  if (!prediction) return {};
+  return vector_of(*prediction);
+}
+
+double WindowComparison::time_s(double at) const {
+  const auto last = static_cast<double>(size() - 1);
+  const auto i = static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, last));
+  const DriveWindow& window = windows_[windows_of_[i]];
+  return window.start_s + (at - static_cast<double>(i)) * window.duration_s();
+}
+
+/// Where windows begin or end with a zone, nothing says that it does not go on.
+SoilStretch WindowComparison::stretch_of(const WindowZone& zone) const {
+  constexpr double kNever_s = std::numeric_limits<double>::infinity();
+  const auto first = static_cast<std::size_t>(std::floor(zone.begins));
+  const auto last = static_cast<std::size_t>(std::ceil(zone.ends)) - 1;
+  const bool from_before = zone.begins == std::floor(zone.begins) && !consecutive(first);
+  const bool goes_on =
+      zone.ends == std::ceil(zone.ends) && (last + 1 == size() || !consecutive(last + 1));
+  const double within = std::nextafter(zone.ends, zone.begins);  // at the end of its last window
+  return {.starts_s = from_before ? -kNever_s : time_s(zone.begins),
+          .ends_s = goes_on ? kNever_s : time_s(within),
+          .soil = zone.soil,
+          .numbers = zone.numbers};
+}
+
+/// Whether some wheel is in a zone within what a window is smoothed over.
+bool WindowComparison::touches(std::size_t i, const WindowZone& zone) const {
+  const auto first = static_cast<std::size_t>(std::floor(zone.begins));
+  if (windows_[windows_of_[i]].drive != windows_[windows_of_[first]].drive) return false;
+  const WindowInput& input = inputs_[i];
+  double ahead_s = 0;
+  for (const WheelMount& wheel : vehicle_.wheels) {
+    if (input.forward_mps != 0)
+      ahead_s = std::max(ahead_s, std::abs(wheel.x_m / input.forward_mps));
+  }
+  const SoilStretch stretch = stretch_of(zone);
+  return input.places.front().part.start_s - ahead_s < stretch.ends_s &&
+         input.places.back().part.end_s + ahead_s > stretch.starts_s;
+}
+
+std::vector<SoilStretch> WindowComparison::stretches_in(
+    std::size_t i, const std::vector<WindowZone>& zones) const {
+  std::vector<SoilStretch> stretches;
+  for (const WindowZone& zone : zones) {
+    if (touches(i, zone)) stretches.push_back(stretch_of(zone));
+  }
+  return stretches;
 }
 
 void WindowComparison::start_at(const VehicleDeviation& deviation,
                                 const std::vector<WindowZone>& zones, const std::stop_token& stop) {
   parallel_for(size(), threads_, [&](std::size_t i) {
     throw_if_stopped(stop);
-    constexpr double kMost = 0.5;
-    const auto zone =
-        std::ranges::find_if(zones, [i](const WindowZone& one) { return one.share[i] > kMost; });
-    const auto found = zone == zones.end()
-                           ? model_.predict(shifted(i), deviation)
-                           : model_.predict(shifted(i), deviation, zone->numbers, zone->soil);
+    const auto found = model_.predict(shifted(i), deviation, stretches_in(i, zones));
     if (!found) return;
     for (std::size_t j = 0; j < found->found.size(); ++j) {
       inputs_[i].places[j].near = found->found[j];
@@ -338,18 +388,20 @@ void WindowComparison::start_at(const VehicleDeviation& deviation,
 }
 
 std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const VehicleDeviation& deviation,
+                                                         const std::vector<WindowZone>& zones,
                                                          const Eigen::MatrixXd& base,
                                                          const std::stop_token& stop) const {
   std::vector<Eigen::MatrixXd> result(inputs(), Eigen::MatrixXd::Zero(base.rows(), base.cols()));
   parallel_for(size(), threads_, [&](std::size_t i) {
     throw_if_stopped(stop);
     const WindowInput input = shifted(i);
-    const auto here = model_.predict(input, deviation);
+    const std::vector<SoilStretch> stretches = stretches_in(i, zones);
+    const auto here = model_.predict(input, deviation, stretches);
     if (!here) return;
     for (std::size_t k = 0; k < inputs(); ++k) {
       WindowInput further = input;
       shift(further, i, k, 1);
-      const auto there = model_.predict(further, deviation);
+      const auto there = model_.predict(further, deviation, stretches);
       if (!there) continue;
       result[k].row(static_cast<Eigen::Index>(i)) = vector_of(*there) - vector_of(*here);
     }

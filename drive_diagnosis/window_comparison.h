@@ -33,10 +33,10 @@ struct WindowsUsed {
   std::array<int, kLeftOutReasons> left_out{};
 };
 
-/// One soil in some windows, whatever the map says there, by how much of each lies in it.
+/// One soil on a stretch of compared windows that follow each other, whatever the map says there.
 struct WindowZone {
-  std::vector<double> share;  ///< of each compared window
-  int soil = 0;               ///< of the map, that its numbers are told from
+  double begins = 0, ends = 0;  ///< in windows: 2.5 is half way through the third
+  int soil = 0;                 ///< of the map, that its numbers are told from
   SoilNumbers numbers{};
 };
 
@@ -75,6 +75,13 @@ class WindowComparison {
   /// \throws Interrupted
   Eigen::MatrixXd predicted(const VehicleDeviation& deviation, const std::vector<WindowZone>& zones,
                             const Eigen::MatrixXd& otherwise, const std::stop_token& stop) const;
+  /// The same, with what is predicted already of windows that do not touch a stretch.
+  Eigen::MatrixXd predicted_on(const WindowZone& stretch, const VehicleDeviation& deviation,
+                               const std::vector<WindowZone>& zones,
+                               const Eigen::MatrixXd& predicted, const std::stop_token& stop) const;
+  /// When the vehicle was so far along the windows; never before or after all where windows that
+  /// follow each other begin or end there.
+  double time_s(double at) const;
   /// From now on the search for each window's motion starts from what it is with these: what is a
   /// little otherwise is found sooner.
   void start_at(const VehicleDeviation& deviation, const std::vector<WindowZone>& zones,
@@ -82,6 +89,7 @@ class WindowComparison {
   /// What the scatter of each wheel's measured turning changes, and that of the accelerations, by
   /// one standard deviation.
   std::vector<Eigen::MatrixXd> of_inputs(const VehicleDeviation& deviation,
+                                         const std::vector<WindowZone>& zones,
                                          const Eigen::MatrixXd& base,
                                          const std::stop_token& stop) const;
   /// By window, the root mean square of the samples of each channel whose scatter goes with it.
@@ -97,6 +105,11 @@ class WindowComparison {
  private:
   std::optional<LeftOut> add(std::size_t window, std::vector<Eigen::VectorXd>& rows);
   WindowInput shifted(std::size_t i) const;
+  bool touches(std::size_t i, const WindowZone& zone) const;
+  std::optional<Eigen::VectorXd> predicted_in(std::size_t i, const VehicleDeviation& deviation,
+                                              const std::vector<WindowZone>& zones) const;
+  std::vector<SoilStretch> stretches_in(std::size_t i, const std::vector<WindowZone>& zones) const;
+  SoilStretch stretch_of(const WindowZone& zone) const;
   void shift(WindowInput& input, std::size_t window, std::size_t which, double deviations) const;
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;

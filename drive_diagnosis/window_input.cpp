@@ -93,7 +93,7 @@ void accelerate(const DriveRecording& drive, const DriveWindow& window, const Ve
 /// What a window gives in so many parts; nothing where it lacks something.
 std::optional<WindowInput> input_in(std::size_t parts, const DriveRecording& drive,
                                     const DriveWindow& window, const Vehicle& vehicle) {
-  WindowInput input{.yaw_rad = window.yaw_rad};
+  WindowInput input{.yaw_rad = window.yaw_rad, .forward_mps = window.forward_mps};
   double all = window.yaw_rad;
   for (const WindowPart& part : window.divided(parts)) {
     WindowInput::Place& place = input.places.emplace_back();

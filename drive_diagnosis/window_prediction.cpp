@@ -345,23 +345,31 @@ BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxW
   return motion_of(normal.ldlt().solve(sum));
 }
 
-std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
-                                                     const VehicleDeviation& deviation,
-                                                     const SoilNumbers& zone,
-                                                     std::optional<int> zone_soil) const {
+std::optional<WindowPrediction> WindowModel::predict(
+    const WindowInput& input, const VehicleDeviation& deviation,
+    const std::vector<SoilStretch>& stretches) const {
   const Vehicle changed = deviating(vehicle_, deviation);
   const LoadSharing sharing(changed);
-  std::vector<std::optional<WheelModel>> models(map_.soils().size());
-  const auto model_of = [&](int index) {
-    const auto soil = static_cast<std::size_t>(index);
-    if (!models[soil]) {
-      models[soil].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
-                                          .soil = deviating(map_.soils()[soil].soil,
-                                                            numbers_at(deviation, soil, zone)),
-                                          .gravity_mps2 = gravity_mps2_},
-                           WheelAccuracy::kFast);
+  // Of the map's soils, then of the stretches.
+  const std::size_t soils = map_.soils().size();
+  std::vector<std::optional<WheelModel>> models(soils + stretches.size());
+  const auto model_of = [&](std::size_t model, std::size_t soil, const SoilNumbers& numbers) {
+    if (!models[model]) {
+      models[model].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
+                                           .soil = deviating(map_.soils()[soil].soil,
+                                                             numbers_at(deviation, soil, numbers)),
+                                           .gravity_mps2 = gravity_mps2_},
+                            WheelAccuracy::kFast);
     }
-    return &*models[soil];
+    return &*models[model];
+  };
+  const auto model_at = [&](double time_s, std::size_t soil) {
+    const auto on = std::ranges::find_if(stretches, [time_s](const SoilStretch& stretch) {
+      return time_s >= stretch.starts_s && time_s < stretch.ends_s;
+    });
+    if (on == stretches.end()) return model_of(soil, soil, {});
+    return model_of(soils + static_cast<std::size_t>(on - stretches.begin()),
+                    static_cast<std::size_t>(on->soil), on->numbers);
   };
   WindowPrediction prediction{.pitch_rad = deviation.mounting_pitch_rad,
                               .roll_rad = deviation.mounting_roll_rad,
@@ -386,7 +394,9 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
       scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
       scene.rim_mps.at(i) =
           place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
-      scene.models.at(i) = model_of(zone_soil.value_or(patch.soil.at(i)));
+      const double ahead_s = input.forward_mps == 0 ? 0 : changed.wheels[i].x_m / input.forward_mps;
+      scene.models.at(i) = model_at((place.part.start_s + place.part.end_s) / 2 + ahead_s,
+                                    static_cast<std::size_t>(patch.soil.at(i)));
     }
     auto found = balanced(scene, place.near);
     if (!found) found = balanced(scene, place.start);

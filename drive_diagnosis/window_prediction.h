@@ -60,7 +60,8 @@ struct WindowInput {
     std::array<double, kMaxWheels> steer_rad{};
   };
   std::vector<Place> places;
-  double yaw_rad = 0;  ///< what velocities are told along
+  double yaw_rad = 0;      ///< what velocities are told along
+  double forward_mps = 0;  ///< measured: by it wheels are ahead of the body in time
 };
 
 /// What the model says of a window; velocities are horizontal, angles those of the ground.
@@ -89,6 +90,14 @@ struct VehicleDeviation {
   void add(const VehicleDeviation& other, double times);
 };
 
+/// One soil on a stretch of the way, whatever the map says there: from when the middle of the body
+/// comes to it until it leaves it. Each wheel does so when it is there itself.
+struct SoilStretch {
+  double starts_s = 0, ends_s = 0;
+  int soil = 0;           ///< of the map, that its numbers are told from
+  SoilNumbers numbers{};  ///< on top of the deviations of that soil
+};
+
 /// The motion of a vehicle whose wheels rolled without slip, as nearly as they can (least squares).
 BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxWheels>& rim_rad_s,
                           const std::array<double, kMaxWheels>& steer_rad);
@@ -106,13 +115,10 @@ class WindowModel {
   /// Whether the ground is known at each of its places.
   bool knows_ground(const WindowInput& input) const;
   /// Nothing where the ground is not known or no motion balances.
-  /// \param zone deviations of the soil that lies there, on top of those of the soils
-  /// \param zone_soil the soil of the map that lies there, whatever the map says; nothing: what it
-  /// says
+  /// \param stretches the first that a wheel is on counts
   std::optional<WindowPrediction> predict(const WindowInput& input,
                                           const VehicleDeviation& deviation,
-                                          const SoilNumbers& zone = {},
-                                          std::optional<int> zone_soil = {}) const;
+                                          const std::vector<SoilStretch>& stretches = {}) const;
 
  private:
   const TerrainMap& map_;

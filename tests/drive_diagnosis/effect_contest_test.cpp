@@ -22,8 +22,11 @@ EffectContest with_a_known_zone(const Eigen::Vector2d& together, double first_nu
                         .soil = Eigen::MatrixXd::Zero(kWindows, kWindows * kNumbers),
                         .soil_numbers = kNumbers,
                         .wide_directions = {together},
-                        .zones_known = {share}};
+                        .zones_known = {{.share = share, .columns = {}}}};
   for (Eigen::Index w = 0; w < kWindows; ++w) contest.soil(w, w * kNumbers) = kSensitivity;
+  KnownZone& zone = contest.zones_known.front();
+  zone.columns = Eigen::MatrixXd::Zero(kWindows, kNumbers);
+  zone.columns.col(0) = kSensitivity * share;
   return contest;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "drive_diagnosis/robust_statistics.h"
@@ -25,18 +26,22 @@ Eigen::MatrixXd scattered(std::uint64_t seed) {
   return residuals;
 }
 
-ResidualNoise noise_of(const Eigen::MatrixXd& residuals,
-                       const Eigen::MatrixXd& more_std = Eigen::MatrixXd::Zero(kWindowCount,
-                                                                               kChannelsMeasured)) {
-  return ResidualNoise({.residuals = residuals,
-                        .columns = {},
-                        .may_be_wrong = {},
-                        .inputs = {},
-                        .scatters_unknown = {},
-                        .follows = std::vector<bool>(kWindowCount, true),
-                        .sizes = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured),
-                        .sampled_std = std::vector<double>(kChannelsMeasured, 0.0),
-                        .more_std = more_std});
+ResidualParts parts_with(
+    const Eigen::MatrixXd& residuals,
+    const Eigen::MatrixXd& more_std = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured)) {
+  return {.residuals = residuals,
+          .columns = {},
+          .may_be_wrong = {},
+          .inputs = {},
+          .scatters_unknown = {},
+          .follows = std::vector<bool>(kWindowCount, true),
+          .sizes = Eigen::MatrixXd::Zero(kWindowCount, kChannelsMeasured),
+          .sampled_std = std::vector<double>(kChannelsMeasured, 0.0),
+          .more_std = more_std};
+}
+
+ResidualNoise noise_of(const Eigen::MatrixXd& residuals) {
+  return ResidualNoise(parts_with(residuals));
 }
 
 TEST(ResidualNoise, IsAsWideAsEachChannelScatters) {
@@ -50,6 +55,23 @@ TEST(ResidualNoise, IsAsWideAsEachChannelScatters) {
   }
   for (const std::vector<double>& of_channel : ratios) {
     EXPECT_NEAR(median_value(of_channel), 1, 0.12);
+  }
+}
+
+TEST(ResidualNoise, OfOtherWindowsDoesNotTakeMisfitForScatter) {
+  constexpr Eigen::Index kSound = 40;
+  constexpr double kMisfit = 4;
+  Eigen::MatrixXd residuals = scattered(2);
+  residuals.bottomRows(kWindowCount - kSound) *= kMisfit;
+  std::vector<Eigen::Index> sound(kSound);
+  std::iota(sound.begin(), sound.end(), 0);
+  const ResidualParts all = parts_with(residuals);
+  const ResidualNoise of_sound(parts_of(all, sound));
+  const ResidualNoise told(all, of_sound.sources());
+  const ResidualNoise of_all(all);
+  for (std::size_t k = 0; k < kChannelsMeasured; ++k) {
+    EXPECT_NEAR(told.scales()[k], of_sound.scales()[k], 1e-12);
+    EXPECT_GT(of_all.sources().floor[k], 1.3 * told.sources().floor[k]);
   }
 }
 
@@ -95,7 +117,7 @@ double std_told(const ResidualNoise& noise, Eigen::Index window) {
 TEST(ResidualNoise, GoesWithTheSizeBesideInputsThatScatterMore) {
   const OfTheirSize truth{.share = 0.4};
   const ResidualNoise noise = truth.noise();
-  EXPECT_NEAR(noise.share(), truth.share, 0.15 * truth.share);
+  EXPECT_NEAR(noise.sources().share, truth.share, 0.15 * truth.share);
   EXPECT_NEAR(std_told(noise, 0), truth.share * OfTheirSize::kLarge, 0.1);
 }
 
@@ -144,7 +166,7 @@ TEST(ResidualNoise, IsWiderInAWindowThatIsKnownToScatterMore) {
   more_std(last, 0) = 4;
   residuals(last, 0) = 5;
   const Eigen::VectorXd alike = noise_of(residuals).whitened(residuals);
-  const Eigen::VectorXd wider = noise_of(residuals, more_std).whitened(residuals);
+  const Eigen::VectorXd wider = ResidualNoise(parts_with(residuals, more_std)).whitened(residuals);
   EXPECT_GT(alike[kChannelsMeasured * last], 4);
   EXPECT_LT(wider[kChannelsMeasured * last], 1.3);
   // Other windows are as wide as they are without it.

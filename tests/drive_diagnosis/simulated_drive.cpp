@@ -73,7 +73,10 @@ DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {
       [&](double x_m, double y_m, double yaw_rad) {
         GroundPatch patch = finder.at(x_m, y_m, yaw_rad);
         for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-          patch.soil.at(i) = static_cast<std::int16_t>(std::lround(drive.weakness(x_m)));
+          const WheelMount& wheel = vehicle.wheels[i];
+          const double there_m =
+              x_m + std::cos(yaw_rad) * wheel.x_m - std::sin(yaw_rad) * wheel.y_m;
+          patch.soil.at(i) = static_cast<std::int16_t>(std::lround(drive.weakness(there_m)));
         }
         return patch;
       },

@@ -13,7 +13,7 @@ namespace regoplan {
 /// A drive of 300 m for tests of the diagnosis' own machinery. Its ground and vehicle obey
 /// `terramech`, as the diagnosis does: no proof of what is found in the field.
 struct SimulatedDrive {
-  /// Weakness of the soil at a place, in standard deviations of `weaker`.
+  /// Weakness of the soil under a wheel, in standard deviations of `weaker`.
   std::function<double(double x_m)> weakness = [](double) { return 0.0; };
   VehicleDeviation deviation{};  ///< drags, motors and offsets of steering; nothing else
   double torque_scatter = 0.03;  ///< share, of a metre of ground

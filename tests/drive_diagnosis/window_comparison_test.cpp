@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "drive_diagnosis/likely_edges.h"
 #include "tests/drive_diagnosis/simulated_drive.h"
 
 namespace regoplan {
@@ -204,6 +205,85 @@ TEST(WindowComparison, WindowsThatAreNotComparedAreCountedByReason) {
   EXPECT_GE(used.left_out.at(static_cast<std::size_t>(LeftOut::kStanding)), 3);
 }
 
+/// A drive over a soft stretch, and where that lies along its windows.
+struct OverAStretch : Compared {
+  static constexpr double kFrom_m = 140, kTo_m = 170, kWeakness = 4;
+  OverAStretch()
+      : Compared(
+            {.weakness = [](double x_m) { return x_m > kFrom_m && x_m < kTo_m ? kWeakness : 0; }}),
+        zone{.begins = window_at(kFrom_m),
+             .ends = window_at(kTo_m),
+             .numbers = weaker_by(kWeakness)} {}
+
+  double window_at(double x_m) const {
+    for (std::size_t i = 0; i + 1 < comparison->size(); ++i) {
+      const double here_m = windows[comparison->window(i)].x_m;
+      const double next_m = windows[comparison->window(i + 1)].x_m;
+      if (x_m >= here_m && x_m < next_m) {
+        return static_cast<double>(i) + 0.5 + (x_m - here_m) / (next_m - here_m);
+      }
+    }
+    return NAN;
+  }
+
+  Eigen::MatrixXd predicted(const std::vector<WindowZone>& zones) const {
+    const Eigen::MatrixXd& measured = comparison->measured();
+    return comparison->predicted({}, zones, Eigen::MatrixXd::Zero(measured.rows(), measured.cols()),
+                                 {});
+  }
+
+  WindowZone zone;
+};
+
+TEST(WindowComparison, EachWheelComesOntoASoftStretchWhenItIsThereItself) {
+  const OverAStretch drive;
+  const Eigen::MatrixXd plain = drive.predicted({}), with = drive.predicted({drive.zone});
+  const Eigen::MatrixXd& measured = drive.comparison->measured();
+  for (const double edge : {drive.zone.begins, drive.zone.ends}) {
+    const auto w = static_cast<Eigen::Index>(edge);
+    const Eigen::RowVectorXd does = measured.row(w) - plain.row(w),
+                             off = measured.row(w) - with.row(w);
+    constexpr double kShare = 0.1;  // of what the stretch does there
+    EXPECT_LT(off.norm(), kShare * does.norm()) << "at " << edge;
+    EXPECT_LT(std::abs(off[0]), 0.001);
+  }
+}
+
+TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {
+  const OverAStretch drive;
+  WindowZone said = drive.zone;
+  said.begins += 0.8;
+  said.ends -= 0.7;
+  const Eigen::MatrixXd& measured = drive.comparison->measured();
+  const auto channels = static_cast<std::size_t>(measured.cols());
+  std::vector<bool> follows;
+  for (std::size_t i = 0; i < drive.comparison->size(); ++i) {
+    follows.push_back(drive.comparison->consecutive(i));
+  }
+  const ResidualNoise noise({.residuals = measured - drive.predicted({drive.zone}),
+                             .columns = {},
+                             .may_be_wrong = {},
+                             .inputs = {},
+                             .scatters_unknown = {},
+                             .follows = follows,
+                             .sizes = Eigen::MatrixXd::Zero(measured.rows(), measured.cols()),
+                             .sampled_std = std::vector<double>(channels, 0.0),
+                             .more_std = Eigen::MatrixXd::Zero(measured.rows(), measured.cols())});
+  const ZoneEdges edges = likely_edges({.comparison = *drive.comparison,
+                                        .deviation = {},
+                                        .measured = measured,
+                                        .predicted = drive.predicted({said}),
+                                        .noise = noise},
+                                       {said}, {});
+  constexpr double kNear = 0.15;  // windows
+  EXPECT_NEAR(edges.begins, drive.zone.begins, kNear);
+  EXPECT_NEAR(edges.ends, drive.zone.ends, kNear);
+  EXPECT_LE(edges.begins_ci95[0], drive.zone.begins);
+  EXPECT_GE(edges.begins_ci95[1], drive.zone.begins);
+  EXPECT_LE(edges.ends_ci95[0], drive.zone.ends);
+  EXPECT_GE(edges.ends_ci95[1], drive.zone.ends);
+}
+
 /// The rolling map with two soils, the one of a class everywhere.
 TerrainMap of_two_soils(std::int32_t everywhere) {
   const TerrainMap map = rolling_map();
@@ -238,7 +318,8 @@ TEST(WindowModel, AZoneIsOfItsOwnSoilWhateverTheMapSays) {
   const TerrainMap mare = of_two_soils(0), weak = of_two_soils(1);
   const WindowModel on_mare(mare, compared.vehicle, 1.62), on_weak(weak, compared.vehicle, 1.62);
   const WindowInput& input = compared.comparison->input(20);
-  const auto said = on_weak.predict(input, {}), zone = on_mare.predict(input, {}, {}, 1);
+  const auto said = on_weak.predict(input, {}),
+             zone = on_mare.predict(input, {}, {{.starts_s = -1e9, .ends_s = 1e9, .soil = 1}});
   const auto mare_there = on_mare.predict(input, {});
   ASSERT_TRUE(said && zone && mare_there);
   for (std::size_t i = 0; i < compared.vehicle.wheels.size(); ++i) {
