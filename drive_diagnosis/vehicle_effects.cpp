@@ -130,6 +130,7 @@ class EffectSearch {
     zone.at_border =
         (first > 0 && fit_.soil_at(first - 1) != fit_.soil_at(first)) ||
         (last + 1 < comparison_.size() && fit_.soil_at(last + 1) != fit_.soil_at(last));
+    reach_over_unbalanced(effect, zone);
     estimate(index, zone);
     if (!effect.like) return zone;
     const LikelySoil& likely = likely_[*effect.like];
@@ -138,6 +139,27 @@ class EffectSearch {
       zone.like = likely.there;
     }
     return zone;
+  }
+
+  /// Windows beside a zone in which no motion balances on the map's soil are the zone's.
+  void reach_over_unbalanced(const EffectFound& effect, SoilZoneFound& zone) const {
+    const auto first = static_cast<std::size_t>(effect.begins);
+    const auto next = static_cast<std::size_t>(std::ceil(effect.ends));
+    const bool may_come_from_before =
+        !comparison_.consecutive(first) && effect.first_at[0] <= static_cast<double>(first);
+    const bool may_go_on = (next == comparison_.size() || !comparison_.consecutive(next)) &&
+                           effect.last_at[1] >= static_cast<double>(next);
+    const auto is_its = [&](std::size_t window) {
+      return windows_[window].drive == zone.drive && comparison_.is_unbalanced(window);
+    };
+    while (may_come_from_before && zone.first > 0 && is_its(zone.first - 1)) {
+      zone.starts_s = windows_[--zone.first].start_s;
+      zone.start_s[0] = std::min(zone.start_s[0], zone.starts_s);
+    }
+    while (may_go_on && zone.last + 1 < windows_.size() && is_its(zone.last + 1)) {
+      zone.ends_s = windows_[++zone.last].end_s;
+      zone.end_s[1] = std::max(zone.end_s[1], zone.ends_s);
+    }
   }
 
   /// The map's soils as the fit has them.

@@ -90,7 +90,9 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
   choose_channels();
   std::vector<Eigen::VectorXd> rows;
   for (std::size_t i = 0; i < windows_.size(); ++i) {
-    if (const auto reason = add(i, rows)) {
+    const auto reason = add(i, rows);
+    unbalanced_.push_back(reason == LeftOut::kNoBalance);
+    if (reason) {
       ++used_.left_out.at(static_cast<std::size_t>(*reason));
     } else {
       ++used_.compared;

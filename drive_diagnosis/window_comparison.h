@@ -51,6 +51,8 @@ class WindowComparison {
   std::size_t size() const { return windows_of_.size(); }
   /// Index of the window that comparison `i` is of.
   std::size_t window(std::size_t i) const { return windows_of_[i]; }
+  /// Whether a window is left out as the model has no motion in it on the map's soils.
+  bool is_unbalanced(std::size_t window) const { return unbalanced_[window]; }
   /// Whether comparison `i` follows the one before without a gap.
   bool consecutive(std::size_t i) const;
   const std::vector<std::string>& channels() const { return channels_; }
@@ -131,6 +133,7 @@ class WindowComparison {
   std::vector<std::size_t> torque_wheels_;
   bool has_attitude_ = false;
   std::vector<std::size_t> windows_of_;
+  std::vector<bool> unbalanced_;  ///< of each window
   std::vector<WindowInput> inputs_;
   std::vector<std::array<double, kMaxWheels>> rim_std_rad_s_;  ///< of the windows' means
   std::vector<bool> soils_driven_;
