@@ -199,8 +199,8 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
       deviations_of_memory(calibrated_.problem(), fit) > Thresholds::kMemory_deviations) {
     doubt = "what it leaves follows the slip of the run before";
   }
-  if (doubt.empty()) doubt = doubt_about_fault(fit);
-  if (!doubt.empty() || !is_known_exactly(fit)) return doubt;
+  if (!doubt.empty()) return doubt;
+  if (!is_known_exactly(fit)) return doubt_about_fault(fit);
   const CandidateFit alone = fitted_alone(calibrated_, fit);
   const LackOfFit left =
       lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(alone), seed_);
@@ -216,8 +216,8 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
       held_out.errors);
 }
 
-/// A fault of an instrument is easily blamed for physics on no list: beside it, whatever else is
-/// claimed, a remainder must leave no lack of fit.
+/// An instrument is easily blamed for physics on no list: beside a fault that changes in time, or
+/// one that is claimed with a mechanism, a remainder must leave no lack of fit.
 std::string NameContest::doubt_about_fault(const CandidateFit& fit) const {
   const bool blames_instrument = std::ranges::any_of(
       fit.candidate.effects, [](const Effect& effect) { return is_instrument(effect.id); });
