@@ -81,8 +81,7 @@ class WindowComparison {
   Eigen::MatrixXd predicted_on(const WindowZone& stretch, const VehicleDeviation& deviation,
                                const std::vector<WindowZone>& zones,
                                const Eigen::MatrixXd& predicted, const std::stop_token& stop) const;
-  /// When the vehicle was so far along the windows; never before or after all where windows that
-  /// follow each other begin or end there.
+  /// When the vehicle was so far along the windows.
   double time_s(double at) const;
   /// From now on the search for each window's motion starts from what it is with these: what is a
   /// little otherwise is found sooner.
