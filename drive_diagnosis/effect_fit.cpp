@@ -314,12 +314,12 @@ bool EffectFit::place_edges(EffectFound& zone) {
     measured += shifts.col(static_cast<Eigen::Index>(k)).asDiagonal() * here.inputs[k];
   }
   const VehicleDeviation vehicle = deviation();
-  const ZoneEdges edges = likely_edges({.comparison = comparison_,
-                                        .deviation = vehicle,
-                                        .measured = std::move(measured),
-                                        .predicted = here.base,
-                                        .noise = noise},
-                                       zones(), stop_);
+  const LikelyEdges edges = likely_edges({.comparison = comparison_,
+                                          .deviation = vehicle,
+                                          .measured = std::move(measured),
+                                          .predicted = here.base,
+                                          .noise = noise},
+                                         zones(), stop_);
   zone.begins = edges.begins;
   zone.ends = edges.ends;
   zone.first_at = edges.begins_ci95;

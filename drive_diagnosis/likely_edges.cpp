@@ -50,16 +50,16 @@ class EdgeSearch {
     zones_.back().ends = most.ends;
   }
 
-  ZoneEdges likeliest() const {
+  LikelyEdges likeliest() const {
     const WindowZone& zone = zones_.back();
     const auto all = static_cast<double>(windows_.comparison.size());
     const auto about = [all](double edge) {
       return std::array{std::max(0.0, edge - kErr), std::min(all, edge + kErr)};
     };
-    ZoneEdges edges{.begins = zone.begins,
-                    .ends = zone.ends,
-                    .begins_ci95 = about(zone.begins),
-                    .ends_ci95 = about(zone.ends)};
+    LikelyEdges edges{.begins = zone.begins,
+                      .ends = zone.ends,
+                      .begins_ci95 = about(zone.begins),
+                      .ends_ci95 = about(zone.ends)};
     const auto take = [](std::array<double, 2>& range, double value) {
       range = {std::min(range[0], value), std::max(range[1], value)};
     };
@@ -115,8 +115,8 @@ class EdgeSearch {
 
 }  // namespace
 
-ZoneEdges likely_edges(const FittedWindows& windows, std::vector<WindowZone> zones,
-                       const std::stop_token& stop) {
+LikelyEdges likely_edges(const FittedWindows& windows, std::vector<WindowZone> zones,
+                         const std::stop_token& stop) {
   constexpr double kCoarse = 0.25, kFine = 0.05, kNear = 0.2;  // windows
   EdgeSearch search(windows, std::move(zones), stop);
   search.try_about(kCoarse, kReach);

@@ -11,7 +11,7 @@
 namespace regoplan {
 
 /// Where a zone begins and ends, in windows, and 95 % of each while its soil is what it is.
-struct ZoneEdges {
+struct LikelyEdges {
   double begins = 0, ends = 0;
   std::array<double, 2> begins_ci95{}, ends_ci95{};
 };
@@ -29,7 +29,7 @@ struct FittedWindows {
 /// where they are: by quarters of a window, then finer. A window is never cut out of a zone by a
 /// motion that does not balance.
 /// \throws Interrupted
-ZoneEdges likely_edges(const FittedWindows& windows, std::vector<WindowZone> zones,
-                       const std::stop_token& stop);
+LikelyEdges likely_edges(const FittedWindows& windows, std::vector<WindowZone> zones,
+                         const std::stop_token& stop);
 
 }  // namespace regoplan

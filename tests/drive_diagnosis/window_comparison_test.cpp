@@ -269,12 +269,12 @@ TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {
                              .sizes = Eigen::MatrixXd::Zero(measured.rows(), measured.cols()),
                              .sampled_std = std::vector<double>(channels, 0.0),
                              .more_std = Eigen::MatrixXd::Zero(measured.rows(), measured.cols())});
-  const ZoneEdges edges = likely_edges({.comparison = *drive.comparison,
-                                        .deviation = {},
-                                        .measured = measured,
-                                        .predicted = drive.predicted({said}),
-                                        .noise = noise},
-                                       {said}, {});
+  const LikelyEdges edges = likely_edges({.comparison = *drive.comparison,
+                                          .deviation = {},
+                                          .measured = measured,
+                                          .predicted = drive.predicted({said}),
+                                          .noise = noise},
+                                         {said}, {});
   constexpr double kNear = 0.15;  // windows
   EXPECT_NEAR(edges.begins, drive.zone.begins, kNear);
   EXPECT_NEAR(edges.ends, drive.zone.ends, kNear);
