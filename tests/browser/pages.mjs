@@ -23,6 +23,10 @@ export async function startBrowser() {
 }
 export const stopBrowser = () => browser.close();
 
+/// A chart learns its width when the page is laid out, and is drawn in the frame after.
+const chartsAreDrawn = () => new Promise(
+    done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done))));
+
 /// Opens a report: its page, what went wrong so far, how long it took, and close().
 export async function openPage(kind, {width = 1600, theme = 'light'} = {}) {
   const context = await browser.newContext(
@@ -33,14 +37,17 @@ export async function openPage(kind, {width = 1600, theme = 'light'} = {}) {
   page.on('pageerror', error => errors.push(error.message));
   page.on('request', request => requests.push(request.url()));
   const before = Date.now();
+  let opened_ms;
   try {
     await page.goto(`file://${fileOf(kind)}`);
     await page.waitForSelector('html[data-drawn=yes]');
+    opened_ms = Date.now() - before;
+    await page.evaluate(chartsAreDrawn);
   } catch (failure) {
     await context.close();
     throw new Error(errors.join('; ') || failure.message);
   }
-  return {page, errors, requests, opened_ms: Date.now() - before, close: () => context.close()};
+  return {page, errors, requests, opened_ms, close: () => context.close()};
 }
 
 /// Opens a report and hands it to `look(page)` with what went wrong so far.
