@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kFault = 8;  ///< a fault's deviation, in those of a sound vehicle
 constexpr double kZone = 3;   ///< another soil's numbers, in standard deviations of this one's
-/// The same once a zone is known, for what does not go along the directions that soils differ in:
+/// The same once a zone is known, for what does not go along the ways in which soils differ:
 /// where the largest stress lies (a0 of .2 to .45 in Wong & Reece 1967) says little of a soil, and
 /// would else take the place of its bearing.
 constexpr double kOwn = 1.5;

@@ -27,8 +27,8 @@ struct EffectContest {
   /// Columns of soil of its own: for each window one for each number, by a standard deviation.
   Eigen::MatrixXd soil;
   std::size_t soil_numbers = 0;
-  /// Directions in which numbers of another soil go together, each as far as one standard deviation
-  /// of soils: the fit of a known zone may go far along them.
+  /// Ways in which soils differ from each other, each as far as one standard deviation among them:
+  /// the fit of a known zone may go far along them.
   std::vector<Eigen::VectorXd> wide_directions;
   /// Soils that a zone may well have, as numbers by which it would differ, each one deviation long:
   /// less evidence shows one of these than a soil of which nothing is known.

@@ -11,10 +11,6 @@ namespace regoplan {
 namespace {
 
 constexpr double kSettled = 0.05;  ///< deviations
-/// How far another soil may be from that of the map, in standard deviations of the map's: weaker in
-/// all; and in the logarithm of its bearing, which of sands and regoliths spans two decades (kphi
-/// of 1e4 to 1e6) where tests of one soil know it to a quarter.
-constexpr double kFarWeaker = 6, kBearing_log = 1.5;
 
 }  // namespace
 
@@ -38,7 +34,7 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
   }
   for (const VehicleTrial& trial : trials_) contest_.claimable.push_back(!trial.id.empty());
   contest_.soil_numbers = numbers_.size();
-  contest_.wide_directions = {values_of(weaker_by(kFarWeaker)), other_bearing()};
+  contest_.wide_directions = differences_among_soils_driven();
   for (const LikelySoil& soil : likely) {
     constexpr double kFarthest = 6;
     contest_.likely_soils.push_back(
@@ -48,15 +44,29 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
 
 EffectFound EffectFit::strongest(std::uint64_t seed) {
   Linearised here = linearise();
+  const std::vector<Eigen::MatrixXd> soil = soil_columns(here.base);
+  whiten_soil(soil, *here.noise);
   EffectFound strongest = strongest_effect(contest_, seed);
   if (strongest.stands_out || !strongest.is_zone) return strongest;
   // A zone that is there has widened the noise that it was held against.
   std::vector<Eigen::MatrixXd>& numbers = here.zones.emplace_back();
-  for (const Eigen::MatrixXd& number : here.soil) {
+  for (const Eigen::MatrixXd& number : soil) {
     numbers.emplace_back(strongest.share.asDiagonal() * number);
   }
-  whiten(here);
+  whiten_soil(soil, whiten(here));
   return strongest_effect(contest_, seed);
+}
+
+/// What each number of another soil changes in each window.
+std::vector<Eigen::MatrixXd> EffectFit::soil_columns(const Eigen::MatrixXd& base) const {
+  std::vector<Eigen::MatrixXd> columns;
+  for (const std::size_t number : numbers_) {
+    VehicleDeviation there = deviation();
+    there.soils.resize(map_.soils().size());
+    for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
+    columns.push_back(comparison_.predicted(there, zones(), base, stop_) - base);
+  }
+  return columns;
 }
 
 void EffectFit::add(const EffectFound& effect) {
@@ -95,16 +105,19 @@ Eigen::VectorXd EffectFit::values_of(const SoilNumbers& numbers) const {
   return values;
 }
 
-/// Soils of another bearing, in the mean of those driven on.
-Eigen::VectorXd EffectFit::other_bearing() const {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size()));
+/// In the mean of the map's soils that were driven on.
+std::vector<Eigen::VectorXd> EffectFit::differences_among_soils_driven() const {
+  std::vector<Eigen::VectorXd> sum;
   double count = 0;
   for (std::size_t i = 0; i < map_.soils().size(); ++i) {
     if (!comparison_.soils_driven()[i]) continue;
-    sum += values_of(bearing_by(map_.soils()[i].soil, -kBearing_log));
+    const std::vector<SoilNumbers> differences = differences_among_soils(map_.soils()[i].soil);
+    sum.resize(differences.size(), values_of({}));
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += values_of(differences[k]);
     ++count;
   }
-  return sum / std::max(count, 1.0);
+  for (Eigen::VectorXd& difference : sum) difference /= count;
+  return sum;
 }
 
 std::vector<WindowZone> EffectFit::zones() const {
@@ -147,13 +160,6 @@ EffectFit::Linearised EffectFit::linearise() {
     columns.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
     data += fit_.parameters[static_cast<Eigen::Index>(k)] * columns.back();
   }
-  std::vector<Eigen::MatrixXd> soil;
-  for (const std::size_t number : numbers_) {
-    VehicleDeviation there = here;
-    there.soils.resize(map_.soils().size());
-    for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
-    soil.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
-  }
   std::vector<std::vector<Eigen::MatrixXd>> of_zones;
   for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
     std::vector<Eigen::MatrixXd>& of_zone = of_zones.emplace_back();
@@ -173,10 +179,10 @@ EffectFit::Linearised EffectFit::linearise() {
   Linearised result{.data = std::move(data),
                     .base = base,
                     .columns = std::move(columns),
-                    .soil = std::move(soil),
                     .inputs = inputs,
-                    .zones = std::move(of_zones)};
-  const ResidualNoise noise = whiten(result);
+                    .zones = std::move(of_zones),
+                    .noise = {}};
+  const ResidualNoise& noise = result.noise.emplace(whiten(result));
   shifts_ = noise.inputs_given(left);
   result.nats = is_carried ? noise.nats(left) : std::numeric_limits<double>::infinity();
   return result;
@@ -221,31 +227,20 @@ std::optional<ScatterSources> EffectFit::scatter_outside(const Eigen::VectorXd& 
 
 /// Makes data and columns of the contest white.
 ResidualNoise EffectFit::whiten(const Linearised& here) {
-  const auto& [data, base, columns, soil, inputs, zones, nats] = here;
   ResidualParts parts = residual_parts(here);
   ResidualNoise noise =
       scatter_ ? ResidualNoise(std::move(parts), *scatter_) : ResidualNoise(std::move(parts));
   noise_ = noise.scales();
-  contest_.data = noise.whitened(data);
-  contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    contest_.parameters.col(static_cast<Eigen::Index>(k)) = noise.whitened(columns[k]);
-  }
-  contest_.soil.resize(contest_.data.size(),
-                       base.rows() * static_cast<Eigen::Index>(numbers_.size()));
-  for (Eigen::Index w = 0; w < base.rows(); ++w) {
-    for (std::size_t k = 0; k < numbers_.size(); ++k) {
-      Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(base.rows(), base.cols());
-      alone.row(w) = soil[k].row(w);
-      contest_.soil.col(w * static_cast<Eigen::Index>(numbers_.size()) +
-                        static_cast<Eigen::Index>(k)) = noise.whitened(alone);
-    }
+  contest_.data = noise.whitened(here.data);
+  contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(here.columns.size()));
+  for (std::size_t k = 0; k < here.columns.size(); ++k) {
+    contest_.parameters.col(static_cast<Eigen::Index>(k)) = noise.whitened(here.columns[k]);
   }
   for (std::size_t z = 0; z < contest_.zones_known.size(); ++z) {
     Eigen::MatrixXd& known = contest_.zones_known[z].columns;
     known.resize(contest_.data.size(), static_cast<Eigen::Index>(numbers_.size()));
     for (std::size_t k = 0; k < numbers_.size(); ++k) {
-      known.col(static_cast<Eigen::Index>(k)) = noise.whitened(zones[z][k]);
+      known.col(static_cast<Eigen::Index>(k)) = noise.whitened(here.zones[z][k]);
     }
   }
   const std::size_t along = comparison_.slope_along();
@@ -253,9 +248,24 @@ ResidualNoise EffectFit::whiten(const Linearised& here) {
     return Eigen::VectorXd(noise.sources().inputs[input] * noise.whitened(here.inputs[input]));
   };
   contest_.ground = likely_slope_errors(
-      contest_, {.along = white(along), .across = white(along + 1), .channels = base.cols()},
+      contest_, {.along = white(along), .across = white(along + 1), .channels = here.base.cols()},
       comparison_.channel("pitch_rad"));
   return noise;
+}
+
+/// Makes columns of soil of its own white.
+void EffectFit::whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise) {
+  const auto windows = static_cast<Eigen::Index>(comparison_.size());
+  const auto numbers = static_cast<Eigen::Index>(numbers_.size());
+  contest_.soil.resize(contest_.data.size(), windows * numbers);
+  for (Eigen::Index k = 0; k < numbers; ++k) {
+    const Eigen::MatrixXd& column = soil[static_cast<std::size_t>(k)];
+    for (Eigen::Index w = 0; w < windows; ++w) {
+      Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(windows, column.cols());
+      alone.row(w) = column.row(w);
+      contest_.soil.col(w * numbers + k) = noise.whitened(alone);
+    }
+  }
 }
 
 void EffectFit::go_on_from(Settled settled) {
@@ -284,22 +294,44 @@ void EffectFit::settle_with(EffectFound& effect) {
 
 void EffectFit::settle_zone(EffectFound& zone) {
   const Settled start{.fit = fit_, .shifts = shifts_};
+  const EffectFound found = zone;
+  const auto& differences = contest_.wide_directions;
+  const Eigen::VectorXd weaker = differences[0] + differences[1] + differences[2];
   Settled best;
   // A soil that fits badly leaves misfit in its zone, which would pass for noise.
   scatter_ = scatter_outside(zone.share);
-  for (const double weakness : {0.0, 0.7, 1.4}) {
+  for (const double weakness : {0.0, 1.4, 2.8}) {
+    EffectFound placed = found;
+    take_edges(placed);
     go_on_from(start);
-    fit_.zones.back() = weakness * (contest_.wide_directions[0] + contest_.wide_directions[1]);
-    Settled settled = settled_from_here();
+    fit_.zones.back() = weakness * weaker;
+    Settled settled = settled_with_edges(placed);
     // The map's soil is the answer where none of all says anything.
-    if (best.fit.zones.empty() || settled.nats < best.nats) best = std::move(settled);
+    if (!best.fit.zones.empty() && settled.nats >= best.nats) continue;
+    best = std::move(settled);
+    zone = placed;
   }
+  take_edges(zone);
   go_on_from(std::move(best));
-  constexpr int kRounds = 3;
-  for (int round = 0; round < kRounds && place_edges(zone); ++round) {
-    go_on_from(settled_from_here());
-  }
   scatter_.reset();
+}
+
+/// Soil and edges of the zone that was added last, in turn: an edge that is off by half a window
+/// asks for a soil that is nowhere.
+EffectFit::Settled EffectFit::settled_with_edges(EffectFound& zone) {
+  constexpr int kStepsBefore = 3, kRounds = 3;
+  Settled settled = settled_from_here(kStepsBefore);
+  for (int round = 0; round < kRounds; ++round) {
+    go_on_from(settled);
+    if (!place_edges(zone) && round > 0) break;
+    settled = settled_from_here();
+  }
+  return settled;
+}
+
+void EffectFit::take_edges(const EffectFound& zone) {
+  contest_.zones_known.back().share = zone.share;
+  edges_.back() = {zone.begins, zone.ends};
 }
 
 /// Moves the edges of the zone that was added last to where its soil makes them likeliest.
@@ -307,7 +339,6 @@ void EffectFit::settle_zone(EffectFound& zone) {
 bool EffectFit::place_edges(EffectFound& zone) {
   const Eigen::MatrixXd shifts = shifts_;
   const Linearised here = linearise();
-  const ResidualNoise noise = whiten(here);
   // What the inputs' scatter explains stays what it is.
   Eigen::MatrixXd measured = comparison_.measured();
   for (std::size_t k = 0; k < here.inputs.size(); ++k) {
@@ -318,28 +349,26 @@ bool EffectFit::place_edges(EffectFound& zone) {
                                           .deviation = vehicle,
                                           .measured = std::move(measured),
                                           .predicted = here.base,
-                                          .noise = noise},
+                                          .noise = *here.noise},
                                          zones(), stop_);
   zone.begins = edges.begins;
   zone.ends = edges.ends;
   zone.first_at = edges.begins_ci95;
   zone.last_at = edges.ends_ci95;
   zone.share = shares_between(edges.begins, edges.ends, comparison_.size());
-  contest_.zones_known.back().share = zone.share;
   const std::array<double, 2> before = edges_.back();
-  edges_.back() = {edges.begins, edges.ends};
+  take_edges(zone);
   return edges_.back() != before;
 }
 
 /// Steps are taken where they lead to what is likelier, and else shortened, until nothing changes
 /// by more than noise would.
-EffectFit::Settled EffectFit::settled_from_here() {
-  constexpr int kRounds = 10;
+EffectFit::Settled EffectFit::settled_from_here(int steps_most) {
   constexpr double kShorter = 0.4, kSmallest = 0.1, kSame_nats = 0.1;
   Settled best;
   ContestFit towards;
   double share = 1;
-  for (int round = 0; round < kRounds && share > kSmallest; ++round) {
+  for (int round = 0; round < steps_most && share > kSmallest; ++round) {
     const Settled here{.fit = fit_, .shifts = shifts_};
     const double nats = linearise().nats + prior_nats(contest_, fit_);
     const bool is_same = round > 0 && std::abs(nats - best.nats) < kSame_nats;

@@ -34,8 +34,8 @@ class EffectFit {
   void settle();
   /// The same with the effect that was added last. Soils far off are no longer linear, so that
   /// steps may lead away again, and lead elsewhere from a soil like the map's than from weaker
-  /// ones, down to what carries no vehicle: the likeliest of where they led counts.
-  /// A zone then begins and ends where that soil makes it likeliest.
+  /// ones, down to what carries no vehicle: the likeliest of where they led counts, each with a
+  /// zone that begins and ends where that soil makes it likeliest.
   void settle_with(EffectFound& effect);
 
   const ContestFit& fit() const { return fit_; }
@@ -57,10 +57,11 @@ class EffectFit {
   /// What is measured and what changes it, about the present fit.
   struct Linearised {
     Eigen::MatrixXd data, base;
-    std::vector<Eigen::MatrixXd> columns, soil, inputs;
+    std::vector<Eigen::MatrixXd> columns, inputs;
     std::vector<std::vector<Eigen::MatrixXd>> zones;  ///< of each, what its soil's numbers change
-    double nats =
-        0;  ///< by which what the fit leaves is unlikely; infinite where a zone carries nowhere
+    std::optional<ResidualNoise> noise;               ///< that the contest was made white by
+    /// By which what the fit leaves is unlikely; infinite where a zone carries nowhere.
+    double nats = 0;
   };
 
   /// A fit, and by how many nats what it leaves is unlikely.
@@ -70,16 +71,20 @@ class EffectFit {
     double nats = std::numeric_limits<double>::infinity();
   };
   Eigen::VectorXd values_of(const SoilNumbers& numbers) const;
-  Eigen::VectorXd other_bearing() const;
+  std::vector<Eigen::VectorXd> differences_among_soils_driven() const;
   std::vector<WindowZone> zones() const;
   Linearised linearise();
   ResidualParts residual_parts(const Linearised& here) const;
   ResidualNoise whiten(const Linearised& here);
+  std::vector<Eigen::MatrixXd> soil_columns(const Eigen::MatrixXd& base) const;
+  void whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise);
   std::optional<ScatterSources> scatter_outside(const Eigen::VectorXd& zone);
   bool place_edges(EffectFound& zone);
+  void take_edges(const EffectFound& zone);
   void go_on_from(Settled settled);
   void settle_zone(EffectFound& zone);
-  Settled settled_from_here();
+  Settled settled_with_edges(EffectFound& zone);
+  Settled settled_from_here(int steps_most = 10);
   double step();
   double longest_of_sound(const Eigen::VectorXd& step) const;
 

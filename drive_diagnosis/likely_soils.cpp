@@ -1,5 +1,9 @@
 #include "drive_diagnosis/likely_soils.h"
 
+#include <cmath>
+
+#include "terramech/basics/angles.h"
+
 namespace regoplan {
 
 std::vector<LikelySoil> likely_soils(const TerrainMap& map, const std::vector<bool>& driven_on) {
@@ -17,6 +21,30 @@ std::vector<LikelySoil> likely_soils(const TerrainMap& map, const std::vector<bo
   constexpr double kWeaker = 3;
   likely.push_back({.numbers = weaker_by(kWeaker), .here = {}, .there = {}});
   return likely;
+}
+
+std::vector<SoilNumbers> differences_among_soils(const UncertainSoil& soil) {
+  // Two decades of kphi (1e4 to 1e6) and of cohesion, from sands to loams (Wong 2008, table 2.3)
+  // and of regoliths; friction of 24 to 47 deg on 19 sites of the Moon (Hovland & Mitchell 1973),
+  // where also density goes from 1300 to 1900 kg/m3 (Carrier et al. 1991); shear moduli of 1 to 5
+  // cm.
+  constexpr double kBearing_log = 1.5, kCohesion_log = 1, kFriction_rad = 6 * kDegree;
+  constexpr double kDensity_kgpm3 = 150, kShear_log = 0.4;
+  std::vector<SoilNumbers> differences{bearing_by(soil, -kBearing_log)};
+  const auto add = [&](const auto& change) {
+    Soil other = soil.mean;
+    change(other);
+    differences.push_back(deviations_between(soil, other));
+  };
+  add([](Soil& other) { other.cohesion_pa *= std::exp(-kCohesion_log); });
+  add([](Soil& other) { other.friction_angle_rad -= kFriction_rad; });
+  add([](Soil& other) { other.density_kgpm3 -= kDensity_kgpm3; });
+  add([](Soil& other) {  // looser soil shears further
+    for (double Soil::*const modulus : {&Soil::kx0_m, &Soil::kx1_m, &Soil::ky0_m, &Soil::ky1_m}) {
+      other.*modulus *= std::exp(kShear_log);
+    }
+  });
+  return differences;
 }
 
 UncertainSoil estimated_soil(const UncertainSoil& said, const SoilNumbers& numbers,

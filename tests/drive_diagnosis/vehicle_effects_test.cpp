@@ -87,6 +87,9 @@ TEST(VehicleEffects, ASoilFarWeakerThanTheMapSaysIsEstimatedToBearAndToHoldLess)
   const double halfway_rad =
       (said_there.mean.friction_angle_rad + true_there.friction_angle_rad) / 2;
   EXPECT_LT(zone.estimate.mean.friction_angle_rad, halfway_rad);
+  // What is told of how well it is known is true of it.
+  EXPECT_NEAR(zone.estimate.mean.friction_angle_rad, true_there.friction_angle_rad,
+              3 * zone.estimate.standard_deviation.friction_angle_rad);
 }
 
 TEST(VehicleEffects, AWheelThatDragsIsNamed) {

@@ -1,0 +1,62 @@
+// Soils that may well lie where the map says another.
+#include "drive_diagnosis/likely_soils.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "terramech/basics/angles.h"
+
+namespace regoplan {
+namespace {
+
+/// Intercrater regolith (Carrier et al. 1991), known as well as tests of one soil know it.
+UncertainSoil regolith() {
+  UncertainSoil soil{.mean = {.cohesion_pa = 170,
+                              .friction_angle_rad = 36 * kDegree,
+                              .kc = 1400,
+                              .kphi = 8.2e5,
+                              .lambda = 0.9,
+                              .density_kgpm3 = 1500,
+                              .kx0_m = 0.018,
+                              .kx1_m = 0.043,
+                              .ky0_m = 0.013,
+                              .ky1_m = 0.02}};
+  soil.standard_deviation = {.cohesion_pa = 50,
+                             .friction_angle_rad = 2 * kDegree,
+                             .kc = 350,
+                             .kphi = 2e5,
+                             .density_kgpm3 = 50,
+                             .kx0_m = 0.0045};
+  return soil;
+}
+
+Soil other(std::size_t difference) {
+  const UncertainSoil here = regolith();
+  return deviating(here, differences_among_soils(here).at(difference));
+}
+
+TEST(DifferencesAmongSoils, ReachTheSoilsOfOtherPlacesWithinTwoOrThree) {
+  EXPECT_NEAR(std::log(regolith().mean.kphi / other(0).kphi), 1.5, 1e-9);  // two decades: three
+  EXPECT_NEAR(std::log(regolith().mean.kc / other(0).kc), 1.5, 1e-9);
+  EXPECT_NEAR(other(1).cohesion_pa, 170 / std::exp(1), 1e-9);
+  EXPECT_NEAR(other(2).friction_angle_rad, 30 * kDegree, 1e-9);
+  EXPECT_NEAR(other(3).density_kgpm3, 1350, 1e-9);
+  EXPECT_NEAR(other(4).kx0_m, 0.018 * std::exp(0.4), 1e-9);
+}
+
+TEST(DifferencesAmongSoils, AreEachOfOneThingAlone) {
+  EXPECT_EQ(other(0).friction_angle_rad, regolith().mean.friction_angle_rad);
+  EXPECT_EQ(other(2).kphi, regolith().mean.kphi);
+  EXPECT_EQ(other(2).cohesion_pa, regolith().mean.cohesion_pa);
+}
+
+TEST(DifferencesAmongSoils, AreTheSameSoilsHoweverWellTheMapKnowsItsOwn) {
+  UncertainSoil known_better = regolith();
+  known_better.standard_deviation.friction_angle_rad /= 4;
+  const Soil there = deviating(known_better, differences_among_soils(known_better).at(2));
+  EXPECT_NEAR(there.friction_angle_rad, other(2).friction_angle_rad, 1e-9);
+}
+
+}  // namespace
+}  // namespace regoplan
