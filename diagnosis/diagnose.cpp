@@ -316,7 +316,8 @@ class Diagnosing {
   }
 
   void take(Correction correction) {
-    if (!correction.refused.empty()) {
+    found_.correction_refused = !correction.refused.empty();
+    if (found_.correction_refused) {
       found_.notes.push_back(
           fmt::format("the model is handed on without a correction: {}", correction.refused));
     }

@@ -169,6 +169,7 @@ struct Diagnosis {
   std::vector<ChannelFit> fit;
   std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
   double share_explained = 0;
+  bool correction_refused = false;  ///< none proved its worth: what is handed on has no name's part
   LackOfFit before, after;
   std::vector<SoilPull> soil;
   std::vector<Experiment> next_experiments;

@@ -181,6 +181,9 @@ std::string named_words(const Diagnosis& diagnosis) {
                         probability_words(claim.probability), number_words(claim));
   }
   std::string text = "the data say " + what + ".";
+  if (diagnosis.correction_refused) {
+    return text + " Named, but the corrected model leaves it out (see the notes).";
+  }
   const double left = 1 - diagnosis.share_explained;
   if (left > 0.1) {
     text += fmt::format(" Named, but {:.0f} % of the excess misfit remains.",

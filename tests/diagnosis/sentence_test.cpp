@@ -58,6 +58,15 @@ TEST(Sentence, SaysWhatANameLeavesUnexplained) {
   expect_says(sentence_of(named()), {"30 % of the excess misfit remains"});
 }
 
+TEST(Sentence, DoesNotChargeANameWithWhatARefusedCorrectionLeaves) {
+  Diagnosis diagnosis = named();
+  diagnosis.share_explained = -0.02;
+  diagnosis.correction_refused = true;
+  const std::string sentence = sentence_of(diagnosis);
+  expect_says(sentence, {"slip_sinkage, 96 %", "the corrected model leaves it out"});
+  EXPECT_EQ(sentence.find("remains"), std::string::npos) << sentence;
+}
+
 TEST(Sentence, OfAClassNamesAllAndWhatWouldDecide) {
   Diagnosis diagnosis = named();
   diagnosis.verdict = Verdict::kClass;
