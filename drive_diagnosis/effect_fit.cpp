@@ -295,8 +295,8 @@ void EffectFit::settle_with(EffectFound& effect) {
 void EffectFit::settle_zone(EffectFound& zone) {
   const Settled start{.fit = fit_, .shifts = shifts_};
   const EffectFound found = zone;
-  const auto& differences = contest_.wide_directions;
-  const Eigen::VectorXd weaker = differences[0] + differences[1] + differences[2];
+  const auto& less = contest_.wide_directions;  // bearing, cohesion and friction come first
+  const Eigen::VectorXd weaker = less[0] + less[1] + less[2];
   Settled best;
   // A soil that fits badly leaves misfit in its zone, which would pass for noise.
   scatter_ = scatter_outside(zone.share);

@@ -20,8 +20,9 @@ struct LikelySoil {
 /// \param driven_on of each soil of the map
 std::vector<LikelySoil> likely_soils(const TerrainMap& map, const std::vector<bool>& driven_on);
 
-/// Ways in which soils differ from each other, each as far as one standard deviation among them:
-/// strength, bearing, density and shear moduli of a soil of which nothing is known yet.
+/// Ways in which soils differ from each other, each as far as one standard deviation among them,
+/// for a soil of which nothing is known yet: less bearing, cohesion, friction and density, and
+/// larger shear moduli, in this order.
 std::vector<SoilNumbers> differences_among_soils(const UncertainSoil& soil);
 
 /// A soil whose numbers are so many standard deviations off, and known to so many of them.
