@@ -396,8 +396,7 @@ ContestFit fit_contest(const EffectContest& contest) {
   for (std::size_t z = 0; z < contest.zones_known.size(); ++z) {
     const Eigen::Index at = parameters + static_cast<Eigen::Index>(z) * q;
     fit.zones.emplace_back(factor * x.segment(at, q));
-    const Eigen::MatrixXd spread = factor * covariance.block(at, at, q, q) * factor.transpose();
-    fit.zones_std.emplace_back(spread.diagonal().cwiseMax(0).cwiseSqrt());
+    fit.zones_covariance.emplace_back(factor * covariance.block(at, at, q, q) * factor.transpose());
   }
   return fit;
 }

@@ -68,7 +68,8 @@ EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed);
 /// The most likely parameters and numbers of the known zones' soils, known faults and zones free.
 struct ContestFit {
   Eigen::VectorXd parameters, parameters_std;
-  std::vector<Eigen::VectorXd> zones, zones_std;
+  std::vector<Eigen::VectorXd> zones;
+  std::vector<Eigen::MatrixXd> zones_covariance;
 };
 ContestFit fit_contest(const EffectContest& contest);
 

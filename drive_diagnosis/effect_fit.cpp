@@ -377,7 +377,7 @@ EffectFit::Settled EffectFit::settled_from_here(int steps_most) {
       step();
       towards = fit_;
       best.fit.parameters_std = towards.parameters_std;
-      best.fit.zones_std = towards.zones_std;
+      best.fit.zones_covariance = towards.zones_covariance;
       share = std::min(1.0, share / kShorter);
     } else {
       share *= kShorter;

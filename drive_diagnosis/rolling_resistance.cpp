@@ -1,8 +1,6 @@
 #include "drive_diagnosis/rolling_resistance.h"
 
-#include <cmath>
-#include <random>
-
+#include "drive_diagnosis/robust_statistics.h"
 #include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
@@ -22,18 +20,13 @@ double rolling_resistance(const Vehicle& vehicle, double gravity_mps2, const Soi
 }
 
 DriveEstimate added_resistance(const Vehicle& vehicle, double gravity_mps2, const Soil& said,
-                               const UncertainSoil& there, std::uint64_t seed) {
-  const double mean = rolling_resistance(vehicle, gravity_mps2, there.mean);
-  std::mt19937_64 random(seed);
-  constexpr int kDraws = 60;
-  double squares = 0;
-  for (int i = 0; i < kDraws; ++i) {
-    const double off =
-        rolling_resistance(vehicle, gravity_mps2, draw(there, vehicle.wheel.width_m, random)) -
-        mean;
-    squares += off * off;
-  }
-  return {mean - rolling_resistance(vehicle, gravity_mps2, said), std::sqrt(squares / kDraws)};
+                               const Soil& there, const std::vector<Soil>& draws) {
+  constexpr double kBelow = 0.159, kAbove = 0.841;  // of a normal, one deviation off its mean
+  std::vector<double> drawn;
+  for (const Soil& soil : draws) drawn.push_back(rolling_resistance(vehicle, gravity_mps2, soil));
+  return {rolling_resistance(vehicle, gravity_mps2, there) -
+              rolling_resistance(vehicle, gravity_mps2, said),
+          (quantile_value(drawn, kAbove) - quantile_value(drawn, kBelow)) / 2};
 }
 
 }  // namespace regoplan

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <vector>
 
 #include "drive_diagnosis/mounting.h"
 #include "terramech/parameters/soil.h"
@@ -12,9 +12,10 @@ namespace regoplan {
 /// pull: torque over radius, as a share of its load.
 double rolling_resistance(const Vehicle& vehicle, double gravity_mps2, const Soil& soil);
 
-/// By how much more it takes on `there` than on `said`; the deviation is that of `there`, from 60
-/// draws.
+/// By how much more it takes on `there` than on `said`; the deviation is half of what two thirds of
+/// the draws spread over: on the weakest a wheel may not turn itself forward at all.
+/// \param draws soils that may lie there as well
 DriveEstimate added_resistance(const Vehicle& vehicle, double gravity_mps2, const Soil& said,
-                               const UncertainSoil& there, std::uint64_t seed);
+                               const Soil& there, const std::vector<Soil>& draws);
 
 }  // namespace regoplan

@@ -1,7 +1,9 @@
 #include "drive_diagnosis/vehicle_effects.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "drive_diagnosis/effect_contest.h"
 #include "drive_diagnosis/effect_fit.h"
@@ -176,13 +178,33 @@ class EffectSearch {
     const std::vector<SoilNumbers> all_along = fit_.deviation().soils;
     for (std::size_t i = 0; i < fit_.numbers().size(); ++i) {
       const std::size_t k = fit_.numbers()[i];
-      stds.at(k) = kZoneErrs * fit_.fit().zones_std[index][static_cast<Eigen::Index>(i)];
+      const auto at = static_cast<Eigen::Index>(i);
+      stds.at(k) = kZoneErrs * std::sqrt(fit_.fit().zones_covariance[index](at, at));
       if (!all_along.empty()) numbers.at(k) += all_along[soil].at(k);
     }
     const UncertainSoil& said = map_.soils()[soil].soil;
     zone.estimate = estimated_soil(said, numbers, stds);
     const Soil before = all_along.empty() ? said.mean : deviating(said, all_along[soil]);
-    zone.resistance = added_resistance(vehicle_, gravity_mps2_, before, zone.estimate, seed_);
+    zone.resistance = added_resistance(vehicle_, gravity_mps2_, before, zone.estimate.mean,
+                                       drawn(index, said, numbers));
+  }
+
+  /// Soils that may be the zone's, about these numbers: what is not known apart varies together.
+  std::vector<Soil> drawn(std::size_t index, const UncertainSoil& said,
+                          const SoilNumbers& numbers) const {
+    constexpr int kDraws = 60;
+    const Eigen::MatrixXd factor = fit_.fit().zones_covariance[index].llt().matrixL();
+    std::mt19937_64 random(seed_);
+    std::normal_distribution<double> normal;
+    std::vector<Soil> soils;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      Eigen::VectorXd off(factor.cols());
+      for (double& value : off) value = normal(random);
+      SoilNumbers there = fit_.numbers_of(kZoneErrs * factor * off);
+      for (std::size_t k = 0; k < kSoilNumbers; ++k) there.at(k) += numbers.at(k);
+      soils.push_back(deviating(said, there));
+    }
+    return soils;
   }
 
   const std::vector<DriveWindow>& windows_;
