@@ -6,22 +6,14 @@
 #include <cmath>
 
 #include "terramech/basics/angles.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
 
-/// Intercrater regolith (Carrier et al. 1991), known as well as tests of one soil know it.
+/// Known as well as tests of one soil know it.
 UncertainSoil regolith() {
-  UncertainSoil soil{.mean = {.cohesion_pa = 170,
-                              .friction_angle_rad = 36 * kDegree,
-                              .kc = 1400,
-                              .kphi = 8.2e5,
-                              .lambda = 0.9,
-                              .density_kgpm3 = 1500,
-                              .kx0_m = 0.018,
-                              .kx1_m = 0.043,
-                              .ky0_m = 0.013,
-                              .ky1_m = 0.02}};
+  UncertainSoil soil{.mean = named_soils::simulant_2007()};
   soil.standard_deviation = {.cohesion_pa = 50,
                              .friction_angle_rad = 2 * kDegree,
                              .kc = 350,
@@ -39,10 +31,10 @@ Soil other(std::size_t difference) {
 TEST(DifferencesAmongSoils, ReachTheSoilsOfOtherPlacesWithinTwoOrThree) {
   EXPECT_NEAR(std::log(regolith().mean.kphi / other(0).kphi), 1.5, 1e-9);  // two decades: three
   EXPECT_NEAR(std::log(regolith().mean.kc / other(0).kc), 1.5, 1e-9);
-  EXPECT_NEAR(other(1).cohesion_pa, 170 / std::exp(1), 1e-9);
-  EXPECT_NEAR(other(2).friction_angle_rad, 30 * kDegree, 1e-9);
-  EXPECT_NEAR(other(3).density_kgpm3, 1350, 1e-9);
-  EXPECT_NEAR(other(4).kx0_m, 0.018 * std::exp(0.4), 1e-9);
+  EXPECT_NEAR(other(1).cohesion_pa, 800 / std::exp(1), 1e-9);
+  EXPECT_NEAR(other(2).friction_angle_rad, 31.2 * kDegree, 1e-9);
+  EXPECT_NEAR(other(3).density_kgpm3, 1450, 1e-9);
+  EXPECT_NEAR(other(4).kx0_m, 0.036 * std::exp(0.4), 1e-9);
 }
 
 TEST(DifferencesAmongSoils, AreEachOfOneThingAlone) {

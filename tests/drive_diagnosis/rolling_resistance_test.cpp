@@ -3,29 +3,21 @@
 
 #include <gtest/gtest.h>
 
-#include "terramech/basics/angles.h"
 #include "terramech/parameters/vehicle.h"
+#include "tests/terramech/named_soils.h"
 
 namespace regoplan {
 namespace {
 
-constexpr double kMoon_mps2 = 1.62;
-
 Soil bearing(double kphi) {
-  return {.cohesion_pa = 170,
-          .friction_angle_rad = 36 * kDegree,
-          .kc = 1400,
-          .kphi = kphi,
-          .lambda = 0.9,
-          .density_kgpm3 = 1500,
-          .kx0_m = 0.018,
-          .kx1_m = 0.043,
-          .ky0_m = 0.013,
-          .ky1_m = 0.02};
+  Soil soil = named_soils::simulant_2007();
+  soil.kphi = kphi;
+  return soil;
 }
 
 DriveEstimate added(const std::vector<Soil>& draws) {
-  return added_resistance(preset_vehicle("lrv"), kMoon_mps2, bearing(8e5), bearing(1e5), draws);
+  return added_resistance(preset_vehicle("lrv"), named_soils::kMoon_mps2, bearing(8e5),
+                          bearing(1e5), draws);
 }
 
 TEST(AddedResistance, IsMoreWhereSoilBearsLess) {
