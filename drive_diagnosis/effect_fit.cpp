@@ -12,6 +12,16 @@ namespace {
 
 constexpr double kSettled = 0.05;  ///< deviations
 
+std::vector<std::size_t> numbers_that_vary(const TerrainMap& map) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    const bool varies = std::ranges::any_of(
+        map.soils(), [k](const MapSoil& soil) { return soil_spread(soil.soil).at(k) > 0; });
+    if (varies) numbers.push_back(k);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
@@ -21,14 +31,11 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
       map_(map),
       trials_(trials),
       stop_(stop),
+      numbers_(numbers_that_vary(map)),
+      linearisation_(comparison, trials, numbers_, stop),
       fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials.size()))} {
   shifts_ = Eigen::MatrixXd::Zero(comparison.measured().rows(),
                                   static_cast<Eigen::Index>(comparison.inputs()));
-  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-    const bool varies = std::ranges::any_of(
-        map.soils(), [k](const MapSoil& soil) { return soil_spread(soil.soil).at(k) > 0; });
-    if (varies) numbers_.push_back(k);
-  }
   for (std::size_t i = 0; i < comparison.size(); ++i) {
     contest_.follows.push_back(comparison.consecutive(i));
   }
@@ -44,16 +51,16 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
 
 EffectFound EffectFit::strongest(std::uint64_t seed) {
   Linearised here = linearise();
-  const std::vector<Eigen::MatrixXd> soil = soil_columns(here.base);
-  whiten_soil(soil, *here.noise);
+  const std::vector<Eigen::MatrixXd> soil = soil_columns(here.windows.base);
+  whiten_soil(soil, here.noise);
   EffectFound strongest = strongest_effect(contest_, seed);
   if (strongest.stands_out || !strongest.is_zone) return strongest;
   // A zone that is there has widened the noise that it was held against.
-  std::vector<Eigen::MatrixXd>& numbers = here.zones.emplace_back();
+  std::vector<Eigen::MatrixXd>& numbers = here.windows.zones.emplace_back();
   for (const Eigen::MatrixXd& number : soil) {
     numbers.emplace_back(strongest.share.asDiagonal() * number);
   }
-  whiten_soil(soil, whiten(here));
+  whiten_soil(soil, whiten(here.windows));
   return strongest_effect(contest_, seed);
 }
 
@@ -64,7 +71,7 @@ std::vector<Eigen::MatrixXd> EffectFit::soil_columns(const Eigen::MatrixXd& base
     VehicleDeviation there = deviation();
     there.soils.resize(map_.soils().size());
     for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
-    columns.push_back(comparison_.predicted(there, zones(), base, stop_) - base);
+    columns.push_back(comparison_.predicted(comparison_.all(), there, zones(), base, stop_) - base);
   }
   return columns;
 }
@@ -80,12 +87,7 @@ void EffectFit::add(const EffectFound& effect) {
 }
 
 VehicleDeviation EffectFit::deviation() const {
-  VehicleDeviation sum;
-  for (std::size_t k = 0; k < trials_.size(); ++k) {
-    const double size = fit_.parameters[static_cast<Eigen::Index>(k)];
-    if (size != 0) sum.add(trials_[k].deviation, size);
-  }
-  return sum;
+  return linearisation_.deviation_of(fit_);
 }
 
 SoilNumbers EffectFit::numbers_of(const Eigen::VectorXd& values) const {
@@ -132,63 +134,27 @@ std::vector<WindowZone> EffectFit::zones() const {
 }
 
 Eigen::MatrixXd EffectFit::predicted() const {
-  const Eigen::MatrixXd nothing =
-      Eigen::MatrixXd::Zero(comparison_.measured().rows(), comparison_.measured().cols());
-  return comparison_.predicted(deviation(), zones(), comparison_.predicted({}, {}, nothing, stop_),
-                               stop_);
+  return comparison_.predicted(comparison_.all(), deviation(), zones(),
+                               comparison_.predicted_as_said(stop_), stop_);
 }
 
-/// Columns and data about the present fit: what is measured less what is predicted there, plus
-/// what the parameters there stand for.
+/// Brings data and columns of the contest to the present fit.
 EffectFit::Linearised EffectFit::linearise() {
-  const VehicleDeviation here = deviation();
-  const std::vector<WindowZone> zones_here = zones();
-  comparison_.shift_inputs(shifts_);
-  comparison_.start_at(here, zones_here, stop_);
-  const Eigen::MatrixXd base = predicted();
-  std::vector<Eigen::MatrixXd> columns;
-  // Told of the measured inputs, to first order about the likely ones.
-  const std::vector<Eigen::MatrixXd> inputs = comparison_.of_inputs(here, zones_here, base, stop_);
-  Eigen::MatrixXd data = comparison_.measured() - base;
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
-    data += shifts_.col(static_cast<Eigen::Index>(k)).asDiagonal() * inputs[k];
-  }
-  const Eigen::MatrixXd left = data;
-  for (std::size_t k = 0; k < trials_.size(); ++k) {
-    VehicleDeviation there = here;
-    there.add(trials_[k].deviation, 1);
-    columns.push_back(comparison_.predicted(there, zones_here, base, stop_) - base);
-    data += fit_.parameters[static_cast<Eigen::Index>(k)] * columns.back();
-  }
-  std::vector<std::vector<Eigen::MatrixXd>> of_zones;
-  for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
-    std::vector<Eigen::MatrixXd>& of_zone = of_zones.emplace_back();
-    for (std::size_t k = 0; k < numbers_.size(); ++k) {
-      std::vector<WindowZone> there = zones_here;
-      there[z].numbers.at(numbers_[k]) += 1;
-      of_zone.push_back(comparison_.predicted_on(there[z], here, there, base, stop_) - base);
-      data += fit_.zones[z][static_cast<Eigen::Index>(k)] * of_zone.back();
-    }
-  }
+  LinearisedWindows here = linearisation_.about(fit_, zones(), shifts_);
+  const Eigen::MatrixXd left = here.data - here.changed_by(fit_);
   // Where a zone's soil carries the vehicle nowhere in it nothing is predicted there but what the
   // map says, and no soil is likelier than another.
-  const bool is_carried = std::ranges::all_of(of_zones, [](const auto& numbers) {
+  const bool is_carried = std::ranges::all_of(here.zones, [](const auto& numbers) {
     return !std::ranges::all_of(numbers,
                                 [](const Eigen::MatrixXd& number) { return number.isZero(0); });
   });
-  Linearised result{.data = std::move(data),
-                    .base = base,
-                    .columns = std::move(columns),
-                    .inputs = inputs,
-                    .zones = std::move(of_zones),
-                    .noise = {}};
-  const ResidualNoise& noise = result.noise.emplace(whiten(result));
+  ResidualNoise noise = whiten(here);
   shifts_ = noise.inputs_given(left);
-  result.nats = is_carried ? noise.nats(left) : std::numeric_limits<double>::infinity();
-  return result;
+  const double nats = is_carried ? noise.nats(left) : std::numeric_limits<double>::infinity();
+  return {.windows = std::move(here), .noise = std::move(noise), .nats = nats};
 }
 
-ResidualParts EffectFit::residual_parts(const Linearised& here) const {
+ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
   std::vector<Eigen::MatrixXd> global = here.columns;
   std::vector<bool> may_be_wrong = contest_.claimable;
   for (const std::vector<Eigen::MatrixXd>& numbers : here.zones) {
@@ -214,19 +180,19 @@ ResidualParts EffectFit::residual_parts(const Linearised& here) const {
 
 /// How far residuals scatter in the windows that do not touch a zone; nothing where those are too
 /// few to tell.
-std::optional<ScatterSources> EffectFit::scatter_outside(const Eigen::VectorXd& zone) {
+std::optional<ScatterSources> EffectFit::scatter_outside(const LinearisedWindows& here,
+                                                         const Eigen::VectorXd& zone) const {
   constexpr std::size_t kFewest = 10;
   std::vector<Eigen::Index> outside;
   for (Eigen::Index w = 0; w < zone.size(); ++w) {
     if (zone[w] == 0) outside.push_back(w);
   }
   if (outside.size() < kFewest) return std::nullopt;
-  const ResidualParts all = residual_parts(linearise());
-  return ResidualNoise(parts_of(all, outside)).sources();
+  return ResidualNoise(parts_of(residual_parts(here), outside)).sources();
 }
 
 /// Makes data and columns of the contest white.
-ResidualNoise EffectFit::whiten(const Linearised& here) {
+ResidualNoise EffectFit::whiten(const LinearisedWindows& here) {
   ResidualParts parts = residual_parts(here);
   ResidualNoise noise =
       scatter_ ? ResidualNoise(std::move(parts), *scatter_) : ResidualNoise(std::move(parts));
@@ -294,12 +260,24 @@ void EffectFit::settle_with(EffectFound& effect) {
 
 void EffectFit::settle_zone(EffectFound& zone) {
   const Settled start{.fit = fit_, .shifts = shifts_};
+  const LinearisedWindows here = linearise().windows;
+  // A soil that fits badly leaves misfit in its zone, which would pass for noise.
+  scatter_ = scatter_outside(here, zone.share);
+  linearisation_.keep_but_touched(here);
+  Settled best = likeliest_soil(start, zone);
+  linearisation_.keep_none();
+  take_edges(zone);
+  go_on_from(std::move(best));
+  go_on_from(settled_from_here());
+  scatter_.reset();
+}
+
+/// \param zone gets the edges that it is likeliest with
+EffectFit::Settled EffectFit::likeliest_soil(const Settled& start, EffectFound& zone) {
   const EffectFound found = zone;
   const auto& less = contest_.wide_directions;  // bearing, cohesion and friction come first
   const Eigen::VectorXd weaker = less[0] + less[1] + less[2];
   Settled best;
-  // A soil that fits badly leaves misfit in its zone, which would pass for noise.
-  scatter_ = scatter_outside(zone.share);
   for (const double weakness : {0.0, 1.4, 2.8}) {
     EffectFound placed = found;
     take_edges(placed);
@@ -311,9 +289,7 @@ void EffectFit::settle_zone(EffectFound& zone) {
     best = std::move(settled);
     zone = placed;
   }
-  take_edges(zone);
-  go_on_from(std::move(best));
-  scatter_.reset();
+  return best;
 }
 
 /// Soil and edges of the zone that was added last, in turn: an edge that is off by half a window
@@ -340,16 +316,13 @@ bool EffectFit::place_edges(EffectFound& zone) {
   const Eigen::MatrixXd shifts = shifts_;
   const Linearised here = linearise();
   // What the inputs' scatter explains stays what it is.
-  Eigen::MatrixXd measured = comparison_.measured();
-  for (std::size_t k = 0; k < here.inputs.size(); ++k) {
-    measured += shifts.col(static_cast<Eigen::Index>(k)).asDiagonal() * here.inputs[k];
-  }
+  const Eigen::MatrixXd measured = comparison_.measured() + here.windows.shifted_by(shifts);
   const VehicleDeviation vehicle = deviation();
   const LikelyEdges edges = likely_edges({.comparison = comparison_,
                                           .deviation = vehicle,
-                                          .measured = std::move(measured),
-                                          .predicted = here.base,
-                                          .noise = *here.noise},
+                                          .measured = measured,
+                                          .predicted = here.windows.base,
+                                          .noise = here.noise},
                                          zones(), stop_);
   zone.begins = edges.begins;
   zone.ends = edges.ends;

@@ -13,6 +13,7 @@
 #include "drive_diagnosis/residual_noise.h"
 #include "drive_diagnosis/vehicle_trials.h"
 #include "drive_diagnosis/window_comparison.h"
+#include "drive_diagnosis/window_linearisation.h"
 
 namespace regoplan {
 
@@ -54,12 +55,10 @@ class EffectFit {
   int soil_at(std::size_t window) const;
 
  private:
-  /// What is measured and what changes it, about the present fit.
+  /// The windows about the present fit.
   struct Linearised {
-    Eigen::MatrixXd data, base;
-    std::vector<Eigen::MatrixXd> columns, inputs;
-    std::vector<std::vector<Eigen::MatrixXd>> zones;  ///< of each, what its soil's numbers change
-    std::optional<ResidualNoise> noise;               ///< that the contest was made white by
+    LinearisedWindows windows;
+    ResidualNoise noise;  ///< that the contest was made white by
     /// By which what the fit leaves is unlikely; infinite where a zone carries nowhere.
     double nats = 0;
   };
@@ -74,15 +73,17 @@ class EffectFit {
   std::vector<Eigen::VectorXd> differences_among_soils_driven() const;
   std::vector<WindowZone> zones() const;
   Linearised linearise();
-  ResidualParts residual_parts(const Linearised& here) const;
-  ResidualNoise whiten(const Linearised& here);
+  ResidualParts residual_parts(const LinearisedWindows& here) const;
+  ResidualNoise whiten(const LinearisedWindows& here);
   std::vector<Eigen::MatrixXd> soil_columns(const Eigen::MatrixXd& base) const;
   void whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise);
-  std::optional<ScatterSources> scatter_outside(const Eigen::VectorXd& zone);
+  std::optional<ScatterSources> scatter_outside(const LinearisedWindows& here,
+                                                const Eigen::VectorXd& zone) const;
   bool place_edges(EffectFound& zone);
   void take_edges(const EffectFound& zone);
   void go_on_from(Settled settled);
   void settle_zone(EffectFound& zone);
+  Settled likeliest_soil(const Settled& start, EffectFound& zone);
   Settled settled_with_edges(EffectFound& zone);
   Settled settled_from_here(int steps_most = 10);
   double step();
@@ -94,6 +95,7 @@ class EffectFit {
   const std::stop_token& stop_;
   Eigen::MatrixXd shifts_;            ///< of the inputs that were linearised about
   std::vector<std::size_t> numbers_;  ///< of soil, that vary
+  WindowLinearisation linearisation_;
   EffectContest contest_;
   ContestFit fit_;
   std::vector<std::array<double, 2>> edges_;  ///< where each zone begins and ends, in windows

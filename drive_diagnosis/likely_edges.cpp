@@ -19,14 +19,20 @@ struct Tried {
   double begins, ends, nats;
 };
 
+WindowSet windows_within_reach(const WindowComparison& comparison, WindowZone zone) {
+  zone.begins = std::max(0.0, zone.begins - kReach);
+  zone.ends = std::min(static_cast<double>(comparison.size()), zone.ends + kReach);
+  return comparison.touching(zone);
+}
+
 class EdgeSearch {
  public:
   EdgeSearch(const FittedWindows& windows, std::vector<WindowZone> zones,
              const std::stop_token& stop)
-      : windows_(windows), zones_(std::move(zones)), stop_(stop), within_reach_(zones_.back()) {
-    const auto count = static_cast<double>(windows.comparison.size());
-    within_reach_.begins = std::max(0.0, within_reach_.begins - kReach);
-    within_reach_.ends = std::min(count, within_reach_.ends + kReach);
+      : windows_(windows),
+        zones_(std::move(zones)),
+        stop_(stop),
+        within_reach_(windows_within_reach(windows.comparison, zones_.back())) {
     // Windows that balance now have to with other edges too.
     otherwise_ = windows.predicted;
     const Eigen::MatrixXd now =
@@ -76,8 +82,8 @@ class EdgeSearch {
 
  private:
   Eigen::MatrixXd predicted(const Eigen::MatrixXd& otherwise) const {
-    return windows_.comparison.predicted_on(within_reach_, windows_.deviation, zones_, otherwise,
-                                            stop_);
+    return windows_.comparison.predicted(within_reach_, windows_.deviation, zones_, otherwise,
+                                         stop_);
   }
 
   void try_at(double begins, double ends) {
@@ -108,7 +114,7 @@ class EdgeSearch {
   const FittedWindows& windows_;
   std::vector<WindowZone> zones_;
   const std::stop_token& stop_;
-  WindowZone within_reach_;
+  WindowSet within_reach_;
   Eigen::MatrixXd otherwise_;  ///< of windows that do not balance, and that are not predicted anew
   std::vector<Tried> tried_;
 };

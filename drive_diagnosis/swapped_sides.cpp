@@ -38,10 +38,7 @@ std::optional<double> torque_misfit(const std::vector<DriveRecording>& drives,
                                     const std::stop_token& stop) {
   const WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2, threads);
   if (comparison.size() == 0 || !comparison.has_torque()) return {};
-  const Eigen::MatrixXd& measured = comparison.measured();
-  const Eigen::MatrixXd left =
-      measured -
-      comparison.predicted({}, {}, Eigen::MatrixXd::Zero(measured.rows(), measured.cols()), stop);
+  const Eigen::MatrixXd left = comparison.measured() - comparison.predicted_as_said(stop);
   double sum = 0;
   for (Eigen::Index k = 0; k < left.cols(); ++k) {
     if (!comparison.channels()[static_cast<std::size_t>(k)].starts_with("torque_")) continue;

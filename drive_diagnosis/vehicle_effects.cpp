@@ -45,9 +45,7 @@ class EffectSearch {
     VehicleEffects result{.windows = static_cast<int>(comparison_.size()),
                           .channels = comparison_.channels(),
                           .has_torque = comparison_.has_torque()};
-    const Eigen::MatrixXd nothing =
-        Eigen::MatrixXd::Zero(comparison_.measured().rows(), comparison_.measured().cols());
-    result.rms = rms(comparison_.measured() - comparison_.predicted({}, {}, nothing, stop_));
+    result.rms = rms(comparison_.measured() - comparison_.predicted_as_said(stop_));
     constexpr int kEffectsMost = 3;
     fit_.settle();  // soils and sensors as they are, before anything is judged
     std::vector<EffectFound> found;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "drive_diagnosis/fix_scatter.h"
 #include "drive_diagnosis/robust_statistics.h"
@@ -295,30 +296,20 @@ WindowInput WindowComparison::shifted(std::size_t i) const {
   return input;
 }
 
-Eigen::MatrixXd WindowComparison::predicted(const VehicleDeviation& deviation,
+Eigen::MatrixXd WindowComparison::predicted_as_said(const std::stop_token& stop) const {
+  return predicted(all(), {}, {}, Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols()), stop);
+}
+
+Eigen::MatrixXd WindowComparison::predicted(const WindowSet& windows,
+                                            const VehicleDeviation& deviation,
                                             const std::vector<WindowZone>& zones,
                                             const Eigen::MatrixXd& otherwise,
                                             const std::stop_token& stop) const {
   Eigen::MatrixXd result = otherwise;
-  parallel_for(size(), threads_, [&](std::size_t i) {
+  parallel_for(windows.size(), threads_, [&](std::size_t n) {
     throw_if_stopped(stop);
-    const auto values = predicted_in(i, deviation, zones);
-    if (values) result.row(static_cast<Eigen::Index>(i)) = *values;
-  });
-  return result;
-}
-
-Eigen::MatrixXd WindowComparison::predicted_on(const WindowZone& stretch,
-                                               const VehicleDeviation& deviation,
-                                               const std::vector<WindowZone>& zones,
-                                               const Eigen::MatrixXd& predicted,
-                                               const std::stop_token& stop) const {
-  Eigen::MatrixXd result = predicted;
-  parallel_for(size(), threads_, [&](std::size_t i) {
-    throw_if_stopped(stop);
-    if (!touches(i, stretch)) return;
-    const auto values = predicted_in(i, deviation, zones);
-    if (values) result.row(static_cast<Eigen::Index>(i)) = *values;
+    const auto values = predicted_in(windows[n], deviation, zones);
+    if (values) result.row(static_cast<Eigen::Index>(windows[n])) = *values;
   });
   return result;
 }
@@ -353,7 +344,6 @@ SoilStretch WindowComparison::stretch_of(const WindowZone& zone) const {
           .numbers = zone.numbers};
 }
 
-/// Whether some wheel is in a zone within what a window is smoothed over.
 bool WindowComparison::touches(std::size_t i, const WindowZone& zone) const {
   const auto first = static_cast<std::size_t>(std::floor(zone.begins));
   if (windows_[windows_of_[i]].drive != windows_[windows_of_[first]].drive) return false;
@@ -368,6 +358,18 @@ bool WindowComparison::touches(std::size_t i, const WindowZone& zone) const {
          input.places.back().part.end_s + ahead_s > stretch.starts_s;
 }
 
+WindowSet WindowComparison::all() const {
+  WindowSet windows(size());
+  std::iota(windows.begin(), windows.end(), 0);
+  return windows;
+}
+
+WindowSet WindowComparison::touching(const WindowZone& zone) const {
+  WindowSet windows = all();
+  std::erase_if(windows, [&](std::size_t i) { return !touches(i, zone); });
+  return windows;
+}
+
 std::vector<SoilStretch> WindowComparison::stretches_in(
     std::size_t i, const std::vector<WindowZone>& zones) const {
   std::vector<SoilStretch> stretches;
@@ -377,10 +379,11 @@ std::vector<SoilStretch> WindowComparison::stretches_in(
   return stretches;
 }
 
-void WindowComparison::start_at(const VehicleDeviation& deviation,
+void WindowComparison::start_at(const WindowSet& windows, const VehicleDeviation& deviation,
                                 const std::vector<WindowZone>& zones, const std::stop_token& stop) {
-  parallel_for(size(), threads_, [&](std::size_t i) {
+  parallel_for(windows.size(), threads_, [&](std::size_t n) {
     throw_if_stopped(stop);
+    const std::size_t i = windows[n];
     const auto found = model_.predict(shifted(i), deviation, stretches_in(i, zones));
     if (!found) return;
     for (std::size_t j = 0; j < found->found.size(); ++j) {
@@ -389,13 +392,15 @@ void WindowComparison::start_at(const VehicleDeviation& deviation,
   });
 }
 
-std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const VehicleDeviation& deviation,
+std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const WindowSet& windows,
+                                                         const VehicleDeviation& deviation,
                                                          const std::vector<WindowZone>& zones,
-                                                         const Eigen::MatrixXd& base,
                                                          const std::stop_token& stop) const {
-  std::vector<Eigen::MatrixXd> result(inputs(), Eigen::MatrixXd::Zero(base.rows(), base.cols()));
-  parallel_for(size(), threads_, [&](std::size_t i) {
+  std::vector<Eigen::MatrixXd> result(inputs(),
+                                      Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols()));
+  parallel_for(windows.size(), threads_, [&](std::size_t n) {
     throw_if_stopped(stop);
+    const std::size_t i = windows[n];
     const WindowInput input = shifted(i);
     const std::vector<SoilStretch> stretches = stretches_in(i, zones);
     const auto here = model_.predict(input, deviation, stretches);

@@ -40,6 +40,9 @@ struct WindowZone {
   SoilNumbers numbers{};
 };
 
+/// Compared windows, by index.
+using WindowSet = std::vector<std::size_t>;
+
 /// Windows that the model can be asked of, with what was measured in them.
 class WindowComparison {
  public:
@@ -49,6 +52,9 @@ class WindowComparison {
                    const Vehicle& vehicle, double gravity_mps2, int threads);
 
   std::size_t size() const { return windows_of_.size(); }
+  WindowSet all() const;
+  /// Those in which some wheel is in a zone within what the window is smoothed over.
+  WindowSet touching(const WindowZone& zone) const;
   /// Index of the window that comparison `i` is of.
   std::size_t window(std::size_t i) const { return windows_of_[i]; }
   /// Whether a window is left out as the model has no motion in it on the map's soils.
@@ -73,25 +79,25 @@ class WindowComparison {
 
   /// By window and channel.
   const Eigen::MatrixXd& measured() const { return measured_; }
-  /// What the model says; a window whose motion does not balance keeps what `otherwise` says.
+  /// What the model says with the vehicle and the map as they are said to be.
   /// \throws Interrupted
-  Eigen::MatrixXd predicted(const VehicleDeviation& deviation, const std::vector<WindowZone>& zones,
-                            const Eigen::MatrixXd& otherwise, const std::stop_token& stop) const;
-  /// The same, with what is predicted already of windows that do not touch a stretch.
-  Eigen::MatrixXd predicted_on(const WindowZone& stretch, const VehicleDeviation& deviation,
-                               const std::vector<WindowZone>& zones,
-                               const Eigen::MatrixXd& predicted, const std::stop_token& stop) const;
+  Eigen::MatrixXd predicted_as_said(const std::stop_token& stop) const;
+  /// What it says of some windows; of all others, and where no motion balances, `otherwise`.
+  /// \throws Interrupted
+  Eigen::MatrixXd predicted(const WindowSet& windows, const VehicleDeviation& deviation,
+                            const std::vector<WindowZone>& zones, const Eigen::MatrixXd& otherwise,
+                            const std::stop_token& stop) const;
   /// When the vehicle was so far along the windows.
   double time_s(double at) const;
-  /// From now on the search for each window's motion starts from what it is with these: what is a
-  /// little otherwise is found sooner.
-  void start_at(const VehicleDeviation& deviation, const std::vector<WindowZone>& zones,
-                const std::stop_token& stop);
-  /// What the scatter of each wheel's measured turning changes, and that of the accelerations, by
-  /// one standard deviation.
-  std::vector<Eigen::MatrixXd> of_inputs(const VehicleDeviation& deviation,
+  /// From now on the search for the motion of these windows starts from what it is with these:
+  /// what is a little otherwise is found sooner.
+  void start_at(const WindowSet& windows, const VehicleDeviation& deviation,
+                const std::vector<WindowZone>& zones, const std::stop_token& stop);
+  /// What the scatter of each wheel's measured turning changes in these windows, and that of the
+  /// accelerations and slopes, by one standard deviation; 0 in all others.
+  std::vector<Eigen::MatrixXd> of_inputs(const WindowSet& windows,
+                                         const VehicleDeviation& deviation,
                                          const std::vector<WindowZone>& zones,
-                                         const Eigen::MatrixXd& base,
                                          const std::stop_token& stop) const;
   /// By window, the root mean square of the samples of each channel whose scatter goes with it.
   const Eigen::MatrixXd& sizes() const { return sizes_; }

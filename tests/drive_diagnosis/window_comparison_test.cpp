@@ -22,10 +22,7 @@ struct Compared {
 
   /// Root mean square of measured - predicted, by channel.
   std::vector<double> rms() const {
-    const Eigen::MatrixXd& measured = comparison->measured();
-    const Eigen::MatrixXd off =
-        measured -
-        comparison->predicted({}, {}, Eigen::MatrixXd::Zero(measured.rows(), measured.cols()), {});
+    const Eigen::MatrixXd off = comparison->measured() - comparison->predicted_as_said({});
     std::vector<double> result;
     for (Eigen::Index k = 0; k < off.cols(); ++k) {
       result.push_back(std::sqrt(off.col(k).squaredNorm() / static_cast<double>(off.rows())));
@@ -186,8 +183,7 @@ TEST(WindowComparison, SlipIsFollowedWhereAVehicleBeginsToBrake) {
   drive.weave_1pm = [](double, double) { return 0.0; };
   const Compared compared(drive);
   const Eigen::MatrixXd& measured = compared.comparison->measured();
-  const Eigen::MatrixXd predicted = compared.comparison->predicted(
-      {}, {}, Eigen::MatrixXd::Zero(measured.rows(), measured.cols()), {});
+  const Eigen::MatrixXd predicted = compared.comparison->predicted_as_said({});
   ASSERT_GT(measured.rows(), 15);
   for (Eigen::Index w = 1; w < measured.rows(); ++w) {  // the first begins at rest
     EXPECT_NEAR(predicted(w, 0), measured(w, 0), 0.0006) << "window " << w;
@@ -228,8 +224,8 @@ struct OverAStretch : Compared {
 
   Eigen::MatrixXd predicted(const std::vector<WindowZone>& zones) const {
     const Eigen::MatrixXd& measured = comparison->measured();
-    return comparison->predicted({}, zones, Eigen::MatrixXd::Zero(measured.rows(), measured.cols()),
-                                 {});
+    return comparison->predicted(comparison->all(), {}, zones,
+                                 Eigen::MatrixXd::Zero(measured.rows(), measured.cols()), {});
   }
 
   WindowZone zone;
@@ -247,6 +243,17 @@ TEST(WindowComparison, EachWheelComesOntoASoftStretchWhenItIsThereItself) {
     EXPECT_LT(off.norm(), kShare * does.norm()) << "at " << edge;
     EXPECT_LT(std::abs(off[0]), 0.001);
   }
+}
+
+TEST(WindowComparison, OnlyWindowsThatTouchAZoneChangeWithIt) {
+  const OverAStretch drive;
+  const Eigen::MatrixXd plain = drive.predicted({}), with = drive.predicted({drive.zone});
+  const WindowSet touching = drive.comparison->touching(drive.zone);
+  ASSERT_GT(touching.size(), 2U);
+  ASSERT_LT(touching.size(), drive.comparison->size());
+  const Eigen::MatrixXd these = drive.comparison->predicted(touching, {}, {drive.zone}, plain, {});
+  EXPECT_EQ(these, with);
+  EXPECT_NE(plain, with);
 }
 
 TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {

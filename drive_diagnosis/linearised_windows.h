@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "drive_diagnosis/effect_contest.h"
+#include "drive_diagnosis/window_comparison.h"
+
+namespace regoplan {
+
+/// What is measured and what changes it, about a fit: each matrix by window and channel.
+struct LinearisedWindows {
+  Eigen::MatrixXd data;  ///< measured less predicted, plus what parameters and inputs stand for
+  Eigen::MatrixXd base;  ///< predicted
+  std::vector<Eigen::MatrixXd> columns;             ///< what each parameter changes
+  std::vector<Eigen::MatrixXd> inputs;              ///< what each input's scatter changes
+  std::vector<std::vector<Eigen::MatrixXd>> zones;  ///< of each, what its soil's numbers change
+
+  /// Of no windows yet: all 0.
+  static LinearisedWindows none(const Eigen::MatrixXd& measured, std::size_t parameters,
+                                std::size_t inputs, std::size_t zones, std::size_t numbers);
+  /// What the parameters and zones of a fit change, to first order.
+  Eigen::MatrixXd changed_by(const ContestFit& fit) const;
+  /// What inputs off the measured ones change, to first order. \param shifts by window and input
+  Eigen::MatrixXd shifted_by(const Eigen::MatrixXd& shifts) const;
+  /// Nothing is known of these windows any more: they are 0.
+  void forget(const WindowSet& windows);
+};
+
+}  // namespace regoplan
