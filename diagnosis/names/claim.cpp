@@ -96,9 +96,11 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
   for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
     const Effect& effect = fit.candidate.effects[e];
     const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
+    const double plausible =
+        is_instrument(effect.id) ? Thresholds::kPlausibleFault : Thresholds::kPlausible;
     for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
       const double x = fit.x[first + static_cast<Eigen::Index>(i)];
-      if (std::abs(x) < Thresholds::kPlausible) continue;
+      if (std::abs(x) < plausible) continue;
       return fmt::format("{} would need {} = {:.3g}, far from what is usual", effect.id,
                          effect.coordinates[i].name, effect.coordinates[i].value(x));
     }

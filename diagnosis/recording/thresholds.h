@@ -127,6 +127,9 @@ struct Thresholds {
   /// first below the pull that calibration alone may need.
   static constexpr double kSoilBack = 4;
   static constexpr double kPlausible = 3.5;
+  /// The same of an instrument: how far a wrong range or a loose mounting goes has no such bound as
+  /// soils have. Chosen; the evidence has paid 12 nats for it by then.
+  static constexpr double kPlausibleFault = 5;
   static constexpr double kWrongWay_deviations = 2;
 };
 

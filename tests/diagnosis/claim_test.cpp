@@ -4,6 +4,7 @@
 
 #include "account_of.h"
 #include "calibrated_bed.h"
+#include "diagnosis/fit/effect_list.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
@@ -75,6 +76,34 @@ TEST(Claim, IsNotBelievedWithASoilNumberFarFromItsTests) {
     const std::string doubt = objection(bed.problem(), fit);
     EXPECT_NE(doubt.find(bed.soil[0].coordinate.name + " would still lie"), doubt.npos) << doubt;
   }
+}
+
+/// Whether one effect whose first number lies so many deviations off is refused for that.
+bool is_too_far(const CalibratedBed& bed, const Effect& effect, double deviations) {
+  CandidateFit fit = bed.fit;
+  fit.candidate = {{effect}};
+  fit.x.conservativeResize(bed.fit.x.size() + static_cast<Eigen::Index>(effect.coordinates.size()));
+  fit.x.tail(static_cast<Eigen::Index>(effect.coordinates.size())).setZero();
+  fit.x[bed.fit.x.size()] = deviations;
+  return objection(bed.problem(), fit).find("far from what is usual") != std::string::npos;
+}
+
+TEST(Claim, AFaultOfAnInstrumentMayBeFartherFromWhatIsUsualThanPhysics) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = record({}, setup, setup.soil.mean, {}, 1);
+  const CalibratedBed bed(recording, setup);
+  int faults = 0, others = 0;
+  for (const Effect& effect : effects_for(bed.recording.bed, recording)) {
+    if (effect.coordinates.empty()) continue;
+    const bool is_fault = is_instrument(effect.id);
+    ++(is_fault ? faults : others);
+    const double bound = is_fault ? Thresholds::kPlausibleFault : Thresholds::kPlausible;
+    EXPECT_FALSE(is_too_far(bed, effect, bound - 0.1)) << effect.id;
+    EXPECT_TRUE(is_too_far(bed, effect, bound + 0.1)) << effect.id;
+  }
+  EXPECT_GT(faults, 5);
+  EXPECT_GT(others, 5);
+  EXPECT_GT(Thresholds::kPlausibleFault, Thresholds::kPlausible);
 }
 
 }  // namespace
