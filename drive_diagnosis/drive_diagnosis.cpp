@@ -8,6 +8,7 @@
 #include "drive_diagnosis/position_lag.h"
 #include "drive_diagnosis/swapped_sides.h"
 #include "drive_diagnosis/time_checks.h"
+#include "drive_diagnosis/torque_unit.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
@@ -80,6 +81,8 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
   const std::array<Axis, 2> axes{
       {{"pitch", &Mounting::pitch_rad, &Mounting::pitch_slope, setup.mounting_pitch_rad},
        {"roll", &Mounting::roll_rad, &Mounting::roll_slope, setup.mounting_roll_rad}}};
+  // Radians in a column of degrees rise by .017 of what the ground does.
+  constexpr double kHardlyFollows = 0.1;
   DriveClaim claim{.id = "attitude_mounting", .equivalent = {"attitude_mounting"}};
   for (const Axis& axis : axes) {
     double sum = 0, weights = 0;
@@ -91,6 +94,16 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
              .text = fmt::format("{} falls where the ground rises (day {}): its sign is wrong, or "
                                  "the sensor looks backward",
                                  axis.name, day.day.empty() ? "not said" : day.day),
+             .value = day.*axis.slope});
+      } else if (std::abs(day.*axis.slope) < kHardlyFollows) {
+        result.findings.push_back(
+            {.id = "unit",
+             .drive = "",
+             .text =
+                 fmt::format("{} rises {:.0f} times less than the ground (day {}): radians in a "
+                             "column of degrees, or a sensor that stands still?",
+                             axis.name, 1 / std::max(std::abs(day.*axis.slope), 1e-3),
+                             day.day.empty() ? "not said" : day.day),
              .value = day.*axis.slope});
       }
       const std::optional<DriveEstimate>& estimate = day.*axis.of;
@@ -365,6 +378,14 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
   throw_if_stopped(options.stop);
   check_place(setup, drives, result);
+  if (setup.vehicle) {
+    auto doubtful =
+        doubtful_torque_unit(drives, result.windows, *setup.vehicle, setup.gravity_mps2);
+    if (doubtful) {
+      leave_torques_out(drives);
+      result.findings.push_back(std::move(*doubtful));
+    }
+  }
   if (checks.wheel_sides_swapped) mend_sides(setup, options, drives, result);
   result.mountings = find_mountings(drives, result.windows, setup.map);
   throw_if_stopped(options.stop);

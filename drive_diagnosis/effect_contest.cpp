@@ -281,6 +281,14 @@ class Contest {
     return ZoneGains::gain(zones_.factor_of(length), product);
   }
 
+  /// Whether all windows follow each other there.
+  bool is_unbroken(double begins, double ends) const {
+    for (auto w = static_cast<std::size_t>(begins) + 1; static_cast<double>(w) < ends; ++w) {
+      if (!contest_.follows[w]) return false;
+    }
+    return true;
+  }
+
   /// Where in its outermost windows a zone begins and ends: by quarters of a window.
   void place(const ZonePlace& most_likely, EffectFound& zone) const {
     const auto n = static_cast<Eigen::Index>(contest_.follows.size());
@@ -291,6 +299,7 @@ class Contest {
         const double begins = static_cast<double>(most_likely.first) + from;
         const double ends = static_cast<double>(most_likely.last) + 1 + to;
         if (begins < 0 || ends > static_cast<double>(n) || ends - begins < 1) continue;
+        if (!is_unbroken(begins, ends)) continue;
         const Eigen::VectorXd share = shares_between(begins, ends, contest_.follows.size());
         places.push_back({begins, ends, gain_of(share, most_likely.soil)});
       }

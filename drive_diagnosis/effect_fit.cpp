@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "drive_diagnosis/likely_edges.h"
@@ -260,16 +261,34 @@ void EffectFit::settle_with(EffectFound& effect) {
 
 void EffectFit::settle_zone(EffectFound& zone) {
   const Settled start{.fit = fit_, .shifts = shifts_};
-  const LinearisedWindows here = linearise().windows;
+  LinearisedWindows here = linearise().windows;
   // A soil that fits badly leaves misfit in its zone, which would pass for noise.
   scatter_ = scatter_outside(here, zone.share);
-  linearisation_.keep_but_touched(here);
+  // A tenth of the windows is far from linear in what is sought: most of the time is saved.
+  WindowSet windows = windows_far_from_linear(here);
+  linearisation_.predict_only(std::move(windows), std::move(here));
   Settled best = likeliest_soil(start, zone);
-  linearisation_.keep_none();
+  linearisation_.predict_all();
   take_edges(zone);
   go_on_from(std::move(best));
-  go_on_from(settled_from_here());
+  go_on_from(settled_with_edges(zone));
   scatter_.reset();
+}
+
+/// Windows that a soil far from the map's moves beyond their first order while the zone that was
+/// added last is settled: those that a zone touches or may come to touch, and those in which the
+/// model has no motion.
+WindowSet EffectFit::windows_far_from_linear(const LinearisedWindows& here) const {
+  constexpr double kEdgesMove = 4;  // windows, in all rounds of place_edges
+  std::vector<WindowZone> all = zones();
+  all.back() = comparison_.widened(all.back(), kEdgesMove);
+  WindowSet windows = here.unbalanced;
+  for (const WindowZone& zone : all) {
+    WindowSet both;
+    std::ranges::set_union(windows, comparison_.touching(zone), std::back_inserter(both));
+    windows = std::move(both);
+  }
+  return windows;
 }
 
 /// \param zone gets the edges that it is likeliest with

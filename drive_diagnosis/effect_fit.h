@@ -25,6 +25,8 @@ class EffectFit {
   EffectFit(WindowComparison& comparison, const TerrainMap& map,
             const std::vector<VehicleTrial>& trials, const std::vector<LikelySoil>& likely,
             const std::stop_token& stop);
+  EffectFit(const EffectFit&) = delete;
+  EffectFit& operator=(const EffectFit&) = delete;
 
   /// The strongest effect of those that are not known yet, about the present fit.
   EffectFound strongest(std::uint64_t seed);
@@ -36,7 +38,8 @@ class EffectFit {
   /// The same with the effect that was added last. Soils far off are no longer linear, so that
   /// steps may lead away again, and lead elsewhere from a soil like the map's than from weaker
   /// ones, down to what carries no vehicle: the likeliest of where they led counts, each with a
-  /// zone that begins and ends where that soil makes it likeliest.
+  /// zone that begins and ends where that soil makes it likeliest. While a zone is sought, windows
+  /// far from it are what they were, to first order; in the end all are linearised anew.
   void settle_with(EffectFound& effect);
 
   const ContestFit& fit() const { return fit_; }
@@ -83,6 +86,7 @@ class EffectFit {
   void take_edges(const EffectFound& zone);
   void go_on_from(Settled settled);
   void settle_zone(EffectFound& zone);
+  WindowSet windows_far_from_linear(const LinearisedWindows& here) const;
   Settled likeliest_soil(const Settled& start, EffectFound& zone);
   Settled settled_with_edges(EffectFound& zone);
   Settled settled_from_here(int steps_most = 10);

@@ -19,12 +19,6 @@ struct Tried {
   double begins, ends, nats;
 };
 
-WindowSet windows_within_reach(const WindowComparison& comparison, WindowZone zone) {
-  zone.begins = std::max(0.0, zone.begins - kReach);
-  zone.ends = std::min(static_cast<double>(comparison.size()), zone.ends + kReach);
-  return comparison.touching(zone);
-}
-
 class EdgeSearch {
  public:
   EdgeSearch(const FittedWindows& windows, std::vector<WindowZone> zones,
@@ -32,7 +26,8 @@ class EdgeSearch {
       : windows_(windows),
         zones_(std::move(zones)),
         stop_(stop),
-        within_reach_(windows_within_reach(windows.comparison, zones_.back())) {
+        within_reach_(
+            windows.comparison.touching(windows.comparison.widened(zones_.back(), kReach))) {
     // Windows that balance now have to with other edges too.
     otherwise_ = windows.predicted;
     const Eigen::MatrixXd now =

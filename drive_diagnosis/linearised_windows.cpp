@@ -2,15 +2,16 @@
 
 namespace regoplan {
 
-LinearisedWindows LinearisedWindows::none(const Eigen::MatrixXd& measured, std::size_t parameters,
+LinearisedWindows LinearisedWindows::none(const Eigen::MatrixXd& alike, std::size_t parameters,
                                           std::size_t inputs, std::size_t zones,
                                           std::size_t numbers) {
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(measured.rows(), measured.cols());
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(alike.rows(), alike.cols());
   return {.data = zero,
           .base = zero,
           .columns = std::vector(parameters, zero),
           .inputs = std::vector(inputs, zero),
-          .zones = std::vector(zones, std::vector(numbers, zero))};
+          .zones = std::vector(zones, std::vector(numbers, zero)),
+          .unbalanced = {}};
 }
 
 Eigen::MatrixXd LinearisedWindows::changed_by(const ContestFit& fit) const {

@@ -16,14 +16,18 @@ struct LinearisedWindows {
   std::vector<Eigen::MatrixXd> inputs;              ///< what each input's scatter changes
   std::vector<std::vector<Eigen::MatrixXd>> zones;  ///< of each, what its soil's numbers change
 
-  /// Of no windows yet: all 0.
-  static LinearisedWindows none(const Eigen::MatrixXd& measured, std::size_t parameters,
+  /// Windows in which the model has no motion about the fit: predicted as the map and the vehicle
+  /// are said to be, and what changes them is a jump and no slope.
+  WindowSet unbalanced;
+
+  /// All 0, of as many windows and channels as `alike` has. \param numbers of each zone's soil
+  static LinearisedWindows none(const Eigen::MatrixXd& alike, std::size_t parameters,
                                 std::size_t inputs, std::size_t zones, std::size_t numbers);
   /// What the parameters and zones of a fit change, to first order.
   Eigen::MatrixXd changed_by(const ContestFit& fit) const;
   /// What inputs off the measured ones change, to first order. \param shifts by window and input
   Eigen::MatrixXd shifted_by(const Eigen::MatrixXd& shifts) const;
-  /// Nothing is known of these windows any more: they are 0.
+  /// Sets all that is known of these windows to 0.
   void forget(const WindowSet& windows);
 };
 

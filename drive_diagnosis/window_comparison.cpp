@@ -370,6 +370,17 @@ WindowSet WindowComparison::touching(const WindowZone& zone) const {
   return windows;
 }
 
+WindowZone WindowComparison::widened(WindowZone zone, double windows) const {
+  auto first = static_cast<std::size_t>(std::floor(zone.begins));
+  auto end = static_cast<std::size_t>(std::ceil(zone.ends));
+  const double begins = zone.begins - windows, ends = zone.ends + windows;
+  while (static_cast<double>(first) > begins && consecutive(first)) --first;
+  while (static_cast<double>(end) < ends && end < size() && consecutive(end)) ++end;
+  zone.begins = std::max(begins, static_cast<double>(first));
+  zone.ends = std::min(ends, static_cast<double>(end));
+  return zone;
+}
+
 std::vector<SoilStretch> WindowComparison::stretches_in(
     std::size_t i, const std::vector<WindowZone>& zones) const {
   std::vector<SoilStretch> stretches;

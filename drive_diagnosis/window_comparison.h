@@ -55,6 +55,8 @@ class WindowComparison {
   WindowSet all() const;
   /// Those in which some wheel is in a zone within what the window is smoothed over.
   WindowSet touching(const WindowZone& zone) const;
+  /// A zone that begins and ends so many windows farther out, as far as windows follow each other.
+  WindowZone widened(WindowZone zone, double windows) const;
   /// Index of the window that comparison `i` is of.
   std::size_t window(std::size_t i) const { return windows_of_[i]; }
   /// Whether a window is left out as the model has no motion in it on the map's soils.

@@ -15,7 +15,7 @@ class WindowLinearisation {
  public:
   /// All must outlive it. \param numbers indices of soils' numbers that vary
   WindowLinearisation(WindowComparison& comparison, const std::vector<VehicleTrial>& trials,
-                      std::vector<std::size_t> numbers, const std::stop_token& stop);
+                      const std::vector<std::size_t>& numbers, const std::stop_token& stop);
 
   /// The parameters of a fit.
   VehicleDeviation deviation_of(const ContestFit& fit) const;
@@ -24,23 +24,23 @@ class WindowLinearisation {
   /// \throws Interrupted
   LinearisedWindows about(const ContestFit& fit, const std::vector<WindowZone>& zones,
                           const Eigen::MatrixXd& shifts);
-  /// From now on windows are predicted anew only if the last zone has touched them since; all
-  /// others are what they are here, to first order. A tenth of the windows is often enough.
-  void keep_but_touched(LinearisedWindows here);
+  /// From now on only these windows are predicted anew about a fit, of as many zones as here; all
+  /// others are what they are here, to first order.
+  void predict_only(WindowSet windows, LinearisedWindows here);
   /// From now on all windows are predicted anew.
-  void keep_none();
+  void predict_all();
 
  private:
-  WindowSet windows_anew(const std::vector<WindowZone>& zones);
-  LinearisedWindows kept_but(const WindowSet& anew, const ContestFit& fit,
-                             const Eigen::MatrixXd& shifts) const;
+  void predict(const VehicleDeviation& here, const std::vector<WindowZone>& zones,
+               LinearisedWindows& windows) const;
+  LinearisedWindows kept(const ContestFit& fit, const Eigen::MatrixXd& shifts) const;
 
   WindowComparison& comparison_;
   const std::vector<VehicleTrial>& trials_;
-  std::vector<std::size_t> numbers_;
+  const std::vector<std::size_t>& numbers_;
   const std::stop_token& stop_;
-  std::optional<LinearisedWindows> kept_;
-  WindowSet touched_;  ///< by the last zone since
+  WindowSet anew_;                           ///< windows that are predicted anew
+  std::optional<LinearisedWindows> others_;  ///< that the others are taken from
 };
 
 }  // namespace regoplan

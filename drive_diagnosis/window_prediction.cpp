@@ -232,19 +232,19 @@ bool is_valid(const Soil& soil) {
 }  // namespace
 
 SoilNumbers soil_spread(const UncertainSoil& soil) {
+  constexpr double kStrength = 0.1, kBearing = 0.25;
   SoilNumbers spread{};
-  bool any = false;
   const auto& parameters = soil_parameters();
   for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-    spread.at(k) = soil.standard_deviation.*parameters.at(k).member;
-    any = any || spread.at(k) > 0;
-  }
-  if (any) return spread;
-  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
     double Soil::*const member = parameters.at(k).member;
-    const bool counts = member == &Soil::cohesion_pa || member == &Soil::friction_angle_rad ||
-                        member == &Soil::kc || member == &Soil::kphi;
-    if (counts) spread.at(k) = 0.1 * std::abs(soil.mean.*member);
+    spread.at(k) = soil.standard_deviation.*member;
+    if (spread.at(k) > 0) continue;
+    const double mean = std::abs(soil.mean.*member);
+    if (member == &Soil::cohesion_pa || member == &Soil::friction_angle_rad) {
+      spread.at(k) = kStrength * mean;
+    } else if (member == &Soil::kc || member == &Soil::kphi) {
+      spread.at(k) = kBearing * mean;
+    }
   }
   return spread;
 }

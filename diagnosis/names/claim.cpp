@@ -6,8 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "diagnosis/recording/thresholds.h"
-
 namespace regoplan {
 namespace {
 
@@ -85,7 +83,7 @@ const ScoredId* best_of(const std::vector<ScoredId>& scored,
   return best;
 }
 
-std::string objection(const FitProblem& problem, const CandidateFit& fit) {
+std::string objection(const FitProblem& problem, const CandidateFit& fit, double plausible_fault) {
   for (std::size_t i = 0; i < problem.soil.size(); ++i) {
     const double pull = fit.x[static_cast<Eigen::Index>(i)];
     if (std::abs(pull) > Thresholds::kSoilBack) {
@@ -96,8 +94,9 @@ std::string objection(const FitProblem& problem, const CandidateFit& fit) {
   for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
     const Effect& effect = fit.candidate.effects[e];
     const Eigen::Index first = first_of(problem.soil, fit.candidate, e);
-    const double plausible =
-        is_instrument(effect.id) ? Thresholds::kPlausibleFault : Thresholds::kPlausible;
+    const bool is_lasting_fault =
+        is_instrument(effect.id) && effect.course == FaultCourse::kConstant;
+    const double plausible = is_lasting_fault ? plausible_fault : Thresholds::kPlausible;
     for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
       const double x = fit.x[first + static_cast<Eigen::Index>(i)];
       if (std::abs(x) < plausible) continue;

@@ -2,6 +2,7 @@
 
 #include "diagnosis/findings/findings.h"
 #include "diagnosis/fit/scoring.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 
@@ -25,7 +26,10 @@ const ScoredId* best_of(const std::vector<ScoredId>& scored, const std::vector<N
 /// Why a fitted claim is not believed; empty where it is: an amplitude or a soil number far from
 /// what is usual, or a channel that the effect should move and that moved the other way beyond its
 /// noise.
-std::string objection(const FitProblem& problem, const CandidateFit& fit);
+/// \param plausible_fault bound of how far an instrument's fault that does not change may lie from
+/// what is usual, in deviations; higher where what it leaves is looked at as well
+std::string objection(const FitProblem& problem, const CandidateFit& fit,
+                      double plausible_fault = Thresholds::kPlausible);
 
 /// Channels in which an effect of a fitted candidate shows beyond the noise.
 std::vector<Channel> channels_of(const FitProblem& problem, const CandidateFit& fit,

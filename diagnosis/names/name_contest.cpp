@@ -194,7 +194,7 @@ void NameContest::share_with_unlisted(std::vector<NameClass>& claimed) {
 /// What speaks against it: its own numbers, or a lack of fit that it leaves. Other effects act in
 /// forms that nobody knows and may leave one.
 std::string NameContest::doubt_about(const CandidateFit& fit) const {
-  std::string doubt = objection(calibrated_.problem(), fit);
+  std::string doubt = objection(calibrated_.problem(), fit, Thresholds::kPlausibleFault);
   if (doubt.empty() &&
       deviations_of_memory(calibrated_.problem(), fit) > Thresholds::kMemory_deviations) {
     doubt = "what it leaves follows the slip of the run before";

@@ -127,10 +127,10 @@ struct Thresholds {
   /// first below the pull that calibration alone may need.
   static constexpr double kSoilBack = 4;
   static constexpr double kPlausible = 3.5;
-  /// The same of an instrument: how far a wrong range or a loose mounting goes has no such bound as
-  /// soils have. Chosen; the evidence has paid 12 nats for it by then.
-  static constexpr double kPlausibleFault = 5;
   static constexpr double kWrongWay_deviations = 2;
+  /// As kPlausible, of an instrument's fault that must leave nothing: a wrong range or a loose
+  /// mounting has no such bound as a soil has. Chosen; its prior has cost it 12 nats of evidence.
+  static constexpr double kPlausibleFault = 5;
 };
 
 }  // namespace regoplan

@@ -53,6 +53,29 @@ TEST(FitContest, ADeviationCostsByHowFarItIsFromWhatIsLikely) {
   EXPECT_GT(prior_nats(contest, against), 5 * prior_nats(contest, along));
 }
 
+/// Two drives of eight windows with one white measurement each; the last of the first drive and the
+/// first four of the second are off alike, the former by half.
+TEST(StrongestEffect, AZoneDoesNotBeginInAnotherDrive) {
+  constexpr Eigen::Index kWindows = 16, kSecond = 8;
+  constexpr double kSensitivity = 10;  // standard errors for one deviation
+  EffectContest contest{.data = Eigen::VectorXd::Zero(kWindows),
+                        .parameters = Eigen::MatrixXd::Zero(kWindows, 0),
+                        .soil = kSensitivity * Eigen::MatrixXd::Identity(kWindows, kWindows),
+                        .soil_numbers = 1,
+                        .follows = std::vector<bool>(kWindows, true)};
+  contest.data.segment(kSecond, 4).setConstant(2 * kSensitivity);
+  contest.data[kSecond - 1] = kSensitivity;
+  const EffectFound of_one = strongest_effect(contest, 1);
+  ASSERT_TRUE(of_one.is_zone);
+  EXPECT_DOUBLE_EQ(of_one.begins, kSecond - 0.5);
+
+  contest.follows[0] = contest.follows[kSecond] = false;
+  const EffectFound of_two = strongest_effect(contest, 1);
+  ASSERT_TRUE(of_two.is_zone);
+  EXPECT_DOUBLE_EQ(of_two.begins, kSecond);
+  EXPECT_DOUBLE_EQ(of_two.ends, kSecond + 4);
+}
+
 /// Two faults that change what is measured in different ways, the first of them off by so many of
 /// its standard errors; scatter of so much of what is told.
 EffectContest with_a_fault(double standard_errors, double scatter) {

@@ -37,6 +37,15 @@ TEST(DifferencesAmongSoils, ReachTheSoilsOfOtherPlacesWithinTwoOrThree) {
   EXPECT_NEAR(other(4).kx0_m, 0.036 * std::exp(0.4), 1e-9);
 }
 
+TEST(DifferencesAmongSoils, AreFoundWhereAMapTellsNoSpreadOfStrengthAndBearing) {
+  UncertainSoil soil = regolith();
+  soil.standard_deviation = {.density_kgpm3 = 50};
+  const Soil weaker = deviating(soil, differences_among_soils(soil).at(0));
+  EXPECT_NEAR(std::log(soil.mean.kphi / weaker.kphi), 1.5, 1e-9);
+  const Soil looser = deviating(soil, differences_among_soils(soil).at(2));
+  EXPECT_NEAR(looser.friction_angle_rad, 31.2 * kDegree, 1e-9);
+}
+
 TEST(DifferencesAmongSoils, AreEachOfOneThingAlone) {
   EXPECT_EQ(other(0).friction_angle_rad, regolith().mean.friction_angle_rad);
   EXPECT_EQ(other(2).kphi, regolith().mean.kphi);

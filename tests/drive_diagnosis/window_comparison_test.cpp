@@ -2,40 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "drive_diagnosis/likely_edges.h"
-#include "tests/drive_diagnosis/simulated_drive.h"
+#include "tests/drive_diagnosis/compared_drive.h"
 
 namespace regoplan {
 namespace {
-
-/// Windows of a drive without scatter, compared.
-struct Compared {
-  explicit Compared(SimulatedDrive drive) : map(rolling_map()), vehicle(preset_vehicle("lrv")) {
-    drive.sensor_noise = drive.torque_scatter = 0;
-    drives = {record(drive, map)};
-    windows = drive_windows(drives[0], 0, 5, 0.3);
-    comparison.emplace(drives, windows, map, vehicle, 1.62, 2);
-  }
-
-  /// Root mean square of measured - predicted, by channel.
-  std::vector<double> rms() const {
-    const Eigen::MatrixXd off = comparison->measured() - comparison->predicted_as_said({});
-    std::vector<double> result;
-    for (Eigen::Index k = 0; k < off.cols(); ++k) {
-      result.push_back(std::sqrt(off.col(k).squaredNorm() / static_cast<double>(off.rows())));
-    }
-    return result;
-  }
-
-  TerrainMap map;
-  Vehicle vehicle;
-  std::vector<DriveRecording> drives;
-  std::vector<DriveWindow> windows;
-  std::optional<WindowComparison> comparison;
-};
 
 void expect_agreement(const Compared& compared) {
   const std::vector<double> rms = compared.rms();
@@ -201,36 +176,6 @@ TEST(WindowComparison, WindowsThatAreNotComparedAreCountedByReason) {
   EXPECT_GE(used.left_out.at(static_cast<std::size_t>(LeftOut::kStanding)), 3);
 }
 
-/// A drive over a soft stretch, and where that lies along its windows.
-struct OverAStretch : Compared {
-  static constexpr double kFrom_m = 140, kTo_m = 170, kWeakness = 4;
-  OverAStretch()
-      : Compared(
-            {.weakness = [](double x_m) { return x_m > kFrom_m && x_m < kTo_m ? kWeakness : 0; }}),
-        zone{.begins = window_at(kFrom_m),
-             .ends = window_at(kTo_m),
-             .numbers = weaker_by(kWeakness)} {}
-
-  double window_at(double x_m) const {
-    for (std::size_t i = 0; i + 1 < comparison->size(); ++i) {
-      const double here_m = windows[comparison->window(i)].x_m;
-      const double next_m = windows[comparison->window(i + 1)].x_m;
-      if (x_m >= here_m && x_m < next_m) {
-        return static_cast<double>(i) + 0.5 + (x_m - here_m) / (next_m - here_m);
-      }
-    }
-    return NAN;
-  }
-
-  Eigen::MatrixXd predicted(const std::vector<WindowZone>& zones) const {
-    const Eigen::MatrixXd& measured = comparison->measured();
-    return comparison->predicted(comparison->all(), {}, zones,
-                                 Eigen::MatrixXd::Zero(measured.rows(), measured.cols()), {});
-  }
-
-  WindowZone zone;
-};
-
 TEST(WindowComparison, EachWheelComesOntoASoftStretchWhenItIsThereItself) {
   const OverAStretch drive;
   const Eigen::MatrixXd plain = drive.predicted({}), with = drive.predicted({drive.zone});
@@ -245,15 +190,41 @@ TEST(WindowComparison, EachWheelComesOntoASoftStretchWhenItIsThereItself) {
   }
 }
 
-TEST(WindowComparison, OnlyWindowsThatTouchAZoneChangeWithIt) {
+TEST(WindowComparison, OnlyTheWindowsThatAreNamedArePredicted) {
   const OverAStretch drive;
   const Eigen::MatrixXd plain = drive.predicted({}), with = drive.predicted({drive.zone});
   const WindowSet touching = drive.comparison->touching(drive.zone);
   ASSERT_GT(touching.size(), 2U);
   ASSERT_LT(touching.size(), drive.comparison->size());
-  const Eigen::MatrixXd these = drive.comparison->predicted(touching, {}, {drive.zone}, plain, {});
-  EXPECT_EQ(these, with);
+  EXPECT_EQ(drive.comparison->predicted(touching, {}, {drive.zone}, plain, {}), with);
   EXPECT_NE(plain, with);
+}
+
+TEST(WindowComparison, AFrontWheelTouchesAZoneBeforeTheMiddleOfTheVehicleDoes) {
+  const OverAStretch drive;
+  const auto before = static_cast<std::size_t>(drive.zone.begins);
+  const auto does = [&](double begins) {
+    WindowZone zone = drive.zone;
+    zone.begins = begins;
+    const WindowSet touching = drive.comparison->touching(zone);
+    const auto row = static_cast<Eigen::Index>(before);
+    const bool changes = drive.predicted({zone}).row(row) != drive.predicted({}).row(row);
+    EXPECT_EQ(changes, std::ranges::binary_search(touching, before)) << begins;
+    return changes;
+  };
+  EXPECT_TRUE(does(static_cast<double>(before) + 1.02));
+  EXPECT_FALSE(does(static_cast<double>(before) + 1.95));
+}
+
+TEST(WindowComparison, AZoneIsWidenedAsFarAsWindowsFollowEachOther) {
+  const OverAStretch drive;
+  const auto windows = static_cast<double>(drive.comparison->size());
+  const WindowZone inner = drive.comparison->widened({.begins = 5.3, .ends = 8.6}, 2);
+  EXPECT_DOUBLE_EQ(inner.begins, 3.3);
+  EXPECT_DOUBLE_EQ(inner.ends, 10.6);
+  const WindowZone all = drive.comparison->widened({.begins = 1.3, .ends = windows - 0.4}, 2);
+  EXPECT_DOUBLE_EQ(all.begins, 0);
+  EXPECT_DOUBLE_EQ(all.ends, windows);
 }
 
 TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {
