@@ -23,6 +23,13 @@ using Cells = CsvTable::Cells;
 constexpr std::array<std::string_view, 4> kRequired{"run_id", "load_n", "slip_ratio",
                                                     "slip_angle_deg"};
 
+/// What a sensor of a wheel can say at most, in N, N m, m, m/s or degrees; and a clock in seconds,
+/// or in milliseconds since 1970. Beyond it is garbage, whose square no fit survives.
+constexpr double kMost = 1e9, kLatest_s = 1e13;
+constexpr ValueRange kMeasurable{.min = -kMost, .max = kMost};
+constexpr ValueRange kPositive{.min = 0, .max = kMost, .min_excluded = true};
+constexpr ValueRange kClock{.min = -kLatest_s, .max = kLatest_s};
+
 /// A circumstance of the runs that is a number.
 struct Circumstance {
   std::string_view column;
@@ -32,10 +39,10 @@ struct Circumstance {
   bool RecordedColumns::*recorded;
 };
 constexpr std::array<Circumstance, 4> kCircumstances{{
-    {"speed_mps", kAbove0, &WheelConditions::speed_mps, 1, &RecordedColumns::speed},
-    {"position_m", kAnyNumber, &WheelConditions::position_m, 1, &RecordedColumns::position},
-    {"time_s", kAnyNumber, &WheelConditions::time_s, 1, &RecordedColumns::time},
-    {"wheel_angle_deg", kAnyNumber, &WheelConditions::wheel_angle_rad, kDegree,
+    {"speed_mps", kPositive, &WheelConditions::speed_mps, 1, &RecordedColumns::speed},
+    {"position_m", kMeasurable, &WheelConditions::position_m, 1, &RecordedColumns::position},
+    {"time_s", kClock, &WheelConditions::time_s, 1, &RecordedColumns::time},
+    {"wheel_angle_deg", kMeasurable, &WheelConditions::wheel_angle_rad, kDegree,
      &RecordedColumns::wheel_angle},
 }};
 constexpr std::array<std::string_view, 4> kOtherCircumstances{"day", "replicate", "pass", "wheel"};
@@ -112,7 +119,7 @@ class Row {
 WheelRun read_run(const CsvTable& table, const Cells& cells) {
   const Row row(table, cells);
   WheelRun run{.run_id = row.text("run_id")};
-  run.load_n = row.number("load_n", kAbove0);
+  run.load_n = row.number("load_n", kPositive);
   run.slip_ratio =
       row.number("slip_ratio", {.min = -1, .max = 1}, slip_hint(row.text("slip_ratio")));
   run.slip_angle_rad = row.number("slip_angle_deg", {.min = -90, .max = 90}) * kDegree;
@@ -127,7 +134,7 @@ WheelRun read_run(const CsvTable& table, const Cells& cells) {
   if (row.says("replicate")) run.replicate = row.integer("replicate", 0);
   for (const Channel channel : kChannels) {
     if (row.says(name(channel))) {
-      run.measured[static_cast<std::size_t>(channel)] = row.number(name(channel), kAnyNumber);
+      run.measured[static_cast<std::size_t>(channel)] = row.number(name(channel), kMeasurable);
     }
   }
   return run;

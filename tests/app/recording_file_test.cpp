@@ -132,6 +132,20 @@ TEST(RecordingFile, ARowOutOfRangeIsLeftOutAndListedAndTheRestIsKept) {
             "r.csv:3: slip_angle_deg: 90.04 is not valid (allowed: -90 to 90)");
 }
 
+TEST(RecordingFile, WhatNoSensorCanSayIsOutOfRange) {
+  for (const char* huge : {"1e100", "-1e300"}) {
+    std::string text = "run_id,load_n,slip_ratio,slip_angle_deg,fx_n\n";
+    for (int run = 0; run < 40; ++run) {
+      text += "r" + std::to_string(run) + ",60,0.2,0," + (run == 7 ? huge : "5") + "\n";
+    }
+    const RecordingFile file = read(text);
+    EXPECT_EQ(file.recording.runs.size(), 39u);
+    ASSERT_EQ(file.left_out.size(), 1u);
+    EXPECT_EQ(file.left_out[0].run_id, "r7");
+    EXPECT_EQ(file.left_out[0].cell.column, "fx_n");
+  }
+}
+
 TEST(RecordingFile, MoreThanOneRowInTwentyOutOfRangeIsRefused) {
   EXPECT_EQ(error_text([] { read(recording_with(40, 3)); }),
             "r.csv:2: slip_angle_deg: 90.04 is not valid (allowed: -90 to 90); 3 of 40 rows are "
