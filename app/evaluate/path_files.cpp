@@ -264,7 +264,9 @@ SpeedProfile speed_of(const std::vector<RecordedMoment>& moments, const RowRange
     const double speed = changes ? 0 : std::max(0.0, along);
     const double s_m = curve.point_arc_m()[i - rows.first];
     if (!nodes.empty() && !(s_m > nodes.back().s_m)) {
-      if (changes) nodes.back().speed_mps = 0;
+      // The end's knot is the last row's, however near to it the rows before lie.
+      const bool may_rest = nodes.size() < 2 || nodes[nodes.size() - 2].speed_mps > 0;
+      if (i == rows.last || changes) nodes.back().speed_mps = may_rest ? speed : 1e-3;
       continue;
     }
     const bool both_rest = !nodes.empty() && nodes.back().speed_mps + speed <= 0;

@@ -105,6 +105,17 @@ FollowerKind follower_named(const std::optional<std::string>& name) {
   return static_cast<FollowerKind>(found - names.begin());
 }
 
+void Follower::foresee_braking() {
+  constexpr double kRateShare = 0.98;  // what is left makes up for what was not foreseen
+  for (std::size_t leg = 0; leg < path_.legs.size(); ++leg) {
+    braking_.emplace_back(path_.legs[leg], wheelbase_m(vehicle_) / 8,
+                          kRateShare * vehicle_.acceleration_max_mps2, [this, leg](double s_m) {
+                            return path_.legs[leg].speed.at(s_m).speed_mps *
+                                   ahead(leg, s_m).rim_per_speed;
+                          });
+  }
+}
+
 Follower::Follower(const Vehicle& vehicle, const ReferencePath& path, const SteeringLaw& law)
     : vehicle_(vehicle),
       path_(path),
@@ -190,11 +201,14 @@ VehicleControl Follower::control(double step_s) const {
   return follow(step_s);
 }
 
+double Follower::creep_mps(double step_s) const {
+  return std::min(0.05 * speed_top_mps_, vehicle_.acceleration_max_mps2 * 4 * step_s);
+}
+
 double Follower::path_speed_mps(double step_s) const {
   const double v = speed(), a = vehicle_.acceleration_max_mps2;
-  const double creep_mps = std::min(0.05 * speed_top_mps_, a * 4 * step_s);
   const double ahead_mps = now().speed.at(s_m_ + v * step_s + a * step_s * step_s / 2).speed_mps;
-  return now().direction() * std::max(creep_mps, ahead_mps);
+  return now().direction() * std::max(creep_mps(step_s), ahead_mps);
 }
 
 FollowerView Follower::view(double step_s) const {
@@ -221,22 +235,29 @@ VehicleControl Follower::follow(double step_s) const {
   const double course = angle_between(heading + slip_angle, place.heading_rad);
   const double curvature = forward.curvature_1pm - direction * (offset_m_ / (length * length) +
                                                                 2 * law_.damping * course / length);
-  return {
-      .speed_target_mps = path_speed_mps(step_s) * ahead(leg_, s_m_).rim_per_speed / slip_factor_,
-      .curvature_target_1pm =
-          std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm),
-      .crab_target_rad = forward.crab_rad};
+  double rim = std::abs(path_speed_mps(step_s)) * ahead(leg_, s_m_).rim_per_speed;
+  if (!braking_.empty()) {
+    rim = std::min(rim, std::max(creep_mps(step_s), braking_[leg_].most_mps(s_m_ + v * step_s)));
+  }
+  return {.speed_target_mps = direction * rim / slip_factor_,
+          .curvature_target_1pm =
+              std::clamp(curvature, -vehicle_.curvature_max_1pm, vehicle_.curvature_max_1pm),
+          .crab_target_rad = forward.crab_rad};
 }
 
 std::unique_ptr<Follower> make_follower(const FollowerChoice& choice, const World& planned,
                                         const ReferencePath& path) {
-  if (choice.kind == FollowerKind::kPursuit) {
-    return std::make_unique<PursuitFollower>(planned.problem().vehicle, path, choice.law);
-  }
   if (choice.kind == FollowerKind::kOwn) {
     return std::make_unique<OwnFollowerCaller>(planned.problem().vehicle, path, choice);
   }
-  return std::make_unique<CompensatedFollower>(planned, path, choice.law);
+  std::unique_ptr<Follower> follower;
+  if (choice.kind == FollowerKind::kPursuit) {
+    follower = std::make_unique<PursuitFollower>(planned.problem().vehicle, path, choice.law);
+  } else {
+    follower = std::make_unique<CompensatedFollower>(planned, path, choice.law);
+  }
+  follower->foresee_braking();
+  return follower;
 }
 
 }  // namespace regoplan

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/following/braking_in_time.h"
 #include "planner/following/reference_path.h"
 #include "planner/problem/world.h"
 
@@ -102,6 +103,9 @@ class Follower {
   /// \throws InputError for what an own follower commands beyond the vehicle's range
   VehicleControl control(double step_s) const;
 
+  /// From now on the rims brake early enough for what is fed forward; to be called once it can be.
+  void foresee_braking();
+
   /// At the place of the path where the vehicle is.
   ForeseenSlip foreseen() const { return foreseen_at(leg_, s_m_); }
 
@@ -131,6 +135,7 @@ class Follower {
  private:
   const PathLeg& now() const { return path_.legs[leg_]; }
   double speed() const;
+  double creep_mps(double step_s) const;
   /// From rest, the speed a little farther on: at rest itself the path says to stay.
   double path_speed_mps(double step_s) const;
   double foreseen_slip_angle_rad() const;
@@ -143,6 +148,7 @@ class Follower {
   const ReferencePath& path_;
   SteeringLaw law_;
   double speed_top_mps_;
+  std::vector<BrakingInTime> braking_;  ///< one a leg, once it is foreseen
   std::size_t leg_ = 0;
   bool changes_direction_ = false;  ///< brakes to rest at the end of a leg that another follows
   VehicleState seen_;

@@ -124,6 +124,33 @@ TEST(Drive, FeedbackDoesNotSwingOnSoftSoil) {
   EXPECT_LT(run.cross_track_max_m, 0.25);
 }
 
+/// As fast as may be, then down to rest at the rate of the rims, as plans brake.
+ReferencePath braked_to_rest(ReferencePath path, double speed_mps, double rate_mps2) {
+  PathLeg& leg = path.legs.front();
+  const double length_m = leg.curve.length_m();
+  std::vector<SpeedProfile::Node> nodes{{0, speed_mps}};
+  constexpr int kParts = 20;
+  for (int i = 0; i <= kParts; ++i) {
+    const double speed = speed_mps * (kParts - i) / kParts;
+    nodes.push_back({length_m - speed * speed / (2 * rate_mps2), speed});
+  }
+  leg.speed = SpeedProfile(std::move(nodes));
+  return path;
+}
+
+TEST(Drive, AVehicleThatBrakesAsHardAsItsRimsCanStopsWhereItsPathEnds) {
+  const Traverse level(0, 3);
+  const ReferencePath path =
+      braked_to_rest(level.path, 3, level.prepared.problem.vehicle.acceleration_max_mps2);
+  const TrueWorld world(level.prepared.problem, {});
+  for (const FollowerKind kind : {FollowerKind::kPursuit, FollowerKind::kCompensated}) {
+    const DriveResult run = drive(level.planned, world, path, false, {.follower = {kind, {}}});
+    const CurvePlace end = path.legs.front().curve.at(path.length_m());
+    const auto& stands = run.moments.back().state;
+    EXPECT_LT(std::hypot(stands.x_m - end.x_m, stands.y_m - end.y_m), 0.1) << name(kind);
+  }
+}
+
 TEST(Drive, FeedbackLooksAheadByTheWaitForAFix) {
   const Traverse traverse;
   SensorSuite late = noisy();
