@@ -199,6 +199,18 @@ std::string class_words(const Diagnosis& diagnosis) {
   return apart ? "" : " These data cannot tell the names apart." + experiment_words(diagnosis);
 }
 
+/// A name that is likelier than all else is not denied, though it is not claimed.
+std::string nameless_words(const Diagnosis& diagnosis) {
+  constexpr double kNear = 1.0 / 3;
+  const std::vector<std::string> none{"unexplained", "parameters", "none"};
+  const auto& ranking = diagnosis.ranking;
+  if (ranking.empty() || ranking.front().probability < kNear ||
+      std::ranges::find(none, ranking.front().id) != none.end()) {
+    return "no known name explains it";
+  }
+  return fmt::format("no known name stands (nearest: {})", ranking.front().id);
+}
+
 }  // namespace
 
 std::string probability_words(double probability) {
@@ -227,9 +239,8 @@ std::string sentence_of(const Diagnosis& diagnosis) {
       return where + "part of the " + against(diagnosis) +
              " has a name: " + partial_words(diagnosis) + class_words(diagnosis);
     case Verdict::kUnexplained:
-      return where + "the " + against(diagnosis) +
-             " is real and no known name explains it; it is modelled without a "
-             "name, within the conditions measured only." +
+      return where + "the " + against(diagnosis) + " is real and " + nameless_words(diagnosis) +
+             "; it is modelled without a name, within the conditions measured only." +
              experiment_words(diagnosis);
     case Verdict::kUndecided:
       return "The diagnosis was interrupted before it had a verdict.";

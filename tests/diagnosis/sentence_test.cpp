@@ -96,5 +96,15 @@ TEST(Sentence, OfTheUnexplainedInventsNoName) {
   EXPECT_EQ(sentence.find("slip_sinkage"), std::string::npos);
 }
 
+TEST(Sentence, OfTheUnexplainedTellsTheNameThatIsNearest) {
+  Diagnosis diagnosis = named();
+  diagnosis.verdict = Verdict::kUnexplained;
+  diagnosis.claims.clear();
+  diagnosis.ranking = {{"sensor_bias", 0.48, 20}, {"unexplained", 0.26, 19}};
+  expect_says(sentence_of(diagnosis), {"no known name stands (nearest: sensor_bias)"});
+  std::swap(diagnosis.ranking[0], diagnosis.ranking[1]);
+  expect_says(sentence_of(diagnosis), {"no known name explains it"});
+}
+
 }  // namespace
 }  // namespace regoplan
