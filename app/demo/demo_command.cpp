@@ -31,7 +31,7 @@ Command add_demo_command(CLI::App& program) {
   add_output_flags(*parser, options->output.json, options->output.quiet);
   return {parser, [options] {
             const ResultFolder& folder = options->output.folder;
-            require_writable_folder(folder.path);
+            require_writable_folder(folder);
             if (!options->no_drive) require_loop_fits(folder);
             const Scenario scenario{.problem = demo_problem(options->overrides), .notices = {}};
             const PlanRun planned = run_plan(scenario, options->output);

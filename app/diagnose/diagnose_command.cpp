@@ -64,6 +64,9 @@ Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options
 
 /// Whole drives on a map, in place of the runs of a single wheel.
 ExitStatus run_drives(const Options& options) {
+  if (!options.references.empty()) {
+    throw InputError("--reference is for a single wheel's recording, --scenario for drives");
+  }
   DriveDiagnosisCommand command{.drives = {options.recording},
                                 .scenario = options.scenario,
                                 .setup = {},
@@ -87,7 +90,7 @@ ExitStatus run_diagnosis(const Options& options) {
     throw InputError(
         "one recording of a single wheel at a time (several drives: --scenario is missing)");
   }
-  require_writable_folder(options.folder.path);
+  require_writable_folder(options.folder);
   DiagnosisRun run{.setup_file = options.setup, .seed = options.seed};
   run.setup = read_setup_file(options.setup);
   run.recording = read_recording(options.recording);

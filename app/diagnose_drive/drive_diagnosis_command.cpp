@@ -81,7 +81,7 @@ void write_drive_diagnosis(const DriveDiagnosisRun& run, const ResultFolder& fol
 }
 
 ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
-  require_writable_folder(command.folder.path);
+  require_writable_folder(command.folder);
   const DriveDiagnosisRun run = diagnosed(command);
   write_drive_diagnosis(run, command.folder);
   if (command.json) {

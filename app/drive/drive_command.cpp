@@ -82,7 +82,7 @@ std::string summary(const DriveRecord& record, double computed_in_s) {
 }
 
 ExitStatus run(const Options& options) {
-  require_writable_folder(options.folder.path);
+  require_writable_folder(options.folder);
   const Scenario scenario = read_scenario(options.scenario, options.overrides);
   const GivenPath given = read_path(options.path, scenario.problem, scenario.problem.speed_max_mps);
   const PlanningProblem problem =

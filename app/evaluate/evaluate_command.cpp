@@ -76,7 +76,7 @@ ChartSettings chart_settings(const Options& options) {
 }
 
 ExitStatus draw_chart(const Options& options) {
-  const ResultFolder folder{*options.chart_folder, options.request.folder.force};
+  const ResultFolder folder{*options.chart_folder, options.request.folder.force, "--chart"};
   require_results_fit(folder, chart_file_names());
   const ChartSettings settings = chart_settings(options);
   const FeasibilityChart chart = feasibility_chart(settings);
@@ -94,10 +94,10 @@ ExitStatus run(const Options& options) {
     if (!options.request.path_files.empty() || options.request.manoeuvre_file) {
       throw InputError("--chart takes neither paths nor --manoeuvres");
     }
+    if (!options.request.folder.path.empty()) {
+      throw InputError("--chart takes no --out: it names the chart's folder itself");
+    }
     return draw_chart(options);
-  }
-  if (options.vehicle || options.soils_file || options.gravity_mps2) {
-    throw InputError("--vehicle, --soils and --gravity-mps2 go with --chart only");
   }
   if (!options.scenario) throw InputError("SCENARIO.yaml is required (regoplan evaluate --help)");
   if (options.request.folder.path.empty()) {
@@ -111,23 +111,30 @@ ExitStatus run(const Options& options) {
 
 /// What a chart is drawn of, with a scenario or without.
 void add_chart_options(CLI::App& parser, Options& options) {
-  parser.add_option("--chart", options.chart_folder, "folder for a feasibility chart")
-      ->type_name("DIR");
+  CLI::Option* chart =
+      parser.add_option("--chart", options.chart_folder, "folder for a feasibility chart")
+          ->type_name("DIR");
   parser.add_option("--vehicle", options.vehicle, "of the chart: a preset or a file")
-      ->type_name("NAME");
-  parser.add_option("--soils", options.soils_file, "of the chart")->type_name("FILE.yaml");
+      ->type_name("NAME")
+      ->needs(chart);
+  parser.add_option("--soils", options.soils_file, "of the chart")
+      ->type_name("FILE.yaml")
+      ->needs(chart);
   parser.add_option("--gravity-mps2", options.gravity_mps2, "of the chart")
       ->type_name("NUMBER")
-      ->check(in_range(kGravity_mps2));
+      ->check(in_range(kGravity_mps2))
+      ->needs(chart);
   parser
       .add_option("--chart-slopes-deg", options.slopes_deg, "of the chart: ground across the turn")
       ->type_name("DEG")
       ->check(in_range({.min = 0, .max = 45}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(chart);
   parser.add_option("--chart-speed-mps", options.speed_max_mps, "of the chart: from a tenth to it")
       ->type_name("MPS")
       ->check(in_range(kAbove0))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(chart);
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ void judge_all(const GivenCourses& given, const PlanningProblem& problem, bool q
 }  // namespace
 
 ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& request) {
-  require_writable_folder(request.folder.path);
+  require_writable_folder(request.folder);
   const PlanningProblem& problem = scenario.problem;
   // Everything is read before anything is judged.
   const GivenCourses given = read_courses(request, problem);

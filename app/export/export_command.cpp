@@ -16,7 +16,7 @@ namespace {
 
 struct ExportOptions {
   std::filesystem::path result;
-  ResultFolder nav2, qgis;
+  ResultFolder nav2{.path = {}, .option = "--nav2"}, qgis{.path = {}, .option = "--qgis"};
   double spacing_m = 2;
   bool json = false;
   bool quiet = false;
@@ -75,6 +75,9 @@ std::vector<std::string> export_qgis(const ExportOptions& options, const Earlier
 ExitStatus run_export(const ExportOptions& options) {
   if (options.nav2.path.empty() && options.qgis.path.empty()) {
     throw InputError("export: --nav2 DIR or --qgis DIR is needed");
+  }
+  for (const ResultFolder* folder : {&options.nav2, &options.qgis}) {
+    if (!folder->path.empty()) require_writable_folder(*folder);
   }
   const EarlierPlan plan = read_earlier_plan((options.result / "plan.json").string());
   nlohmann::ordered_json written = nlohmann::ordered_json::object();

@@ -79,4 +79,10 @@ std::string printable(std::string_view text) {
   return shown;
 }
 
+std::string quotable(std::string_view text) {
+  constexpr std::size_t kQuotedMax = 40;
+  if (text.size() <= kQuotedMax) return std::string(text);
+  return fmt::format("{}...", text.substr(0, whole_characters(text, kQuotedMax)));
+}
+
 }  // namespace regoplan

@@ -10,4 +10,7 @@ namespace regoplan {
 /// written as `\x1b`. What is longer than a person reads loses its middle.
 std::string printable(std::string_view text);
 
+/// `text` as far as a message quotes it: its first 40 bytes, in whole characters.
+std::string quotable(std::string_view text);
+
 }  // namespace regoplan

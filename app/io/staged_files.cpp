@@ -28,7 +28,8 @@ fs::path tidy(const fs::path& folder) {
 /// The topmost of the folders towards `folder` that do not exist yet; empty where it exists.
 fs::path topmost_missing(const fs::path& folder) {
   fs::path missing;
-  for (fs::path at = tidy(folder); !fs::exists(at); at = at.parent_path()) {
+  std::error_code unknown;  // what cannot even be asked for cannot be made either
+  for (fs::path at = tidy(folder); !fs::exists(at, unknown); at = at.parent_path()) {
     missing = at;
   }
   return missing;
@@ -72,17 +73,11 @@ void sweep(const fs::path& folder) {
   throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-}  // namespace
-
-void require_writable_folder(const fs::path& folder) {
-  const fs::path missing = topmost_missing(folder);
-  const fs::path existing = missing.empty() ? folder : missing.parent_path();
-  if (!fs::is_directory(existing)) fail(existing, "not a folder");
-  if (access(existing.c_str(), W_OK | X_OK) != 0) fail(existing, "not writable");
+[[noreturn]] void refuse(const ResultFolder& folder, const fs::path& at, std::string_view why) {
+  throw InputError(fmt::format("{}: {}: {}", folder.option, at.string(), why));
 }
 
-void require_results_fit(const ResultFolder& folder, const std::vector<std::string>& names) {
-  require_writable_folder(folder.path);
+void require_replaceable(const ResultFolder& folder, const std::vector<std::string>& names) {
   const ResultManifest manifest(folder.path);
   for (const std::string& name : names) {
     const fs::path file = folder.path / name;
@@ -95,18 +90,37 @@ void require_results_fit(const ResultFolder& folder, const std::vector<std::stri
   }
 }
 
+}  // namespace
+
+void require_writable_folder(const ResultFolder& folder) {
+  // Rights do not tell all: a disk may be full, and root may not write everywhere either.
+  const StagedFiles tried(folder);
+}
+
+void require_results_fit(const ResultFolder& folder, const std::vector<std::string>& names) {
+  require_writable_folder(folder);
+  require_replaceable(folder, names);
+}
+
 StagedFiles::StagedFiles(const ResultFolder& folder)
-    : folder_{tidy(folder.path), folder.force}, made_(topmost_missing(folder_.path)) {
-  require_writable_folder(folder_.path);
+    : folder_{tidy(folder.path), folder.force, folder.option},
+      made_(topmost_missing(folder_.path)) {
+  const fs::path existing = made_.empty() ? folder_.path : made_.parent_path();
+  if (!fs::is_directory(existing)) refuse(folder_, existing, "not a folder");
   if (made_.empty()) sweep(folder_.path);
   // A folder that a killed process of the same number left may still be there, or be swept by
-  // another process while it is made.
+  // another process while it is made; so may one above it that the other made and needs no more.
   staging_ = folder_.path / fmt::format("{}{}", kStagingPrefix, getpid());
+  std::error_code failed;
   for (int attempt = 0; attempt < 10 && lock_ < 0; ++attempt) {
-    std::error_code failed;
     fs::create_directories(staging_, failed);
-    if (failed) fail(staging_, failed.message());
-    lock_ = locked(staging_);
+    if (!failed) lock_ = locked(staging_);
+  }
+  if (failed) {
+    remove_made();
+    refuse(
+        folder_, folder_.path,
+        fmt::format("cannot be {}: {}", made_.empty() ? "written to" : "made", failed.message()));
   }
   if (lock_ < 0) fail(staging_, "is in use by another process");
 }
@@ -115,9 +129,16 @@ StagedFiles::~StagedFiles() {
   std::error_code ignored;  // nothing can be done about a leftover
   fs::remove_all(staging_, ignored);
   close(lock_);
+  remove_made();
+}
+
+/// Folders that hold nothing yet go again; the system keeps those that hold something.
+void StagedFiles::remove_made() const {
   if (made_.empty()) return;
-  // Folders that hold nothing yet go again.
-  for (fs::path at = folder_.path; fs::remove(at, ignored) && at != made_;) at = at.parent_path();
+  for (fs::path at = folder_.path;; at = at.parent_path()) {
+    rmdir(at.c_str());
+    if (at == made_) return;
+  }
 }
 
 std::string StagedFiles::path(const std::string& name) {
@@ -134,7 +155,7 @@ void StagedFiles::write(const RenderedFile& file) {
 }
 
 void StagedFiles::commit() {
-  require_results_fit(folder_, names_);
+  require_replaceable(folder_, names_);
   ResultManifest manifest(folder_.path);
   // Killed at any moment, each file is one of the two that the manifest then knows.
   for (const std::string& name : names_) manifest.add(name, staging_ / name);

@@ -15,7 +15,8 @@ struct RenderedFile {
 /// Where results go.
 struct ResultFolder {
   std::filesystem::path path;
-  bool force = false;  ///< files that others wrote or edited are replaced as well
+  bool force = false;            ///< files that others wrote or edited are replaced as well
+  std::string option = "--out";  ///< that names it, for messages
 };
 
 /// Files on their way into a folder: written to a hidden folder inside it, moved to their names by
@@ -44,6 +45,7 @@ class StagedFiles {
   bool remove(const std::string& name);
 
  private:
+  void remove_made() const;
   void write_manifest(const std::string& text);
   void move(const std::string& name) const;
 
@@ -54,9 +56,9 @@ class StagedFiles {
   std::vector<std::string> names_;
 };
 
-/// \throws InputError where `folder` could never take files: it, or what it would stand in, is no
-/// folder or not writable. Asked before long work.
-void require_writable_folder(const std::filesystem::path& folder);
+/// Asked before long work: makes `folder` and a folder in it, and removes what it made.
+/// \throws InputError where that fails
+void require_writable_folder(const ResultFolder& folder);
 
 /// \throws InputError also where one of these files could not be replaced: it is no regular file,
 /// or not as regoplan left it

@@ -29,7 +29,7 @@ struct MapImportOptions {
 };
 
 ExitStatus run_map_import(const MapImportOptions& options) {
-  require_writable_folder(options.out.path);
+  require_writable_folder(options.out);
   if (options.heights.scale == 0) {
     throw InputError("--scale: 0 is not valid (allowed: any number but 0)");
   }

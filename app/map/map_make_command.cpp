@@ -54,7 +54,7 @@ SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings,
 }
 
 ExitStatus run_map_make(const MapMakeOptions& options) {
-  require_writable_folder(options.out.path);
+  require_writable_folder(options.out);
   SoilCatalogue soils =
       read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
   for (int code = 1; code <= options.terrain.soil_zones; ++code) {

@@ -87,16 +87,16 @@ Search read_search(const SettingsNode& node) {
     const SettingsNode* iterations = mapping.optional("iterations");
     if (time && iterations) throw iterations->error("either time_s or iterations, not both");
     if (time) search.time_s = time->number(kAbove0);
-    if (iterations) search.iterations = iterations->integer(1, INT64_MAX);
+    if (iterations) search.iterations = iterations->integer(1, 2000000000);
     if (const SettingsNode* seed = mapping.optional("seed")) {
       search.seed = static_cast<std::uint64_t>(seed->integer(0, INT64_MAX));
     }
-    const auto count = [&mapping](const char* key, int fallback) {
+    const auto count = [&mapping](const char* key, int most, int fallback) {
       const SettingsNode* given = mapping.optional(key);
-      return given ? static_cast<int>(given->integer(1, 100000)) : fallback;
+      return given ? static_cast<int>(given->integer(1, most)) : fallback;
     };
-    search.candidates = count("candidates", search.candidates);
-    search.soil_draws = count("soil_draws", search.soil_draws);
+    search.candidates = count("candidates", 100, search.candidates);
+    search.soil_draws = count("soil_draws", 100000, search.soil_draws);
     if (const SettingsNode* improve = mapping.optional("improve"))
       search.improve = improve->truth();
     return search;

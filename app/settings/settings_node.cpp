@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "app/io/number_text.h"
+#include "app/io/printable_text.h"
 
 namespace regoplan {
 
@@ -144,7 +145,9 @@ SettingsError SettingsNode::not_allowed(std::string_view allowed) const {
   if (kind_ != Kind::kScalar) {
     return error(fmt::format("{} is not valid (allowed: {})", kind_text(kind_), allowed));
   }
-  const std::string shown = quoted_ || scalar_.empty() ? fmt::format("\"{}\"", scalar_) : scalar_;
+  // A file of another kind may be one value as a whole.
+  const std::string value = quotable(scalar_);
+  const std::string shown = quoted_ || value.empty() ? fmt::format("\"{}\"", value) : value;
   return error(fmt::format("{} is not valid (allowed: {})", shown, allowed));
 }
 

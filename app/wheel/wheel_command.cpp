@@ -32,7 +32,7 @@ struct WheelOptions {
 };
 
 ExitStatus write_figures(const WheelOptions& options) {
-  StagedFiles staged({*options.figures, options.folder.force});
+  StagedFiles staged({*options.figures, options.folder.force, "--figures"});
   for (const RenderedFile& file : render_wheel_figures()) staged.write(file);
   staged.commit();
   notify(fmt::format("figures 6, 7 and 10 (.svg, .csv) are in {}", options.figures->string()),

@@ -9,8 +9,11 @@ namespace regoplan {
 using Reason = ClosedBoxes::Reason;
 
 PlaceGrid::Place PlaceGrid::at(double x_m, double y_m) const {
-  return {std::clamp(static_cast<int>((x_m - west_m) / cell_m), 0, columns - 1),
-          std::clamp(static_cast<int>((y_m - south_m) / cell_m), 0, rows - 1)};
+  // Clamped before it is an integer: a goal may reach farther than integers do.
+  const auto nearest = [this](double offset_m, int count) {
+    return static_cast<int>(std::clamp(offset_m / cell_m, 0.0, count - 1.0));
+  };
+  return {nearest(x_m - west_m, columns), nearest(y_m - south_m, rows)};
 }
 
 OpenBoxes::OpenBoxes(const PlanningProblem& problem)

@@ -96,11 +96,13 @@ void SparseTree::remove_dead_branch(int node) {
 
 int SparseTree::bucket_of(const VehicleState& state) const {
   const GridFrame& frame = problem_.map.elevation().frame;
-  const int column =
-      std::clamp(static_cast<int>((state.x_m - frame.west_m) / bucket_m_), 0, columns_ - 1);
-  const int row =
-      std::clamp(static_cast<int>((state.y_m - frame.south_m()) / bucket_m_), 0, rows_ - 1);
-  return row * columns_ + column;
+  // Clamped before it is an integer: samples of a wide goal may lie farther off than integers
+  // reach.
+  const auto nearest = [this](double offset_m, int count) {
+    return static_cast<int>(std::clamp(offset_m / bucket_m_, 0.0, count - 1.0));
+  };
+  return nearest(state.y_m - frame.south_m(), rows_) * columns_ +
+         nearest(state.x_m - frame.west_m, columns_);
 }
 
 double SparseTree::distance_m(const VehicleState& a, const VehicleState& b) const {

@@ -138,6 +138,13 @@ TEST_F(Diagnose, BadInputIsOneLineAndLeavesNothing) {
                  {"mm.csv:2: sinkage_m: 12.5 is not valid", "suspected: sinkage_m in mm"});
 }
 
+TEST_F(Diagnose, AnOptionThatDoesNotGoWithDrivesIsRefusedBeforeAnythingIsRead) {
+  const ProgramRun run =
+      run_program(folder_, "diagnose drive.csv --scenario s.yaml --reference none.csv --out '" +
+                               folder_.path("out") + "'");
+  expect_refused(run, {"--reference", "--scenario"});
+}
+
 TEST_F(Diagnose, ReplicatesThatAreAllTheSameAreNoNoise) {
   std::string text = "run_id,load_n,slip_ratio,slip_angle_deg,fx_n\n";
   for (const char* replicate : {"a", "b", "c"}) {

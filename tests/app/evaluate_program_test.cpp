@@ -278,6 +278,17 @@ TEST_F(Evaluate, ASignalThatComesTwiceAtOnceIsOneRequest) {
   EXPECT_EQ(result()["interrupted"], true);
 }
 
+TEST_F(Evaluate, OptionsThatDoNotGoTogetherAreRefused) {
+  const std::string path = file("p.csv", "x_m,y_m\n10,20\n20,20\n");
+  for (const char* option : {"--chart-speed-mps 2", "--chart-slopes-deg 0", "--gravity-mps2 1.62",
+                             "--vehicle lrv", "--soils soils.yaml"}) {
+    const std::string given(option);
+    expect_refused(path + " " + given, {given.substr(0, given.find(' ')) + " requires --chart"});
+  }
+  expect_refused("--chart '" + folder_.path("chart") + "'", {"--chart takes no --out"});
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("chart")));
+}
+
 TEST_F(Evaluate, AChartIsAPictureAndTables) {
   const ProgramRun run =
       run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --chart '" +

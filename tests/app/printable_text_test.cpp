@@ -42,5 +42,11 @@ TEST(Printable, WhatIsTooLongKeepsItsPlaceAndItsEnd) {
   EXPECT_EQ(printable("x" + umlauts).find('\\'), std::string::npos);
 }
 
+TEST(Quotable, EndsWithAWholeCharacter) {
+  EXPECT_EQ(quotable(""), "");
+  EXPECT_EQ(quotable(std::string(40, 'x')), std::string(40, 'x'));
+  EXPECT_EQ(quotable(std::string(39, 'x') + "üü"), std::string(39, 'x') + "...");
+}
+
 }  // namespace
 }  // namespace regoplan

@@ -140,7 +140,27 @@ TEST_F(BadScenario, ResultsThatCouldNotBeWritten) {
   const ProgramRun run = run_program(
       folder_, "plan '" + folder_.path("scenario.yaml") + "' --out '" + folder_.path("file") + "'");
   EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.errors, "regoplan: " + folder_.path("file") + ": not a folder\n");
+  EXPECT_EQ(run.errors, "regoplan: --out: " + folder_.path("file") + ": not a folder\n");
+}
+
+TEST_F(BadScenario, ResultsThatTheSystemHasNoPlaceForAreRefusedBeforeTheSearch) {
+  const std::string scenario = " '" + folder_.path("scenario.yaml") + "' ";
+  folder_.write("p.csv", "x_m,y_m\n10,20\n20,20\n");
+  const std::string path = "'" + folder_.path("p.csv") + "' ";
+  const std::vector<std::string> commands = {
+      "plan" + scenario + "--time 600",
+      "evaluate" + scenario + path,
+      "drive" + scenario + path,
+      "diagnose none.csv --scenario" + scenario,
+      "diagnose none.csv --setup none.yaml",
+      "demo --time 600",
+      "map make",
+      "map import --gravity-mps2 1.62 --soils none.yaml --elevation none.tif"};
+  for (const std::string& command : commands) {
+    const ProgramRun refused = run_program(folder_, command + " --out /proc/x");
+    expect_refusal(refused, {"regoplan: --out: /proc/x: cannot be made: "});
+  }
+  expect_refusal(run_program(folder_, "export none --nav2 /proc/x"), {"--nav2: /proc/x: "});
 }
 
 class Program : public testing::Test {

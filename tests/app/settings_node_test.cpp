@@ -42,6 +42,21 @@ TEST(SettingsNode, AnErrorNamesFileLineKeyValueAndRange) {
             "scenario.yaml:3: vehicle.mass_kg: -5 is not valid (allowed: above 0)");
 }
 
+TEST(SettingsNode, AnErrorQuotesTheBeginningOfALongValue) {
+  EXPECT_EQ(error_text([] { value(std::string(40, 'x')).mapping(); }),
+            "f.yaml:1: key: " + std::string(40, 'x') +
+                " is not valid (allowed: a mapping of keys to values)");
+  EXPECT_EQ(number_error("\"" + std::string(41, 'x') + "\""),
+            "f.yaml:1: key: \"" + std::string(40, 'x') +
+                "...\" is not valid (allowed: a number, any finite number)");
+  // A table where settings are expected.
+  std::string table = "time_s,x_m,y_m,z_m,yaw_deg,speed_mps,steer_deg\n";
+  for (int i = 0; i < 1000; ++i) table += "0.6,7.02,7.02,0.61,44.9,0.12,-4.02\n";
+  EXPECT_EQ(error_text([&] { parse_settings(table, "candidate-1.csv").mapping(); }),
+            "candidate-1.csv:1: time_s,x_m,y_m,z_m,yaw_deg,speed_mps,ste... is not valid (allowed: "
+            "a mapping of keys to values)");
+}
+
 TEST(SettingsNode, RangesAreKeptExactly) {
   const ValueRange open{.min = 0, .max = 60, .min_excluded = true};
   EXPECT_EQ(number_error("0", open), "f.yaml:1: key: 0 is not valid (allowed: above 0 to 60)");

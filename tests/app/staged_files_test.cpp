@@ -116,11 +116,34 @@ TEST(StagedFiles, OfAProcessThatIsStillAtItAreLeftAlone) {
 TEST(StagedFiles, AFolderThatIsAFileIsAnErrorBeforeAnyWork) {
   const ScratchFolder folder;
   folder.write("file", "");
-  EXPECT_EQ(error_text([&] { require_writable_folder(folder.path("file")); }),
-            folder.path("file") + ": not a folder");
-  EXPECT_EQ(error_text([&] { require_writable_folder(folder.path("file/deeper")); }),
-            folder.path("file") + ": not a folder");
-  EXPECT_EQ(error_text([&] { require_writable_folder(folder.path("new/deeper")); }), "");
+  EXPECT_EQ(error_text([&] { require_writable_folder({folder.path("file")}); }),
+            "--out: " + folder.path("file") + ": not a folder");
+  EXPECT_EQ(error_text([&] { require_writable_folder({folder.path("file/deeper")}); }),
+            "--out: " + folder.path("file") + ": not a folder");
+  EXPECT_EQ(error_text([&] { require_writable_folder({folder.path("new/deeper")}); }), "");
+}
+
+TEST(StagedFiles, AFolderThatTheSystemRefusesIsAnErrorThatLeavesNothing) {
+  const ScratchFolder folder;
+  const auto refusal = [](const ResultFolder& asked) {
+    return error_text([&] { require_writable_folder(asked); });
+  };
+  EXPECT_TRUE(refusal({"/proc/x"}).starts_with("--out: /proc/x: cannot be made: "));
+  EXPECT_TRUE(
+      refusal({"/proc", false, "--chart"}).starts_with("--chart: /proc: cannot be written to: "));
+  const std::string too_long = folder.path("new/" + std::string(300, 'n'));
+  EXPECT_EQ(refusal({too_long}), "--out: " + too_long + ": cannot be made: File name too long");
+  EXPECT_EQ(folder.count(), 0);
+}
+
+TEST(StagedFiles, AskingWhetherAFolderTakesFilesLeavesItAsItWas) {
+  const ScratchFolder folder;
+  put({folder.path("mine")}, "1");
+  const long files = folder.count();
+  for (const char* name : {"mine", "mine/new/deeper", "new"}) {
+    EXPECT_EQ(error_text([&] { require_writable_folder({folder.path(name)}); }), "") << name;
+    EXPECT_EQ(folder.count(), files) << name;
+  }
 }
 
 }  // namespace

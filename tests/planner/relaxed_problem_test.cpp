@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "planner/certificate/closed_boxes.h"
+#include "planner/certificate/open_boxes.h"
 #include "planner/problem/world.h"
 #include "tests/planner/planner_run.h"
 
@@ -65,6 +67,27 @@ TEST(RelaxedProblem, AGoalOnGroundTooSteepIsCertified) {
   const auto cliff = [](double x, double /*y*/) { return 1.2 * std::max(0.0, x - 30); };
   EXPECT_NE(certificate(lrv_problem(one_soil_map(50, firm_regolith(), cliff))).find("goal"),
             std::string::npos);
+}
+
+TEST(RelaxedProblem, AGoalHoweverWideHasNoCertificate) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  for (const double radius_m : {1e8, 1e9, 1e12, 1e300, std::numeric_limits<double>::max()}) {
+    problem.goal.radius_m = radius_m;
+    EXPECT_EQ(certificate(problem), "") << radius_m;
+  }
+}
+
+TEST(PlaceGrid, APointHoweverFarOffHasItsNearestPlace) {
+  const PlaceGrid grid{.west_m = 10, .south_m = 20, .cell_m = 0.25, .columns = 8, .rows = 4};
+  for (const double far_m : {1e3, 1e9, 1e300}) {
+    const PlaceGrid::Place north_east = grid.at(far_m, far_m), south_west = grid.at(-far_m, -far_m);
+    EXPECT_EQ(north_east.column, 7) << far_m;
+    EXPECT_EQ(north_east.row, 3) << far_m;
+    EXPECT_EQ(south_west.column, 0) << far_m;
+    EXPECT_EQ(south_west.row, 0) << far_m;
+  }
+  EXPECT_EQ(grid.at(11.3, 20.6).column, 5);
+  EXPECT_EQ(grid.at(11.3, 20.6).row, 2);
 }
 
 TEST(ClosedBoxes, NoPoseOfAClosedBoxIsOneThatTheVerdictAllows) {
