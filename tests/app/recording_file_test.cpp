@@ -90,13 +90,13 @@ TEST(RecordingFile, CircumstancesGoWhereTheModelLooksForThem) {
 TEST(RecordingFile, WhatCannotBeIsAnErrorWithItsPlace) {
   const std::string one_of_three = "; 1 of 3 rows are out of range (up to 5 % are left out)";
   EXPECT_EQ(recording_error("64.7,", "0,"),
-            "r.csv:2: load_n: 0 is not valid (allowed: above 0)" + one_of_three);
+            "r.csv:2: load_n: 0 is not valid (allowed: above 0 to 1000000000)" + one_of_three);
   EXPECT_EQ(recording_error("64.7,", "-3,"),
-            "r.csv:2: load_n: -3 is not valid (allowed: above 0)" + one_of_three);
+            "r.csv:2: load_n: -3 is not valid (allowed: above 0 to 1000000000)" + one_of_three);
   EXPECT_EQ(recording_error("-20,", "nan,"),
-            "r.csv:2: fx_n: nan is not valid (allowed: any finite number)");
+            "r.csv:2: fx_n: nan is not valid (allowed: -1000000000 to 1000000000)");
   EXPECT_EQ(recording_error("4.5,18", "4.5,inf"),
-            "r.csv:3: fy_n: inf is not valid (allowed: any finite number)");
+            "r.csv:3: fy_n: inf is not valid (allowed: -1000000000 to 1000000000)");
   EXPECT_EQ(recording_error("0.30,16", "0.30,106"),
             "r.csv:3: slip_angle_deg: 106 is not valid (allowed: -90 to 90)" + one_of_three);
   EXPECT_EQ(recording_error("2020-11-16", "2020-02-30"),
@@ -154,7 +154,7 @@ TEST(RecordingFile, MoreThanOneRowInTwentyOutOfRangeIsRefused) {
 
 TEST(RecordingFile, WhatIsNoNumberIsNeverLeftOut) {
   EXPECT_EQ(error_text([] { read(replaced(recording_with(100, 0), "r7,64.7", "r7,heavy")); }),
-            "r.csv:9: load_n: heavy is not valid (allowed: above 0)");
+            "r.csv:9: load_n: heavy is not valid (allowed: above 0 to 1000000000)");
 }
 
 TEST(RecordingFile, ASlipInPerCentIsSuspectedAsSuch) {
