@@ -105,6 +105,7 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
                              axis.name, 1 / std::max(std::abs(day.*axis.slope), 1e-3),
                              day.day.empty() ? "not said" : day.day),
              .value = day.*axis.slope});
+        continue;  // says nothing of how the sensor sits
       }
       const std::optional<DriveEstimate>& estimate = day.*axis.of;
       if (!estimate) continue;
@@ -242,21 +243,42 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
 /// How far the smoothing of poses reaches beyond a window, where a vehicle's model is compared.
 constexpr double kBeyond = 0.3;
 
+/// Windows hold the means of the channels that a drive has when they are read.
+std::vector<DriveWindow> windows_of(const std::vector<DriveRecording>& drives,
+                                    const DriveSetup& setup) {
+  std::vector<DriveWindow> windows;
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    std::ranges::move(drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0),
+                      std::back_inserter(windows));
+  }
+  return windows;
+}
+
 /// Brings yaw to the map's sense and the vehicle's nose, where the drives show how.
 void mend_yaw(const SensorChecks& checks, const DriveSetup& setup,
               std::vector<DriveRecording>& drives, std::vector<DriveWindow>& windows) {
   if (checks.yaw_sign == 1 && checks.yaw_offset_rad == 0) return;
-  windows.clear();
-  for (std::size_t i = 0; i < drives.size(); ++i) {
-    if (DriveChannel* yaw = drives[i].channel("yaw_rad")) {
+  for (DriveRecording& drive : drives) {
+    if (DriveChannel* yaw = drive.channel("yaw_rad")) {
       for (float& value : yaw->values) {
         value = static_cast<float>(checks.yaw_sign * static_cast<double>(value) +
                                    checks.yaw_offset_rad);
       }
     }
-    std::ranges::move(drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0),
-                      std::back_inserter(windows));
   }
+  windows = windows_of(drives, setup);
+}
+
+/// Torques that no soil takes say nothing: a payload would be made of them.
+void leave_doubtful_torques_out(const DriveSetup& setup, std::vector<DriveRecording>& drives,
+                                DriveDiagnosis& result) {
+  if (!setup.vehicle) return;
+  std::vector<DriveFinding> doubtful =
+      doubtful_torque_units(drives, result.windows, *setup.vehicle, setup.gravity_mps2);
+  if (doubtful.empty()) return;
+  leave_torques_out(drives);
+  result.windows = windows_of(drives, setup);
+  std::ranges::move(doubtful, std::back_inserter(result.findings));
 }
 
 bool is_found(const DriveDiagnosis& result, std::string_view id) {
@@ -295,7 +317,7 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
   }
   if (!any_has(drives, "torque_")) {
     result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},
-                             "no wheel torques are recorded",
+                             "no wheel torques are recorded, or they are left out",
                              "torque or current of every wheel, 100 s on firm level ground"});
   }
   result.silent.push_back(
@@ -372,20 +394,13 @@ void mend_sides(const DriveSetup& setup, const DriveDiagnosisOptions& options,
 /// What the windows of all drives say together.
 void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
              const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
+  leave_doubtful_torques_out(setup, drives, result);
   SensorChecks checks = check_sensors(drives, result.windows, sides_of(setup.vehicle));
   mend_yaw(checks, setup, drives, result.windows);
   for (DriveWindow& window : result.windows) window.sensed_speed_mps /= checks.sensed_speed_per_mps;
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
   throw_if_stopped(options.stop);
   check_place(setup, drives, result);
-  if (setup.vehicle) {
-    auto doubtful =
-        doubtful_torque_unit(drives, result.windows, *setup.vehicle, setup.gravity_mps2);
-    if (doubtful) {
-      leave_torques_out(drives);
-      result.findings.push_back(std::move(*doubtful));
-    }
-  }
   if (checks.wheel_sides_swapped) mend_sides(setup, options, drives, result);
   result.mountings = find_mountings(drives, result.windows, setup.map);
   throw_if_stopped(options.stop);

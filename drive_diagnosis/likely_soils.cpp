@@ -65,7 +65,13 @@ std::vector<MapSoil> estimated_soils(std::vector<MapSoil> soils, std::vector<Soi
                                      const std::vector<bool>& driven_on) {
   numbers.resize(soils.size());
   for (std::size_t i = 0; i < soils.size(); ++i) {
-    if (driven_on[i]) soils[i].soil = estimated_soil(soils[i].soil, numbers[i], stds[i]);
+    if (!driven_on[i]) continue;
+    SoilNumbers left = stds[i];
+    const SoilNumbers told = told_spread(soils[i].soil);
+    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+      if (!(told.at(k) > 0)) left.at(k) = 0;  // what is told exactly stays so
+    }
+    soils[i].soil = estimated_soil(soils[i].soil, numbers[i], left);
   }
   return soils;
 }

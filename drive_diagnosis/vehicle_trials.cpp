@@ -100,7 +100,7 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const Uncertain
   trials.add("", "yaw_rad", 0.005, &VehicleDeviation::mounting_yaw_rad);
   for (std::size_t soil = 0; soil < map.soils().size(); ++soil) {
     if (!soils[soil]) continue;
-    const SoilNumbers spread = soil_spread(map.soils()[soil].soil);
+    const SoilNumbers spread = told_spread(map.soils()[soil].soil);
     for (std::size_t k = 0; k < kSoilNumbers; ++k) {
       if (!(spread.at(k) > 0)) continue;
       trials.add("", map.soils()[soil].name + "." + std::string(soil_parameters().at(k).name), 1,

@@ -231,20 +231,35 @@ bool is_valid(const Soil& soil) {
 
 }  // namespace
 
-SoilNumbers soil_spread(const UncertainSoil& soil) {
+namespace {
+
+/// Of strength and bearing, as far as tests of one soil scatter; 0 of all else.
+double assumed_spread(const Soil& mean, std::size_t number) {
   constexpr double kStrength = 0.1, kBearing = 0.25;
+  double Soil::*const member = soil_parameters().at(number).member;
+  if (member == &Soil::cohesion_pa || member == &Soil::friction_angle_rad) {
+    return kStrength * std::abs(mean.*member);
+  }
+  if (member == &Soil::kc || member == &Soil::kphi) return kBearing * std::abs(mean.*member);
+  return 0;
+}
+
+}  // namespace
+
+SoilNumbers told_spread(const UncertainSoil& soil) {
   SoilNumbers spread{};
-  const auto& parameters = soil_parameters();
   for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-    double Soil::*const member = parameters.at(k).member;
-    spread.at(k) = soil.standard_deviation.*member;
-    if (spread.at(k) > 0) continue;
-    const double mean = std::abs(soil.mean.*member);
-    if (member == &Soil::cohesion_pa || member == &Soil::friction_angle_rad) {
-      spread.at(k) = kStrength * mean;
-    } else if (member == &Soil::kc || member == &Soil::kphi) {
-      spread.at(k) = kBearing * mean;
-    }
+    spread.at(k) = soil.standard_deviation.*soil_parameters().at(k).member;
+  }
+  if (std::ranges::any_of(spread, [](double std) { return std > 0; })) return spread;
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) spread.at(k) = assumed_spread(soil.mean, k);
+  return spread;
+}
+
+SoilNumbers soil_spread(const UncertainSoil& soil) {
+  SoilNumbers spread = told_spread(soil);
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    if (!(spread.at(k) > 0)) spread.at(k) = assumed_spread(soil.mean, k);
   }
   return spread;
 }

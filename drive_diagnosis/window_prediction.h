@@ -18,8 +18,13 @@ namespace regoplan {
 inline constexpr std::size_t kSoilNumbers = 14;
 using SoilNumbers = std::array<double, kSoilNumbers>;
 
-/// How far a number of a soil varies: its standard deviation; strength and bearing moduli that have
-/// none, by a tenth and by a quarter. Without them another soil could not be told from this one.
+/// How far the numbers of a map's soil are known: their standard deviations; of a soil that has
+/// none at all, strength by a tenth and bearing moduli by a quarter.
+SoilNumbers told_spread(const UncertainSoil& soil);
+
+/// How far the numbers of a soil vary, another's in its place as well: as told, and strength and
+/// bearing moduli that have no standard deviation by a tenth and by a quarter. Without them no
+/// other soil could be told from this one.
 SoilNumbers soil_spread(const UncertainSoil& soil);
 
 /// The soil with its numbers so many deviations off. Numbers that are positive stay so: they are

@@ -265,8 +265,8 @@ SpeedProfile speed_of(const std::vector<RecordedMoment>& moments, const RowRange
     const double s_m = curve.point_arc_m()[i - rows.first];
     if (!nodes.empty() && !(s_m > nodes.back().s_m)) {
       // The end's knot is the last row's, however near to it the rows before lie.
-      const bool may_rest = nodes.size() < 2 || nodes[nodes.size() - 2].speed_mps > 0;
-      if (i == rows.last || changes) nodes.back().speed_mps = may_rest ? speed : 1e-3;
+      const bool both_rest = nodes.size() > 1 && nodes[nodes.size() - 2].speed_mps + speed <= 0;
+      if (i == rows.last || changes) nodes.back().speed_mps = both_rest ? 1e-3 : speed;
       continue;
     }
     const bool both_rest = !nodes.empty() && nodes.back().speed_mps + speed <= 0;

@@ -199,7 +199,8 @@ std::string class_words(const Diagnosis& diagnosis) {
   return apart ? "" : " These data cannot tell the names apart." + experiment_words(diagnosis);
 }
 
-/// A name that is likelier than all else is not denied, though it is not claimed.
+/// A name that is likelier than all else, and by a third and more, is not denied, though it is not
+/// claimed.
 std::string nameless_words(const Diagnosis& diagnosis) {
   constexpr double kNear = 1.0 / 3;
   const std::vector<std::string> none{"unexplained", "parameters", "none"};

@@ -19,7 +19,8 @@ namespace regoplan {
 /// (in reverse, what the vehicle is told has the other sign) with the offset to the left of the
 /// nearest place of the path, the course that of the velocity, and L the longer of
 /// `lookahead_wheelbases` wheelbases and the way of `lookahead_s`. Rim speed: the path's speed over
-/// the ratio of speed and rim speed that the wheels have lately had.
+/// the ratio of speed and rim speed that the wheels have lately had, and no more than what the rims
+/// still come down from in time.
 struct SteeringLaw {
   double lookahead_wheelbases = 1;
   double lookahead_s = 0.8;
@@ -103,7 +104,8 @@ class Follower {
   /// \throws InputError for what an own follower commands beyond the vehicle's range
   VehicleControl control(double step_s) const;
 
-  /// From now on the rims brake early enough for what is fed forward; to be called once it can be.
+  /// From now on the rims brake early enough for what is fed forward, which a derived follower
+  /// knows once it is constructed. A follower of the caller's own feeds nothing forward.
   void foresee_braking();
 
   /// At the place of the path where the vehicle is.

@@ -65,5 +65,20 @@ TEST(PathFiles, GoingBackByAHandAtAPlaceWhereItAllButStandsIsNoLeg) {
   EXPECT_EQ(path.legs[0].recorded.size(), 11u);
 }
 
+TEST(PathFiles, ACandidateEndsAtTheSpeedOfItsLastRowHoweverNearTheOneBeforeLies) {
+  for (const double end_mps : {0.0, 0.5}) {
+    const ScratchFolder folder;
+    std::string text = "time_s,x_m,y_m,yaw_deg,speed_mps,steer_deg,demand_n,margin,curvature_1pm\n";
+    for (int i = 0; i < 8; ++i) text += fmt::format("{},{},5100,0,1,0,0,0.5,0\n", i, 1050 + i);
+    text += "8,1057.95,5100,0,0.24,0,0,0.5,0\n";
+    text += fmt::format("9,1058,5100,0,{},0,0,0.5,0\n", end_mps);
+    folder.write("candidate-1.csv", text);
+    const PlanningProblem problem = report_test_problem(report_test_map(40));
+    const ReferencePath path = read_path(folder.path("candidate-1.csv"), problem, 3).path;
+    ASSERT_EQ(path.legs.size(), 1u);
+    EXPECT_EQ(path.legs[0].speed.at(path.length_m()).speed_mps, end_mps);
+  }
+}
+
 }  // namespace
 }  // namespace regoplan

@@ -80,14 +80,14 @@ TEST(Claim, IsNotBelievedWithASoilNumberFarFromItsTests) {
 
 /// Whether an effect is refused with one of its numbers so many deviations off.
 bool is_too_far(const CalibratedBed& bed, const Effect& effect, Eigen::Index number,
-                double deviations) {
+                double deviations, double plausible_fault = Thresholds::kPlausibleFault) {
   CandidateFit fit = bed.fit;
   fit.candidate = {{effect}};
   const auto numbers = static_cast<Eigen::Index>(effect.coordinates.size());
   fit.x.conservativeResize(bed.fit.x.size() + numbers);
   fit.x.tail(numbers).setZero();
   fit.x[bed.fit.x.size() + number] = deviations;
-  const std::string doubt = objection(bed.problem(), fit, Thresholds::kPlausibleFault);
+  const std::string doubt = objection(bed.problem(), fit, plausible_fault);
   return doubt.find("far from what is usual") != std::string::npos;
 }
 
@@ -105,6 +105,9 @@ TEST(Claim, AFaultOfAnInstrumentMayBeFartherFromWhatIsUsualThanPhysics) {
       for (const double side : {-1.0, 1.0}) {
         EXPECT_FALSE(is_too_far(bed, effect, k, side * (bound - 0.1))) << effect.id;
         EXPECT_TRUE(is_too_far(bed, effect, k, side * (bound + 0.1))) << effect.id;
+        EXPECT_TRUE(is_too_far(bed, effect, k, side * (Thresholds::kPlausible + 0.1),
+                               Thresholds::kPlausible))
+            << effect.id;
       }
     }
   }

@@ -102,6 +102,9 @@ TEST(Sentence, OfTheUnexplainedTellsTheNameThatIsNearest) {
   diagnosis.claims.clear();
   diagnosis.ranking = {{"sensor_bias", 0.48, 20}, {"unexplained", 0.26, 19}};
   expect_says(sentence_of(diagnosis), {"no known name stands (nearest: sensor_bias)"});
+  diagnosis.ranking[0].probability = 0.3;
+  expect_says(sentence_of(diagnosis), {"no known name explains it"});
+  diagnosis.ranking[0].probability = 0.48;
   std::swap(diagnosis.ranking[0], diagnosis.ranking[1]);
   expect_says(sentence_of(diagnosis), {"no known name explains it"});
 }

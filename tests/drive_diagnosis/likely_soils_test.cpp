@@ -46,6 +46,17 @@ TEST(DifferencesAmongSoils, AreFoundWhereAMapTellsNoSpreadOfStrengthAndBearing) 
   EXPECT_NEAR(looser.friction_angle_rad, 31.2 * kDegree, 1e-9);
 }
 
+TEST(EstimatedSoils, KeepWhatAMapTellsExactly) {
+  UncertainSoil soil = regolith();
+  soil.standard_deviation.kphi = 0;
+  SoilNumbers all_known{};
+  all_known.fill(1);
+  const auto soils = estimated_soils({{"here", "", soil}}, {}, {all_known}, {true});
+  EXPECT_EQ(soils[0].soil.mean.kphi, soil.mean.kphi);
+  EXPECT_EQ(soils[0].soil.standard_deviation.kphi, 0);
+  EXPECT_NEAR(soils[0].soil.standard_deviation.cohesion_pa, 50, 1e-9);
+}
+
 TEST(DifferencesAmongSoils, AreEachOfOneThingAlone) {
   EXPECT_EQ(other(0).friction_angle_rad, regolith().mean.friction_angle_rad);
   EXPECT_EQ(other(2).kphi, regolith().mean.kphi);
