@@ -129,8 +129,8 @@ struct Thresholds {
   static constexpr double kPlausible = 3.5;
   static constexpr double kWrongWay_deviations = 2;
   /// As kPlausible, of an instrument's fault that explains a recording without a remainder and
-  /// leaves no lack of fit (NameContest::doubt_about): a wrong range or a loose mounting has no such
-  /// bound as a soil has. Chosen; its prior has cost it 12 nats of evidence.
+  /// leaves no lack of fit (NameContest::doubt_about): a wrong range or a loose mounting has no
+  /// such bound as a soil has. Chosen; its prior has cost it 12 nats of evidence.
   static constexpr double kPlausibleFault = 5;
 };
 
