@@ -71,9 +71,9 @@ void WindowLinearisation::predict_all() {
 void WindowLinearisation::predict(const VehicleDeviation& here,
                                   const std::vector<WindowZone>& zones,
                                   LinearisedWindows& windows) const {
-  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   for (const std::size_t w : anew_) {
-    windows.base.row(static_cast<Eigen::Index>(w)).setConstant(kNothing);
+    windows.base.row(static_cast<Eigen::Index>(w)).setConstant(kUnknown);
   }
   windows.base = comparison_.predicted(anew_, here, zones, windows.base, stop_);
   windows.unbalanced.clear();
