@@ -52,9 +52,9 @@ TEST(TorqueUnit, OfOneDriveIsToldOfThatOne) {
 /// in so many times N m.
 DriveDiagnosis diagnosed_in(double times) {
   DriveRecording drive = record({}, rolling_map());
-  std::ranges::stable_partition(drive.channels, [](const DriveChannel& channel) {
-    return channel.name.starts_with("torque_");
-  });
+  std::stable_partition(
+      drive.channels.begin(), drive.channels.end(),
+      [](const DriveChannel& channel) { return channel.name.starts_with("torque_"); });
   for (DriveChannel& channel : drive.channels) {
     if (!channel.name.starts_with("torque_")) continue;
     for (float& value : channel.values) value *= static_cast<float>(times);
