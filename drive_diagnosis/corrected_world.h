@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "drive_diagnosis/drive_windows.h"
+#include "drive_diagnosis/recording/drive_windows.h"
 #include "drive_diagnosis/vehicle_effects.h"
 #include "maps/terrain_map.h"
 #include "terramech/parameters/vehicle.h"

@@ -9,8 +9,8 @@
 #include <random>
 #include <set>
 
-#include "drive_diagnosis/robust_statistics.h"
-#include "drive_diagnosis/sensor_checks.h"
+#include "drive_diagnosis/instruments/sensor_checks.h"
+#include "drive_diagnosis/recording/robust_statistics.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {

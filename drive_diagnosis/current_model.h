@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "drive_diagnosis/drive_windows.h"
-#include "drive_diagnosis/mounting.h"
+#include "drive_diagnosis/instruments/mounting.h"
+#include "drive_diagnosis/recording/drive_windows.h"
 
 namespace regoplan {
 

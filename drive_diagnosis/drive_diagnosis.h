@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "drive_diagnosis/current_model.h"
-#include "drive_diagnosis/drive_recording.h"
-#include "drive_diagnosis/mounting.h"
-#include "drive_diagnosis/sensor_checks.h"
+#include "drive_diagnosis/instruments/mounting.h"
+#include "drive_diagnosis/instruments/sensor_checks.h"
+#include "drive_diagnosis/recording/drive_recording.h"
 #include "drive_diagnosis/vehicle_effects.h"
 #include "maps/terrain_map.h"
 #include "terramech/parameters/vehicle.h"

@@ -1,6 +1,6 @@
 #include "drive_diagnosis/rolling_resistance.h"
 
-#include "drive_diagnosis/robust_statistics.h"
+#include "drive_diagnosis/recording/robust_statistics.h"
 #include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {

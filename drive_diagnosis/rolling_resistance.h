@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "drive_diagnosis/mounting.h"
+#include "drive_diagnosis/instruments/mounting.h"
 #include "terramech/parameters/soil.h"
 #include "terramech/parameters/vehicle.h"
 

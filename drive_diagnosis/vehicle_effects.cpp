@@ -5,12 +5,12 @@
 #include <cmath>
 #include <random>
 
-#include "drive_diagnosis/effect_contest.h"
-#include "drive_diagnosis/effect_fit.h"
-#include "drive_diagnosis/likely_soils.h"
+#include "drive_diagnosis/comparison/vehicle_trials.h"
+#include "drive_diagnosis/comparison/window_comparison.h"
+#include "drive_diagnosis/contest/effect_contest.h"
+#include "drive_diagnosis/fit/effect_fit.h"
+#include "drive_diagnosis/fit/likely_soils.h"
 #include "drive_diagnosis/rolling_resistance.h"
-#include "drive_diagnosis/vehicle_trials.h"
-#include "drive_diagnosis/window_comparison.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {

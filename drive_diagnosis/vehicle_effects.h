@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "drive_diagnosis/drive_windows.h"
-#include "drive_diagnosis/mounting.h"
-#include "drive_diagnosis/vehicle_trials.h"
-#include "drive_diagnosis/window_comparison.h"
-#include "drive_diagnosis/window_prediction.h"
+#include "drive_diagnosis/comparison/vehicle_trials.h"
+#include "drive_diagnosis/comparison/window_comparison.h"
+#include "drive_diagnosis/comparison/window_prediction.h"
+#include "drive_diagnosis/instruments/mounting.h"
+#include "drive_diagnosis/recording/drive_windows.h"
 
 namespace regoplan {
 

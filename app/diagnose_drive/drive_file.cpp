@@ -13,7 +13,7 @@
 #include "app/diagnose_drive/drive_samples.h"
 #include "app/io/csv_table.h"
 #include "app/io/number_text.h"
-#include "drive_diagnosis/time_checks.h"
+#include "drive_diagnosis/recording/time_checks.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/diagnose_drive/drive_columns.h"
-#include "drive_diagnosis/drive_recording.h"
+#include "drive_diagnosis/recording/drive_recording.h"
 
 namespace regoplan {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "drive_diagnosis/drive_recording.h"
+#include "drive_diagnosis/recording/drive_recording.h"
 
 namespace regoplan {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "drive_diagnosis/comparison/swapped_sides.h"
 #include "drive_diagnosis/drive_diagnosis.h"
-#include "drive_diagnosis/swapped_sides.h"
 #include "tests/drive_diagnosis/simulated_drive.h"
 
 namespace regoplan {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "drive_diagnosis/window_comparison.h"
+#include "drive_diagnosis/comparison/window_comparison.h"
 #include "tests/drive_diagnosis/simulated_drive.h"
 
 namespace regoplan {

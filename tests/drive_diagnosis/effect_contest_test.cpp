@@ -1,4 +1,4 @@
-#include "drive_diagnosis/effect_contest.h"
+#include "drive_diagnosis/contest/effect_contest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Soils that may well lie where the map says another.
-#include "drive_diagnosis/likely_soils.h"
+#include "drive_diagnosis/fit/likely_soils.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "drive_diagnosis/linearised_windows.h"
+#include "drive_diagnosis/fit/linearised_windows.h"
 
 #include <gtest/gtest.h>
 

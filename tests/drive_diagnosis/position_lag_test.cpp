@@ -1,4 +1,4 @@
-#include "drive_diagnosis/position_lag.h"
+#include "drive_diagnosis/recording/position_lag.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "drive_diagnosis/time_checks.h"
+#include "drive_diagnosis/recording/time_checks.h"
 
 namespace regoplan {
 namespace {

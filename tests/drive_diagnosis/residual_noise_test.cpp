@@ -1,4 +1,4 @@
-#include "drive_diagnosis/residual_noise.h"
+#include "drive_diagnosis/contest/residual_noise.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "drive_diagnosis/robust_statistics.h"
+#include "drive_diagnosis/recording/robust_statistics.h"
 
 namespace regoplan {
 namespace {

@@ -1,4 +1,4 @@
-#include "drive_diagnosis/robust_statistics.h"
+#include "drive_diagnosis/recording/robust_statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "drive_diagnosis/sensor_checks.h"
+#include "drive_diagnosis/instruments/sensor_checks.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "drive_diagnosis/drive_windows.h"
+#include "drive_diagnosis/recording/drive_windows.h"
 
 namespace regoplan {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "drive_diagnosis/drive_recording.h"
-#include "drive_diagnosis/window_prediction.h"
+#include "drive_diagnosis/comparison/window_prediction.h"
+#include "drive_diagnosis/recording/drive_recording.h"
 #include "maps/terrain_map.h"
 
 namespace regoplan {

@@ -1,4 +1,4 @@
-#include "drive_diagnosis/slope_errors.h"
+#include "drive_diagnosis/contest/slope_errors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "drive_diagnosis/time_checks.h"
+#include "drive_diagnosis/recording/time_checks.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "drive_diagnosis/torque_unit.h"
+#include "drive_diagnosis/instruments/torque_unit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "drive_diagnosis/window_comparison.h"
+#include "drive_diagnosis/comparison/window_comparison.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "drive_diagnosis/likely_edges.h"
+#include "drive_diagnosis/fit/likely_edges.h"
 #include "tests/drive_diagnosis/compared_drive.h"
 
 namespace regoplan {

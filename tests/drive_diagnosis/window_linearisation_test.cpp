@@ -1,4 +1,4 @@
-#include "drive_diagnosis/window_linearisation.h"
+#include "drive_diagnosis/fit/window_linearisation.h"
 
 #include <gtest/gtest.h>
 

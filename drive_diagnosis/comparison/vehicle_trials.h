@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drive_diagnosis/comparison/window_prediction.h"
+#include "drive_diagnosis/instruments/mounting.h"
+
+namespace regoplan {
+
+/// Numbers of a vehicle that nobody knows well, each with how far it may be off; one that is not
+/// given is as well known as a sound vehicle's. The vehicle itself holds the values.
+struct UncertainVehicle {
+  std::optional<DriveEstimate> mass_kg, wheel_radius_m;
+  /// By which a wheel's recorded torque, or its current where no torque is recorded, is multiplied
+  /// to get N m.
+  std::optional<DriveEstimate> motor_constant;
+};
+
+/// Something of vehicle, sensors or soil that may be otherwise, by one number.
+struct VehicleTrial {
+  std::string id;         ///< of the effect, `steering_offset`; empty: a parameter, never claimed
+  std::string parameter;  ///< what it is told in, `steer_front_deg`
+  double unit = 1;        ///< of the parameter: what a sound vehicle is off, one standard deviation
+  VehicleDeviation deviation;  ///< of that size
+};
+
+/// Everything that may be otherwise all along: faults, and numbers of the map's soils.
+/// \param soils that were driven on, by index
+std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const UncertainVehicle& uncertain,
+                                         const TerrainMap& map, const std::vector<bool>& soils);
+
+/// The numbers of a vehicle that nobody knew well, as they are estimated.
+/// \param sizes, stds of each trial
+UncertainVehicle estimated_vehicle(const UncertainVehicle& said,
+                                   const std::vector<VehicleTrial>& trials,
+                                   const Eigen::VectorXd& sizes, const Eigen::VectorXd& stds);
+
+/// What is left of the spread of each soil's numbers, in standard deviations: 1 where no trial is
+/// of it. \param stds of each trial
+std::vector<SoilNumbers> soil_stds(const std::vector<VehicleTrial>& trials,
+                                   const Eigen::VectorXd& stds, std::size_t soils);
+
+}  // namespace regoplan

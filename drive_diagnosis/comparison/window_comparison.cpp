@@ -1,0 +1,430 @@
+#include "drive_diagnosis/comparison/window_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "drive_diagnosis/comparison/window_input.h"
+#include "drive_diagnosis/recording/fix_scatter.h"
+#include "drive_diagnosis/recording/robust_statistics.h"
+#include "terramech/basics/interruption.h"
+#include "terramech/basics/parallel_for.h"
+
+namespace regoplan {
+namespace {
+
+/// How far single samples of a channel scatter. Torques jump where a follower steers anew: that is
+/// motion, which the model has as well, and no noise. What stands says 0 and nothing of scatter.
+double sample_std(const DriveRecording& drive, const std::string& name) {
+  const DriveChannel* channel = drive.channel(name);
+  if (!channel) return 0;
+  std::vector<double> time_s, values;
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    const auto value = static_cast<double>(channel->values[i]);
+    if (std::isnan(value) || value == 0) continue;
+    time_s.push_back(drive.time_s[i]);
+    values.push_back(value);
+  }
+  return scatter_of_samples(time_s, values);
+}
+
+int samples_in(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
+  const DriveChannel* channel = drive.channel(name);
+  int samples = 0;
+  for (std::size_t i = 0; channel && i < drive.size(); ++i) {
+    const bool is_within = drive.time_s[i] >= window.start_s && drive.time_s[i] <= window.end_s;
+    if (is_within && !std::isnan(channel->values[i])) ++samples;
+  }
+  return samples;
+}
+
+/// Root mean square of a channel's samples in a window; 0 where it has none.
+double mean_size(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
+  const DriveChannel* channel = drive.channel(name);
+  if (!channel) return 0;
+  const auto begin = std::ranges::lower_bound(drive.time_s, window.start_s) - drive.time_s.begin();
+  double squares = 0;
+  int count = 0;
+  for (auto i = static_cast<std::size_t>(begin);
+       i < drive.size() && drive.time_s[i] <= window.end_s; ++i) {
+    const auto value = static_cast<double>(channel->values[i]);
+    if (std::isnan(value)) continue;
+    squares += value * value;
+    ++count;
+  }
+  return count == 0 ? 0 : std::sqrt(squares / count);
+}
+
+/// By how much an acceleration may be off: sinkage is that of steady motion at each place, and
+/// samples do not tell what happens between them.
+double acceleration_std(const WindowInput& input, double WindowInput::Place::*of, double least) {
+  constexpr double kUnsteady = 0.1;
+  double squares = 0;
+  for (const WindowInput::Place& place : input.places) {
+    squares += place.part.mean_share * (place.*of) * (place.*of);
+  }
+  return std::hypot(least, kUnsteady * std::sqrt(squares));
+}
+
+}  // namespace
+
+std::string_view name(LeftOut reason) {
+  constexpr std::array<std::string_view, kLeftOutReasons> kNames{
+      "no_input", "standing", "off_map", "no_balance", "no_channel", "too_many"};
+  return kNames.at(static_cast<std::size_t>(reason));
+}
+
+WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
+                                   const std::vector<DriveWindow>& windows, const TerrainMap& map,
+                                   const Vehicle& vehicle, double gravity_mps2, int threads)
+    : drives_(drives),
+      windows_(windows),
+      map_(map),
+      vehicle_(vehicle),
+      gravity_mps2_(gravity_mps2),
+      model_(map, vehicle, gravity_mps2),
+      threads_(threads),
+      soils_driven_(map.soils().size(), false) {
+  choose_channels();
+  std::vector<Eigen::VectorXd> rows;
+  for (std::size_t i = 0; i < windows_.size(); ++i) {
+    const auto reason = add(i, rows);
+    unbalanced_.push_back(reason == LeftOut::kNoBalance);
+    if (reason) {
+      ++used_.left_out.at(static_cast<std::size_t>(*reason));
+    } else {
+      ++used_.compared;
+    }
+  }
+  measured_.resize(static_cast<Eigen::Index>(rows.size()),
+                   static_cast<Eigen::Index>(channels_.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    measured_.row(static_cast<Eigen::Index>(i)) = rows[i];
+  }
+  estimate_rim_std();
+  estimate_sampled_std();
+  measure_sizes();
+  estimate_more_std();
+}
+
+/// Takes a window in, or says why not.
+std::optional<LeftOut> WindowComparison::add(std::size_t window,
+                                             std::vector<Eigen::VectorXd>& rows) {
+  constexpr std::size_t kWindowsMost = 150;  // the contest stays within seconds
+  if (rows.size() == kWindowsMost) return LeftOut::kTooMany;
+  const DriveRecording& drive = drives_[windows_[window].drive];
+  auto input = input_of(drive, windows_[window], vehicle_, gravity_mps2_);
+  if (!input) return LeftOut::kNoInput;
+  if (stands(*input)) return LeftOut::kStanding;
+  if (!model_.knows_ground(*input)) return LeftOut::kOffMap;
+  const auto prediction = model_.predict(*input, {});
+  if (!prediction) return LeftOut::kNoBalance;
+  auto measured = measured_in(window);
+  if (!measured) return LeftOut::kNoChannel;
+  for (std::size_t j = 0; j < input->places.size(); ++j) {
+    input->places[j].near = input->places[j].start = prediction->found[j];
+    const WindowPart& part = input->places[j].part;
+    const auto soil = map_.soil_index(part.x_m, part.y_m);
+    if (soil) soils_driven_[static_cast<std::size_t>(*soil)] = true;
+  }
+  windows_of_.push_back(window);
+  inputs_.push_back(*input);
+  rows.push_back(std::move(*measured));
+  return {};
+}
+
+/// How far windows' means of a channel scatter, by neighbouring samples of their whole drive.
+std::vector<double> WindowComparison::mean_stds(const std::string& name) const {
+  std::vector<double> of_drives, of_windows;
+  for (const DriveRecording& drive : drives_) of_drives.push_back(sample_std(drive, name));
+  for (const std::size_t i : windows_of_) {
+    const std::size_t drive = windows_[i].drive;
+    const int samples = samples_in(drives_[drive], windows_[i], name);
+    of_windows.push_back(samples > 0 ? of_drives[drive] / std::sqrt(samples) : 0);
+  }
+  return of_windows;
+}
+
+void WindowComparison::estimate_rim_std() {
+  rim_std_rad_s_.resize(windows_of_.size());
+  for (std::size_t k = 0; k < vehicle_.wheels.size(); ++k) {
+    const std::vector<double> stds =
+        mean_stds(fmt::format("wheel_speed_{}_rad_s", vehicle_.wheels[k].name));
+    for (std::size_t i = 0; i < stds.size(); ++i) rim_std_rad_s_[i].at(k) = stds[i];
+  }
+}
+
+void WindowComparison::estimate_sampled_std() {
+  sampled_std_.assign(channels_.size(), 0);
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    if (!scales(k) && channels_[k] != "pitch_rad" && channels_[k] != "roll_rad") continue;
+    if (!windows_of_.empty()) sampled_std_[k] = median_value(mean_stds(channels_[k]));
+  }
+}
+
+void WindowComparison::measure_sizes() {
+  sizes_ = Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols());
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    if (!scales(k)) continue;
+    for (std::size_t i = 0; i < windows_of_.size(); ++i) {
+      const DriveWindow& window = windows_[windows_of_[i]];
+      sizes_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          mean_size(drives_[window.drive], window, channels_[k]);
+    }
+  }
+}
+
+void WindowComparison::estimate_more_std() {
+  more_std_ = Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols());
+  std::vector<FixScatter> of_drives;
+  for (const DriveRecording& drive : drives_) of_drives.push_back(fix_scatter(drive));
+  constexpr std::size_t kSmoothed = 3;  // channels: velocity along and across, yaw rate
+  std::array<std::vector<double>, kSmoothed> stds;
+  for (const std::size_t i : windows_of_) {
+    const DriveWindow& window = windows_[i];
+    const FixScatter& fix = of_drives[window.drive];
+    const double velocity_mps = fix.position_m * window.velocity_by_fix_1ps;
+    stds[0].push_back(velocity_mps);
+    stds[1].push_back(std::hypot(velocity_mps, window.speed_mps * fix.yaw_rad * window.yaw_by_fix));
+    stds[2].push_back(fix.yaw_rad * window.yaw_rate_by_fix_1ps);
+  }
+  for (std::size_t k = 0; k < kSmoothed && !windows_of_.empty(); ++k) {
+    const double of_most = median_value(stds.at(k));
+    for (std::size_t i = 0; i < windows_of_.size(); ++i) {
+      const double std = stds.at(k)[i];
+      more_std_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          std::sqrt(std::max(0.0, std * std - of_most * of_most));
+    }
+  }
+}
+
+void WindowComparison::choose_channels() {
+  channels_ = {"speed_mps", "left_mps", "yaw_rate_rad_s"};
+  const auto everywhere = [this](const std::string& name) {
+    return std::ranges::all_of(
+        drives_, [&](const DriveRecording& drive) { return drive.channel(name) != nullptr; });
+  };
+  has_attitude_ = everywhere("pitch_rad") && everywhere("roll_rad");
+  if (has_attitude_) {
+    channels_.emplace_back("pitch_rad");
+    channels_.emplace_back("roll_rad");
+  }
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    const std::string name = fmt::format("torque_{}_nm", vehicle_.wheels[i].name);
+    if (!everywhere(name)) continue;
+    torque_wheels_.push_back(i);
+    channels_.push_back(name);
+  }
+}
+
+std::optional<std::size_t> WindowComparison::channel(std::string_view name) const {
+  const auto at = std::ranges::find(channels_, name);
+  if (at == channels_.end()) return {};
+  return static_cast<std::size_t>(at - channels_.begin());
+}
+
+Eigen::VectorXd WindowComparison::vector_of(const WindowPrediction& prediction) const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(channels_.size()));
+  values[0] = prediction.forward_mps;
+  values[1] = prediction.left_mps;
+  values[2] = prediction.yaw_rate_rad_s;
+  Eigen::Index k = 3;
+  if (has_attitude_) {
+    values[k++] = prediction.pitch_rad;
+    values[k++] = prediction.roll_rad;
+  }
+  for (const std::size_t wheel : torque_wheels_) values[k++] = prediction.torque_nm.at(wheel);
+  return values;
+}
+
+std::optional<Eigen::VectorXd> WindowComparison::measured_in(std::size_t i) const {
+  const DriveWindow& window = windows_[i];
+  Eigen::VectorXd values(static_cast<Eigen::Index>(channels_.size()));
+  values[0] = window.forward_mps;
+  values[1] = window.left_mps;
+  values[2] = window.yaw_rate_rad_s;
+  Eigen::Index k = 3;
+  if (has_attitude_) {
+    values[k++] = window.pitch_rad;
+    values[k++] = window.roll_rad;
+  }
+  for (const std::size_t wheel : torque_wheels_) {
+    values[k++] = channel_mean(drives_[window.drive], window,
+                               fmt::format("torque_{}_nm", vehicle_.wheels[wheel].name));
+  }
+  if (!values.allFinite()) return {};
+  return values;
+}
+
+bool WindowComparison::consecutive(std::size_t i) const {
+  return i > 0 && windows_of_[i] == windows_of_[i - 1] + 1 &&
+         windows_[windows_of_[i]].drive == windows_[windows_of_[i - 1]].drive;
+}
+
+void WindowComparison::shift(WindowInput& input, std::size_t window, std::size_t which,
+                             double deviations) const {
+  constexpr double kLeast_mps2 = 0.002, kLeast_rps2 = 0.002, kSlope = 0.005;
+  const std::size_t wheels = vehicle_.wheels.size();
+  const WindowInput& measured = inputs_[window];
+  for (WindowInput::Place& place : input.places) {
+    if (which < wheels) {
+      place.rim_rad_s.at(which) += deviations * rim_std_rad_s_[window].at(which);
+    } else if (which == wheels) {
+      place.more_mps2 +=
+          deviations *
+          acceleration_std(measured, &WindowInput::Place::acceleration_mps2, kLeast_mps2);
+    } else if (which == wheels + 1) {
+      place.more_rps2 +=
+          deviations *
+          acceleration_std(measured, &WindowInput::Place::yaw_acceleration_rps2, kLeast_rps2);
+    } else {
+      (which == wheels + 2 ? place.more_slope_forward : place.more_slope_left) +=
+          deviations * kSlope;
+    }
+  }
+}
+
+WindowInput WindowComparison::shifted(std::size_t i) const {
+  WindowInput input = inputs_[i];
+  if (shifts_.size() == 0) return input;
+  for (std::size_t k = 0; k < inputs(); ++k) {
+    shift(input, i, k, shifts_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)));
+  }
+  return input;
+}
+
+Eigen::MatrixXd WindowComparison::predicted_as_said(const std::stop_token& stop) const {
+  return predicted(all(), {}, {}, Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols()), stop);
+}
+
+Eigen::MatrixXd WindowComparison::predicted(const WindowSet& windows,
+                                            const VehicleDeviation& deviation,
+                                            const std::vector<WindowZone>& zones,
+                                            const Eigen::MatrixXd& otherwise,
+                                            const std::stop_token& stop) const {
+  Eigen::MatrixXd result = otherwise;
+  parallel_for(windows.size(), threads_, [&](std::size_t n) {
+    throw_if_stopped(stop);
+    const auto values = predicted_in(windows[n], deviation, zones);
+    if (values) result.row(static_cast<Eigen::Index>(windows[n])) = *values;
+  });
+  return result;
+}
+
+/// Nothing where a window's motion does not balance.
+std::optional<Eigen::VectorXd> WindowComparison::predicted_in(
+    std::size_t i, const VehicleDeviation& deviation, const std::vector<WindowZone>& zones) const {
+  const auto prediction = model_.predict(shifted(i), deviation, stretches_in(i, zones));
+  if (!prediction) return {};
+  return vector_of(*prediction);
+}
+
+double WindowComparison::time_s(double at) const {
+  const auto last = static_cast<double>(size() - 1);
+  const auto i = static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, last));
+  const DriveWindow& window = windows_[windows_of_[i]];
+  return window.start_s + (at - static_cast<double>(i)) * window.duration_s();
+}
+
+/// Where windows begin or end with a zone, nothing says that it does not go on.
+SoilStretch WindowComparison::stretch_of(const WindowZone& zone) const {
+  constexpr double kNever_s = std::numeric_limits<double>::infinity();
+  const auto first = static_cast<std::size_t>(std::floor(zone.begins));
+  const auto last = static_cast<std::size_t>(std::ceil(zone.ends)) - 1;
+  const bool from_before = zone.begins == std::floor(zone.begins) && !consecutive(first);
+  const bool goes_on =
+      zone.ends == std::ceil(zone.ends) && (last + 1 == size() || !consecutive(last + 1));
+  const double within = std::nextafter(zone.ends, zone.begins);  // at the end of its last window
+  return {.starts_s = from_before ? -kNever_s : time_s(zone.begins),
+          .ends_s = goes_on ? kNever_s : time_s(within),
+          .soil = zone.soil,
+          .numbers = zone.numbers};
+}
+
+bool WindowComparison::touches(std::size_t i, const WindowZone& zone) const {
+  const auto first = static_cast<std::size_t>(std::floor(zone.begins));
+  if (windows_[windows_of_[i]].drive != windows_[windows_of_[first]].drive) return false;
+  const WindowInput& input = inputs_[i];
+  double ahead_s = 0;
+  for (const WheelMount& wheel : vehicle_.wheels) {
+    if (input.forward_mps != 0)
+      ahead_s = std::max(ahead_s, std::abs(wheel.x_m / input.forward_mps));
+  }
+  const SoilStretch stretch = stretch_of(zone);
+  return input.places.front().part.start_s - ahead_s < stretch.ends_s &&
+         input.places.back().part.end_s + ahead_s > stretch.starts_s;
+}
+
+WindowSet WindowComparison::all() const {
+  WindowSet windows(size());
+  std::iota(windows.begin(), windows.end(), 0);
+  return windows;
+}
+
+WindowSet WindowComparison::touching(const WindowZone& zone) const {
+  WindowSet windows = all();
+  std::erase_if(windows, [&](std::size_t i) { return !touches(i, zone); });
+  return windows;
+}
+
+WindowZone WindowComparison::widened(WindowZone zone, double windows) const {
+  auto first = static_cast<std::size_t>(std::floor(zone.begins));
+  auto end = static_cast<std::size_t>(std::ceil(zone.ends));
+  const double begins = zone.begins - windows, ends = zone.ends + windows;
+  while (static_cast<double>(first) > begins && consecutive(first)) --first;
+  while (static_cast<double>(end) < ends && end < size() && consecutive(end)) ++end;
+  zone.begins = std::max(begins, static_cast<double>(first));
+  zone.ends = std::min(ends, static_cast<double>(end));
+  return zone;
+}
+
+std::vector<SoilStretch> WindowComparison::stretches_in(
+    std::size_t i, const std::vector<WindowZone>& zones) const {
+  std::vector<SoilStretch> stretches;
+  for (const WindowZone& zone : zones) {
+    if (touches(i, zone)) stretches.push_back(stretch_of(zone));
+  }
+  return stretches;
+}
+
+void WindowComparison::start_at(const WindowSet& windows, const VehicleDeviation& deviation,
+                                const std::vector<WindowZone>& zones, const std::stop_token& stop) {
+  parallel_for(windows.size(), threads_, [&](std::size_t n) {
+    throw_if_stopped(stop);
+    const std::size_t i = windows[n];
+    const auto found = model_.predict(shifted(i), deviation, stretches_in(i, zones));
+    if (!found) return;
+    for (std::size_t j = 0; j < found->found.size(); ++j) {
+      inputs_[i].places[j].near = found->found[j];
+    }
+  });
+}
+
+std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const WindowSet& windows,
+                                                         const VehicleDeviation& deviation,
+                                                         const std::vector<WindowZone>& zones,
+                                                         const std::stop_token& stop) const {
+  std::vector<Eigen::MatrixXd> result(inputs(),
+                                      Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols()));
+  parallel_for(windows.size(), threads_, [&](std::size_t n) {
+    throw_if_stopped(stop);
+    const std::size_t i = windows[n];
+    const WindowInput input = shifted(i);
+    const std::vector<SoilStretch> stretches = stretches_in(i, zones);
+    const auto here = model_.predict(input, deviation, stretches);
+    if (!here) return;
+    for (std::size_t k = 0; k < inputs(); ++k) {
+      WindowInput further = input;
+      shift(further, i, k, 1);
+      const auto there = model_.predict(further, deviation, stretches);
+      if (!there) continue;
+      result[k].row(static_cast<Eigen::Index>(i)) = vector_of(*there) - vector_of(*here);
+    }
+  });
+  return result;
+}
+
+}  // namespace regoplan

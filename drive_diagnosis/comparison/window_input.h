@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "drive_diagnosis/comparison/window_prediction.h"
+#include "drive_diagnosis/recording/drive_recording.h"
+
+namespace regoplan {
+
+/// What the wheels of a drive were set to over the time that a window is smoothed over, and where
+/// the vehicle was: in parts of equal length, in finer ones where wheels begin or end to brake or
+/// to gain speed. Slip follows the wheels within less than a second, which parts of .6 s do not
+/// resolve where acceleration jumps: speeds were .005 m/s off there
+/// (WindowComparison.SlipIsFollowedWhereAVehicleBeginsToBrake).
+/// \returns nothing where the drive lacks some of it
+std::optional<WindowInput> input_of(const DriveRecording& drive, const DriveWindow& window,
+                                    const Vehicle& vehicle, double gravity_mps2);
+
+/// Whether wheels stand or turn round somewhere: they have no slip to speak of there.
+bool stands(const WindowInput& input);
+
+}  // namespace regoplan

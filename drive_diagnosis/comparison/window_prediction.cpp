@@ -1,0 +1,429 @@
+#include "drive_diagnosis/comparison/window_prediction.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "terramech/basics/input_error.h"
+#include "terramech/vehicle/steered_wheel.h"
+#include "terramech/vehicle/wheel_loads.h"
+#include "terramech/wheel/wheel_model.h"
+
+namespace regoplan {
+namespace {
+
+using Soils = std::array<std::int16_t, kMaxWheels>;
+
+/// A vehicle at a place, with its deviation worked in.
+struct Scene {
+  const Vehicle& vehicle;
+  const LoadSharing& sharing;
+  const WindowInput::Place& input;
+  const BodyMotion* before = nullptr;       ///< at the place before; null at the first
+  const BodyMotion* long_before = nullptr;  ///< before that; null at the first two
+  double step_s = 0;                        ///< from place to place
+  double tow_drag_n = 0;
+  PatchAxes axes;
+  double hollow_1pm = 0;
+  std::array<const WheelModel*, kMaxWheels> models{};
+  std::array<SteeredWheel, kMaxWheels> wheels{};
+  std::array<double, kMaxWheels> rim_mps{};
+};
+
+Vehicle deviating(Vehicle vehicle, const VehicleDeviation& deviation) {
+  vehicle.mass_kg *= 1 + deviation.payload_share;
+  return with_centre_moved(std::move(vehicle), deviation.cg_forward_m, deviation.cg_left_m,
+                           deviation.cg_up_m);
+}
+
+Soils soils_under(const TerrainMap& map, const Vehicle& vehicle, const WindowPart& place,
+                  const Soils& otherwise) {
+  Soils soils = otherwise;
+  const double c = std::cos(place.yaw_rad), s = std::sin(place.yaw_rad);
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const WheelMount& wheel = vehicle.wheels[i];
+    const auto soil = map.soil_index(place.x_m + c * wheel.x_m - s * wheel.y_m,
+                                     place.y_m + s * wheel.x_m + c * wheel.y_m);
+    if (soil) soils.at(i) = static_cast<std::int16_t>(*soil);
+  }
+  return soils;
+}
+
+/// The ground below a place, shifted as the map is said to lie off.
+GroundPatch ground_of(const GroundFinder& finder, const TerrainMap& map, const Vehicle& vehicle,
+                      WindowPart place, const VehicleDeviation& deviation) {
+  place.x_m -= deviation.map_east_m;
+  place.y_m -= deviation.map_north_m;
+  place.yaw_rad -= deviation.mounting_yaw_rad;
+  GroundPatch patch = finder.at(place.x_m, place.y_m, place.yaw_rad);
+  const bool borders_lie_off = deviation.soil_east_m != 0 || deviation.soil_north_m != 0;
+  if (patch.known && borders_lie_off) {
+    place.x_m -= deviation.soil_east_m;
+    place.y_m -= deviation.soil_north_m;
+    patch.soil = soils_under(map, vehicle, place, patch.soil);
+  }
+  return patch;
+}
+
+SoilNumbers numbers_at(const VehicleDeviation& deviation, std::size_t soil,
+                       const SoilNumbers& zone) {
+  SoilNumbers numbers = zone;
+  if (deviation.soils.empty()) return numbers;
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) numbers.at(k) += deviation.soils[soil].at(k);
+  return numbers;
+}
+
+/// Forces on the body at a motion, with the loads that a given total force leads to.
+struct Sums {
+  BodyForce force;
+  std::array<double, kMaxWheels> torque_nm{};
+  bool carried = true;
+};
+
+Sums sums_at(const Scene& scene, const BodyMotion& motion, const GroundReaction& reaction) {
+  Sums sums;
+  for (std::size_t i = 0; i < scene.vehicle.wheels.size(); ++i) {
+    const double load_n = scene.sharing.load_n(i, reaction);
+    if (!(load_n > 0)) {
+      sums.carried = false;
+      continue;
+    }
+    const WheelMount& mount = scene.vehicle.wheels[i];
+    const WheelForces forces = scene.models.at(i)->forces(
+        load_n, wheel_motion(mount, scene.wheels.at(i), motion, scene.rim_mps.at(i)));
+    if (!has_forces(forces.status)) sums.carried = false;
+    sums.force.add(mount, scene.wheels.at(i), forces);
+    sums.torque_nm.at(i) = forces.torque_nm;
+  }
+  return sums;
+}
+
+using Vector = Eigen::Vector3d;
+
+BodyMotion motion_of(const Vector& v) {
+  return {.vx_mps = v[0], .vy_mps = v[1], .yaw_rate_rad_s = v[2]};
+}
+
+Vector vector_of(const BodyMotion& motion) {
+  return {motion.vx_mps, motion.vy_mps, motion.yaw_rate_rad_s};
+}
+
+/// Rates of change of the velocities along and across, and of the yaw rate.
+Vector accelerations_at(const Scene& scene, const Vector& v) {
+  const WindowInput::Place& input = scene.input;
+  const Vector more{input.more_mps2, 0, input.more_rps2};
+  if (!scene.before) {
+    return more + Vector{input.acceleration_mps2, 0, input.yaw_acceleration_rps2};
+  }
+  const Vector before = vector_of(*scene.before);
+  if (!scene.long_before) return more + (v - before) / scene.step_s;
+  return more + (1.5 * v - 2 * before + 0.5 * vector_of(*scene.long_before)) / scene.step_s;
+}
+
+GroundReaction reaction_at(const Scene& scene, const Vector& v) {
+  const double m = scene.vehicle.mass_kg;
+  const Vector rate = accelerations_at(scene, v);
+  return {.normal_n = m * (scene.axes.gravity_normal_mps2 + v[0] * v[0] * scene.hollow_1pm),
+          .forward_n = m * (rate[0] - v[1] * v[2] - scene.axes.gravity_forward_mps2),
+          .left_n = m * (rate[1] + v[0] * v[2] - scene.axes.gravity_left_mps2)};
+}
+
+/// What is left over of forces and moment at a motion, in units of the weight.
+Vector imbalance(const Scene& scene, const Vector& v) {
+  const GroundReaction needed = reaction_at(scene, v);
+  const BodyForce force = sums_at(scene, motion_of(v), needed).force;
+  const double weight_n = scene.vehicle.mass_kg * scene.axes.gravity_normal_mps2;
+  const double turning = scene.vehicle.yaw_inertia_kgm2 * accelerations_at(scene, v)[2];
+  return Vector{force.forward_n - scene.tow_drag_n - needed.forward_n, force.left_n - needed.left_n,
+                force.yaw_nm - turning} /
+         weight_n;
+}
+
+Eigen::Matrix3d response_at(const Scene& scene, const Vector& v, const Vector& here) {
+  Eigen::Matrix3d slopes;
+  const double h = 1e-5 * std::max(std::abs(v[0]), 0.05);
+  for (int k = 0; k < 3; ++k) {
+    Vector moved = v;
+    moved[k] += h;
+    slopes.col(k) = (imbalance(scene, moved) - here) / h;
+  }
+  return slopes.fullPivLu().inverse();
+}
+
+/// Newton's method with slopes by differences, taken anew where the last ones serve badly; its
+/// steps are kept short.
+std::optional<MotionStart> balanced(const Scene& scene, const MotionStart& start) {
+  const auto& [motion, known] = start;
+  Vector v = vector_of(motion);
+  Eigen::Matrix3d response = known;
+  bool is_slow = known.isZero();
+  double last = std::numeric_limits<double>::infinity();
+  constexpr int kSteps = 25;
+  for (int step = 0; step < kSteps; ++step) {
+    const Vector here = imbalance(scene, v);
+    if (is_slow) response = response_at(scene, v, here);
+    Vector change = -response * here;
+    const double reach = 0.2 * std::max(std::abs(v[0]), 0.05);
+    const double largest = change.cwiseAbs().maxCoeff();
+    if (!std::isfinite(largest)) return {};
+    if (largest > reach) change *= reach / largest;
+    v += change;
+    constexpr double kClose = 1e-6, kSlow = 0.2;
+    if (largest < kClose) return MotionStart{motion_of(v), response};
+    is_slow = largest > kSlow * last;
+    last = largest;
+  }
+  return {};
+}
+
+/// What the model finds at a place.
+struct PlaceFound {
+  const Scene& scene;
+  const GroundPatch& patch;
+  double window_yaw_rad = 0;
+  const VehicleDeviation& deviation;
+  const Vector& v;
+  const Sums& sums;
+};
+
+/// Adds a place to what is said of its window, by its shares.
+void add_place(const PlaceFound& found, WindowPrediction& prediction) {
+  const auto& [scene, patch, window_yaw_rad, deviation, v, sums] = found;
+  const WindowPart& part = scene.input.part;
+  // Told at the point that is taken to be below the centre of gravity.
+  const double vx = v[0] + v[2] * deviation.cg_left_m;
+  const double vy = v[1] - v[2] * deviation.cg_forward_m;
+  const PatchAxes& axes = scene.axes;
+  const double forward = axes.forward_per_vx * vx + axes.forward_per_vy * vy;
+  const double left = axes.left_per_vy * vy;
+  const double turned = part.yaw_rad - window_yaw_rad;
+  const double c = std::cos(turned), s = std::sin(turned);
+  prediction.forward_mps += part.track_share * (c * forward - s * left);
+  prediction.left_mps += part.track_share * (s * forward + c * left);
+  prediction.yaw_rate_rad_s += part.turn_share * axes.yaw_per_turn * v[2];
+  prediction.pitch_rad += part.mean_share * std::atan(patch.slope_forward);
+  prediction.roll_rad +=
+      part.mean_share * std::atan(patch.slope_left / std::hypot(1, patch.slope_forward));
+  for (std::size_t i = 0; i < scene.vehicle.wheels.size(); ++i) {
+    prediction.torque_nm.at(i) += part.mean_share *
+                                  (sums.torque_nm.at(i) + deviation.wheel_drag_nm.at(i)) *
+                                  (1 + deviation.motor_share.at(i));
+  }
+}
+
+/// The same by a sensor of heading that does not look along the vehicle.
+WindowPrediction told_by_sensors(WindowPrediction prediction, const VehicleDeviation& deviation) {
+  const double forward = prediction.forward_mps, left = prediction.left_mps;
+  prediction.forward_mps += deviation.mounting_yaw_rad * left;
+  prediction.left_mps -= deviation.mounting_yaw_rad * forward;
+  return prediction;
+}
+
+bool is_valid(const Soil& soil) {
+  try {
+    validate(soil);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// Of strength and bearing, as far as tests of one soil scatter; 0 of all else.
+double assumed_spread(const Soil& mean, std::size_t number) {
+  constexpr double kStrength = 0.1, kBearing = 0.25;
+  double Soil::*const member = soil_parameters().at(number).member;
+  if (member == &Soil::cohesion_pa || member == &Soil::friction_angle_rad) {
+    return kStrength * std::abs(mean.*member);
+  }
+  if (member == &Soil::kc || member == &Soil::kphi) return kBearing * std::abs(mean.*member);
+  return 0;
+}
+
+}  // namespace
+
+SoilNumbers told_spread(const UncertainSoil& soil) {
+  SoilNumbers spread{};
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    spread.at(k) = soil.standard_deviation.*soil_parameters().at(k).member;
+  }
+  if (std::ranges::any_of(spread, [](double std) { return std > 0; })) return spread;
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) spread.at(k) = assumed_spread(soil.mean, k);
+  return spread;
+}
+
+SoilNumbers soil_spread(const UncertainSoil& soil) {
+  SoilNumbers spread = told_spread(soil);
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    if (!(spread.at(k) > 0)) spread.at(k) = assumed_spread(soil.mean, k);
+  }
+  return spread;
+}
+
+Soil deviating(const UncertainSoil& soil, const SoilNumbers& deviations) {
+  const SoilNumbers spread = soil_spread(soil);
+  const auto& parameters = soil_parameters();
+  for (double share = 1; share > 0.01; share *= 0.7) {  // short of what no soil is
+    Soil result = soil.mean;
+    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+      double& value = result.*parameters.at(k).member;
+      const double off = share * deviations.at(k) * spread.at(k);
+      if (off == 0) continue;
+      value = value > 0 ? value * std::exp(off / value) : value + off;
+    }
+    if (is_valid(result)) return result;
+  }
+  return soil.mean;
+}
+
+SoilNumbers deviations_between(const UncertainSoil& soil, const Soil& other) {
+  const SoilNumbers spread = soil_spread(soil);
+  SoilNumbers numbers{};
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    if (!(spread.at(k) > 0)) continue;
+    double Soil::*const member = soil_parameters().at(k).member;
+    const double from = soil.mean.*member, to = other.*member;
+    numbers.at(k) = (from > 0 && to > 0 ? from * std::log(to / from) : to - from) / spread.at(k);
+  }
+  return numbers;
+}
+
+SoilNumbers weaker_by(double deviations) {
+  SoilNumbers numbers{};
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    double Soil::*const member = soil_parameters().at(k).member;
+    const bool counts = member == &Soil::cohesion_pa || member == &Soil::friction_angle_rad ||
+                        member == &Soil::kc || member == &Soil::kphi;
+    if (counts) numbers.at(k) = -deviations;
+  }
+  return numbers;
+}
+
+SoilNumbers bearing_by(const UncertainSoil& soil, double log_factor) {
+  Soil other = soil.mean;
+  other.kc *= std::exp(log_factor);
+  other.kphi *= std::exp(log_factor);
+  return deviations_between(soil, other);
+}
+
+Soil weaker(const UncertainSoil& soil, double deviations) {
+  return deviating(soil, weaker_by(deviations));
+}
+
+void VehicleDeviation::add(const VehicleDeviation& other, double times) {
+  for (std::size_t i = 0; i < kMaxWheels; ++i) {
+    wheel_drag_nm.at(i) += times * other.wheel_drag_nm.at(i);
+    steering_offset_rad.at(i) += times * other.steering_offset_rad.at(i);
+    motor_share.at(i) += times * other.motor_share.at(i);
+  }
+  for (double VehicleDeviation::*of :
+       {&VehicleDeviation::radius_share, &VehicleDeviation::payload_share,
+        &VehicleDeviation::cg_forward_m, &VehicleDeviation::cg_left_m, &VehicleDeviation::cg_up_m,
+        &VehicleDeviation::tow_drag_n, &VehicleDeviation::map_east_m,
+        &VehicleDeviation::map_north_m, &VehicleDeviation::soil_east_m,
+        &VehicleDeviation::soil_north_m, &VehicleDeviation::mounting_pitch_rad,
+        &VehicleDeviation::mounting_roll_rad, &VehicleDeviation::mounting_yaw_rad}) {
+    this->*of += times * (other.*of);
+  }
+  if (soils.size() < other.soils.size()) soils.resize(other.soils.size());
+  for (std::size_t i = 0; i < other.soils.size(); ++i) {
+    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+      soils[i].at(k) += times * other.soils[i].at(k);
+    }
+  }
+}
+
+WindowModel::WindowModel(const TerrainMap& map, const Vehicle& vehicle, double gravity_mps2)
+    : map_(map), vehicle_(vehicle), ground_(map, vehicle), gravity_mps2_(gravity_mps2) {}
+
+bool WindowModel::knows_ground(const WindowInput& input) const {
+  return std::ranges::all_of(input.places, [this](const WindowInput::Place& place) {
+    return ground_.at(place.part.x_m, place.part.y_m, place.part.yaw_rad).known;
+  });
+}
+
+BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxWheels>& rim_rad_s,
+                          const std::array<double, kMaxWheels>& steer_rad) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Vector sum = Vector::Zero();
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const WheelMount& mount = vehicle.wheels[i];
+    const double rim_mps = rim_rad_s.at(i) * vehicle.wheel.radius_m;
+    const Vector forward{1, 0, -mount.y_m}, left{0, 1, mount.x_m};
+    normal += forward * forward.transpose() + left * left.transpose();
+    sum += rim_mps * (std::cos(steer_rad.at(i)) * forward + std::sin(steer_rad.at(i)) * left);
+  }
+  return motion_of(normal.ldlt().solve(sum));
+}
+
+std::optional<WindowPrediction> WindowModel::predict(
+    const WindowInput& input, const VehicleDeviation& deviation,
+    const std::vector<SoilStretch>& stretches) const {
+  const Vehicle changed = deviating(vehicle_, deviation);
+  const LoadSharing sharing(changed);
+  // Of the map's soils, then of the stretches.
+  const std::size_t soils = map_.soils().size();
+  std::vector<std::optional<WheelModel>> models(soils + stretches.size());
+  const auto model_of = [&](std::size_t model, std::size_t soil, const SoilNumbers& numbers) {
+    if (!models[model]) {
+      models[model].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
+                                           .soil = deviating(map_.soils()[soil].soil,
+                                                             numbers_at(deviation, soil, numbers)),
+                                           .gravity_mps2 = gravity_mps2_},
+                            WheelAccuracy::kFast);
+    }
+    return &*models[model];
+  };
+  const auto model_at = [&](double time_s, std::size_t soil) {
+    const auto on = std::ranges::find_if(stretches, [time_s](const SoilStretch& stretch) {
+      return time_s >= stretch.starts_s && time_s < stretch.ends_s;
+    });
+    if (on == stretches.end()) return model_of(soil, soil, {});
+    return model_of(soils + static_cast<std::size_t>(on - stretches.begin()),
+                    static_cast<std::size_t>(on->soil), on->numbers);
+  };
+  WindowPrediction prediction{.pitch_rad = deviation.mounting_pitch_rad,
+                              .roll_rad = deviation.mounting_roll_rad,
+                              .found = std::vector<MotionStart>(input.places.size())};
+  for (std::size_t j = 0; j < input.places.size(); ++j) {
+    const WindowInput::Place& place = input.places[j];
+    GroundPatch patch = ground_of(ground_, map_, vehicle_, place.part, deviation);
+    if (!patch.known) return {};
+    patch.slope_forward += place.more_slope_forward;
+    patch.slope_left += place.more_slope_left;
+    Scene scene{.vehicle = changed,
+                .sharing = sharing,
+                .input = place,
+                .before = j > 0 ? &prediction.found[j - 1].motion : nullptr,
+                .long_before = j > 1 ? &prediction.found[j - 2].motion : nullptr,
+                .step_s = place.part.end_s - place.part.start_s,
+                .tow_drag_n = deviation.tow_drag_n,
+                .axes = PatchAxes(patch, gravity_mps2_),
+                .hollow_1pm = patch.curvature_1pm};
+    for (std::size_t i = 0; i < changed.wheels.size(); ++i) {
+      const double steer = place.steer_rad.at(i) + deviation.steering_offset_rad.at(i);
+      scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
+      scene.rim_mps.at(i) =
+          place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
+      const double ahead_s = input.forward_mps == 0 ? 0 : changed.wheels[i].x_m / input.forward_mps;
+      scene.models.at(i) = model_at((place.part.start_s + place.part.end_s) / 2 + ahead_s,
+                                    static_cast<std::size_t>(patch.soil.at(i)));
+    }
+    auto found = balanced(scene, place.near);
+    if (!found) found = balanced(scene, place.start);
+    if (!found) return {};
+    const BodyMotion& motion = found->motion;
+    const Vector v = vector_of(motion);
+    const Sums sums = sums_at(scene, motion, reaction_at(scene, v));
+    if (!sums.carried) return {};
+    prediction.found[j] = *found;
+    add_place({scene, patch, input.yaw_rad, deviation, v, sums}, prediction);
+  }
+  return told_by_sensors(prediction, deviation);
+}
+
+}  // namespace regoplan

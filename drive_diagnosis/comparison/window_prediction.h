@@ -1,0 +1,135 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "drive_diagnosis/recording/drive_windows.h"
+#include "maps/ground_finder.h"
+#include "maps/terrain_map.h"
+#include "terramech/parameters/vehicle.h"
+#include "terramech/vehicle/steered_wheel.h"
+
+namespace regoplan {
+
+/// Deviations of the numbers of a soil, in the order of `soil_parameters()`, each in standard
+/// deviations of its own.
+inline constexpr std::size_t kSoilNumbers = 14;
+using SoilNumbers = std::array<double, kSoilNumbers>;
+
+/// How far the numbers of a map's soil are known: their standard deviations; of a soil that has
+/// none at all, strength by a tenth and bearing moduli by a quarter.
+SoilNumbers told_spread(const UncertainSoil& soil);
+
+/// How far the numbers of a soil vary, another's in its place as well: as told, and strength and
+/// bearing moduli that have no standard deviation by a tenth and by a quarter. Without them no
+/// other soil could be told from this one.
+SoilNumbers soil_spread(const UncertainSoil& soil);
+
+/// The soil with its numbers so many deviations off. Numbers that are positive stay so: they are
+/// multiplied.
+Soil deviating(const UncertainSoil& soil, const SoilNumbers& deviations);
+
+/// The deviations of a soil by which `deviating` gives another.
+SoilNumbers deviations_between(const UncertainSoil& soil, const Soil& other);
+
+/// So many standard deviations less of friction, cohesion and bearing moduli.
+SoilNumbers weaker_by(double deviations);
+/// Deviations that multiply kc and kphi of a soil by exp(`log_factor`).
+SoilNumbers bearing_by(const UncertainSoil& soil, double log_factor);
+Soil weaker(const UncertainSoil& soil, double deviations);
+
+/// Where the search for a motion starts.
+struct MotionStart {
+  BodyMotion motion;
+  /// By how much the motion changes against what is out of balance; 0 where it is not known.
+  Eigen::Matrix3d response = Eigen::Matrix3d::Zero();
+};
+
+/// What a window gives the model: where the vehicle is while it is smoothed, and what its wheels
+/// are set to there.
+struct WindowInput {
+  struct Place {
+    WindowPart part;
+    double acceleration_mps2 =
+        0;  ///< measured, of wheels that roll: of the speed along the heading
+    double yaw_acceleration_rps2 = 0;
+    /// What the model is to take for more than its own accelerations.
+    double more_mps2 = 0, more_rps2 = 0;
+    /// By how much the ground rises more than the map says, along and to the left, per metre.
+    double more_slope_forward = 0, more_slope_left = 0;
+    MotionStart near;   ///< where the search for the motion starts
+    MotionStart start;  ///< and where it starts again if that leads nowhere
+    std::array<double, kMaxWheels> rim_rad_s{};
+    std::array<double, kMaxWheels> steer_rad{};
+  };
+  std::vector<Place> places;
+  double yaw_rad = 0;      ///< what velocities are told along
+  double forward_mps = 0;  ///< measured: by it wheels are ahead of the body in time
+};
+
+/// What the model says of a window; velocities are horizontal, angles those of the ground.
+struct WindowPrediction {
+  double forward_mps = 0, left_mps = 0, yaw_rate_rad_s = 0;
+  double pitch_rad = 0, roll_rad = 0;
+  std::array<double, kMaxWheels> torque_nm{};
+  std::vector<MotionStart> found;  ///< motions of the body at each place
+};
+
+/// What may be otherwise with the vehicle or the ground than it is said to be; all 0 is as said.
+struct VehicleDeviation {
+  std::array<double, kMaxWheels> wheel_drag_nm{};
+  std::array<double, kMaxWheels> steering_offset_rad{};
+  std::array<double, kMaxWheels> motor_share{};  ///< of the torque told
+  double radius_share = 0;                       ///< of the wheels' radius
+  double payload_share = 0;                      ///< of the mass
+  double cg_forward_m = 0, cg_left_m = 0, cg_up_m = 0;
+  double tow_drag_n = 0;                     ///< pulls back at the centre of gravity
+  double map_east_m = 0, map_north_m = 0;    ///< by which the map lies off
+  double soil_east_m = 0, soil_north_m = 0;  ///< by which its soils lie off besides
+  double mounting_pitch_rad = 0, mounting_roll_rad = 0, mounting_yaw_rad = 0;  ///< of the sensors
+  std::vector<SoilNumbers> soils;  ///< of each soil of the map; empty: none
+
+  /// Adds so many times another.
+  void add(const VehicleDeviation& other, double times);
+};
+
+/// One soil on a stretch of the way, whatever the map says there: from when the middle of the body
+/// comes to it until it leaves it. Each wheel does so when it is there itself.
+struct SoilStretch {
+  double starts_s = 0, ends_s = 0;
+  int soil = 0;           ///< of the map, that its numbers are told from
+  SoilNumbers numbers{};  ///< on top of the deviations of that soil
+};
+
+/// The motion of a vehicle whose wheels rolled without slip, as nearly as they can (least squares).
+BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxWheels>& rim_rad_s,
+                          const std::array<double, kMaxWheels>& steer_rad);
+
+/// Motion of a vehicle whose wheels turn and steer as measured: the body's velocities at the places
+/// of a window, one after the other, at which the wheels' forces and gravity give what the body
+/// accelerates from the two places before (backward differences, BDF2); at the first, what rolling
+/// wheels accelerate. Slip thus lags behind the wheels as it does. What it says of a window is what
+/// the smoothing makes of these motions.
+class WindowModel {
+ public:
+  /// All must outlive it.
+  WindowModel(const TerrainMap& map, const Vehicle& vehicle, double gravity_mps2);
+
+  /// Whether the ground is known at each of its places.
+  bool knows_ground(const WindowInput& input) const;
+  /// Nothing where the ground is not known or no motion balances.
+  /// \param stretches the first that a wheel is on counts
+  std::optional<WindowPrediction> predict(const WindowInput& input,
+                                          const VehicleDeviation& deviation,
+                                          const std::vector<SoilStretch>& stretches = {}) const;
+
+ private:
+  const TerrainMap& map_;
+  const Vehicle& vehicle_;
+  GroundFinder ground_;
+  double gravity_mps2_;
+};
+
+}  // namespace regoplan

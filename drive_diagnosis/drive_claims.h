@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "drive_diagnosis/drive_diagnosis.h"
+
+namespace regoplan {
+
+/// Claims a mounting of the attitude sensor that is not where the setup says, by more than 4.5
+/// standard deviations; finds attitudes of a wrong sign or unit.
+void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result);
+
+/// Claims that one side takes more current than the other straight ahead on the level, where
+/// `result.currents` found it, and says where.
+void claim_side_drag(DriveDiagnosis& result);
+
+/// Claims what the contest of `result.effects` found, and says where zones lie.
+void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
+                   DriveDiagnosis& result);
+
+}  // namespace regoplan

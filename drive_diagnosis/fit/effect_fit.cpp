@@ -1,0 +1,434 @@
+#include "drive_diagnosis/fit/effect_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "drive_diagnosis/contest/slope_errors.h"
+#include "drive_diagnosis/fit/likely_edges.h"
+
+namespace regoplan {
+namespace {
+
+constexpr double kSettled = 0.05;  ///< deviations
+
+std::vector<std::size_t> numbers_that_vary(const TerrainMap& map) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+    const bool varies = std::ranges::any_of(
+        map.soils(), [k](const MapSoil& soil) { return soil_spread(soil.soil).at(k) > 0; });
+    if (varies) numbers.push_back(k);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
+                     const std::vector<VehicleTrial>& trials, const std::vector<LikelySoil>& likely,
+                     const std::stop_token& stop)
+    : comparison_(comparison),
+      map_(map),
+      trials_(trials),
+      stop_(stop),
+      numbers_(numbers_that_vary(map)),
+      linearisation_(comparison, trials, numbers_, stop),
+      fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials.size()))} {
+  shifts_ = Eigen::MatrixXd::Zero(comparison.measured().rows(),
+                                  static_cast<Eigen::Index>(comparison.inputs()));
+  for (std::size_t i = 0; i < comparison.size(); ++i) {
+    contest_.follows.push_back(comparison.consecutive(i));
+  }
+  for (const VehicleTrial& trial : trials_) contest_.claimable.push_back(!trial.id.empty());
+  contest_.soil_numbers = numbers_.size();
+  contest_.wide_directions = differences_among_soils_driven();
+  for (const LikelySoil& soil : likely) {
+    constexpr double kFarthest = 6;
+    contest_.likely_soils.push_back(
+        values_of(soil.numbers).cwiseMax(-kFarthest).cwiseMin(kFarthest));
+  }
+}
+
+EffectFound EffectFit::strongest(std::uint64_t seed) {
+  Linearised here = linearise();
+  const std::vector<Eigen::MatrixXd> soil = soil_columns(here.windows.base);
+  whiten_soil(soil, here.noise);
+  EffectFound strongest = strongest_effect(contest_, seed);
+  if (strongest.stands_out || !strongest.is_zone) return strongest;
+  // A zone that is there has widened the noise that it was held against.
+  std::vector<Eigen::MatrixXd>& numbers = here.windows.zones.emplace_back();
+  for (const Eigen::MatrixXd& number : soil) {
+    numbers.emplace_back(strongest.share.asDiagonal() * number);
+  }
+  whiten_soil(soil, whiten(here.windows));
+  return strongest_effect(contest_, seed);
+}
+
+/// What each number of another soil changes in each window.
+std::vector<Eigen::MatrixXd> EffectFit::soil_columns(const Eigen::MatrixXd& base) const {
+  std::vector<Eigen::MatrixXd> columns;
+  for (const std::size_t number : numbers_) {
+    VehicleDeviation there = deviation();
+    there.soils.resize(map_.soils().size());
+    for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
+    columns.push_back(comparison_.predicted(comparison_.all(), there, zones(), base, stop_) - base);
+  }
+  return columns;
+}
+
+void EffectFit::add(const EffectFound& effect) {
+  if (effect.is_zone) {
+    contest_.zones_known.push_back({.share = effect.share, .columns = {}});
+    edges_.push_back({effect.begins, effect.ends});
+    fit_.zones.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size())));
+  } else {
+    contest_.faults_known.push_back(effect.parameter);
+  }
+}
+
+VehicleDeviation EffectFit::deviation() const {
+  return linearisation_.deviation_of(fit_);
+}
+
+SoilNumbers EffectFit::numbers_of(const Eigen::VectorXd& values) const {
+  SoilNumbers numbers{};
+  for (std::size_t k = 0; k < numbers_.size(); ++k) {
+    numbers.at(numbers_[k]) = values[static_cast<Eigen::Index>(k)];
+  }
+  return numbers;
+}
+
+/// Of the numbers that vary.
+Eigen::VectorXd EffectFit::values_of(const SoilNumbers& numbers) const {
+  Eigen::VectorXd values(static_cast<Eigen::Index>(numbers_.size()));
+  for (std::size_t k = 0; k < numbers_.size(); ++k) {
+    values[static_cast<Eigen::Index>(k)] = numbers.at(numbers_[k]);
+  }
+  return values;
+}
+
+/// In the mean of the map's soils that were driven on.
+std::vector<Eigen::VectorXd> EffectFit::differences_among_soils_driven() const {
+  std::vector<Eigen::VectorXd> sum;
+  double count = 0;
+  for (std::size_t i = 0; i < map_.soils().size(); ++i) {
+    if (!comparison_.soils_driven()[i]) continue;
+    const std::vector<SoilNumbers> differences = differences_among_soils(map_.soils()[i].soil);
+    sum.resize(differences.size(), values_of({}));
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += values_of(differences[k]);
+    ++count;
+  }
+  for (Eigen::VectorXd& difference : sum) difference /= count;
+  return sum;
+}
+
+std::vector<WindowZone> EffectFit::zones() const {
+  std::vector<WindowZone> result;
+  for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+    result.push_back({.begins = edges_[z][0],
+                      .ends = edges_[z][1],
+                      .soil = soil_of(z),
+                      .numbers = numbers_of(fit_.zones[z])});
+  }
+  return result;
+}
+
+Eigen::MatrixXd EffectFit::predicted() const {
+  return comparison_.predicted(comparison_.all(), deviation(), zones(),
+                               comparison_.predicted_as_said(stop_), stop_);
+}
+
+/// Brings data and columns of the contest to the present fit.
+EffectFit::Linearised EffectFit::linearise() {
+  LinearisedWindows here = linearisation_.about(fit_, zones(), shifts_);
+  const Eigen::MatrixXd left = here.data - here.changed_by(fit_);
+  // Where a zone's soil carries the vehicle nowhere in it nothing is predicted there but what the
+  // map says, and no soil is likelier than another.
+  const bool is_carried = std::ranges::all_of(here.zones, [](const auto& numbers) {
+    return !std::ranges::all_of(numbers,
+                                [](const Eigen::MatrixXd& number) { return number.isZero(0); });
+  });
+  ResidualNoise noise = whiten(here);
+  shifts_ = noise.inputs_given(left);
+  const double nats = is_carried ? noise.nats(left) : std::numeric_limits<double>::infinity();
+  return {.windows = std::move(here), .noise = std::move(noise), .nats = nats};
+}
+
+ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
+  std::vector<Eigen::MatrixXd> global = here.columns;
+  std::vector<bool> may_be_wrong = contest_.claimable;
+  for (const std::vector<Eigen::MatrixXd>& numbers : here.zones) {
+    for (const Eigen::MatrixXd& number : numbers) {
+      global.push_back(number);
+      may_be_wrong.push_back(true);
+    }
+  }
+  std::vector<bool> unknown;
+  for (std::size_t k = 0; k < here.inputs.size(); ++k) {
+    unknown.push_back(k >= comparison_.slope_along());
+  }
+  return {.residuals = here.data,
+          .columns = std::move(global),
+          .may_be_wrong = std::move(may_be_wrong),
+          .inputs = here.inputs,
+          .scatters_unknown = unknown,
+          .follows = contest_.follows,
+          .sizes = comparison_.sizes(),
+          .sampled_std = comparison_.sampled_std(),
+          .more_std = comparison_.more_std()};
+}
+
+/// How far residuals scatter in the windows that do not touch a zone; nothing where those are too
+/// few to tell.
+std::optional<ScatterSources> EffectFit::scatter_outside(const LinearisedWindows& here,
+                                                         const Eigen::VectorXd& zone) const {
+  constexpr std::size_t kFewest = 10;
+  std::vector<Eigen::Index> outside;
+  for (Eigen::Index w = 0; w < zone.size(); ++w) {
+    if (zone[w] == 0) outside.push_back(w);
+  }
+  if (outside.size() < kFewest) return std::nullopt;
+  return ResidualNoise(parts_of(residual_parts(here), outside)).sources();
+}
+
+/// Makes data and columns of the contest white.
+ResidualNoise EffectFit::whiten(const LinearisedWindows& here) {
+  ResidualParts parts = residual_parts(here);
+  ResidualNoise noise =
+      scatter_ ? ResidualNoise(std::move(parts), *scatter_) : ResidualNoise(std::move(parts));
+  noise_ = noise.scales();
+  contest_.data = noise.whitened(here.data);
+  contest_.parameters.resize(contest_.data.size(), static_cast<Eigen::Index>(here.columns.size()));
+  for (std::size_t k = 0; k < here.columns.size(); ++k) {
+    contest_.parameters.col(static_cast<Eigen::Index>(k)) = noise.whitened(here.columns[k]);
+  }
+  for (std::size_t z = 0; z < contest_.zones_known.size(); ++z) {
+    Eigen::MatrixXd& known = contest_.zones_known[z].columns;
+    known.resize(contest_.data.size(), static_cast<Eigen::Index>(numbers_.size()));
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      known.col(static_cast<Eigen::Index>(k)) = noise.whitened(here.zones[z][k]);
+    }
+  }
+  const std::size_t along = comparison_.slope_along();
+  const auto white = [&](std::size_t input) {
+    return Eigen::VectorXd(noise.sources().inputs[input] * noise.whitened(here.inputs[input]));
+  };
+  contest_.ground = likely_slope_errors(
+      contest_, {.along = white(along), .across = white(along + 1), .channels = here.base.cols()},
+      comparison_.channel("pitch_rad"));
+  return noise;
+}
+
+/// Makes columns of soil of its own white.
+void EffectFit::whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise) {
+  const auto windows = static_cast<Eigen::Index>(comparison_.size());
+  const auto numbers = static_cast<Eigen::Index>(numbers_.size());
+  contest_.soil.resize(contest_.data.size(), windows * numbers);
+  for (Eigen::Index k = 0; k < numbers; ++k) {
+    const Eigen::MatrixXd& column = soil[static_cast<std::size_t>(k)];
+    for (Eigen::Index w = 0; w < windows; ++w) {
+      Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(windows, column.cols());
+      alone.row(w) = column.row(w);
+      contest_.soil.col(w * numbers + k) = noise.whitened(alone);
+    }
+  }
+}
+
+void EffectFit::go_on_from(Settled settled) {
+  fit_ = std::move(settled.fit);
+  shifts_ = std::move(settled.shifts);
+  comparison_.shift_inputs(shifts_);
+}
+
+void EffectFit::settle() {
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    linearise();
+    if (step() < kSettled) break;
+  }
+}
+
+void EffectFit::settle_with(EffectFound& effect) {
+  if (effect.is_zone) {
+    settle_zone(effect);
+  } else if (fit_.zones.empty()) {
+    settle();
+  } else {
+    go_on_from(settled_from_here());
+  }
+}
+
+void EffectFit::settle_zone(EffectFound& zone) {
+  const Settled start{.fit = fit_, .shifts = shifts_};
+  LinearisedWindows here = linearise().windows;
+  // A soil that fits badly leaves misfit in its zone, which would pass for noise.
+  scatter_ = scatter_outside(here, zone.share);
+  // A tenth of the windows is far from linear in what is sought: most of the time is saved.
+  WindowSet windows = windows_far_from_linear(here);
+  linearisation_.predict_only(std::move(windows), std::move(here));
+  Settled best = likeliest_soil(start, zone);
+  linearisation_.predict_all();
+  take_edges(zone);
+  go_on_from(std::move(best));
+  go_on_from(settled_with_edges(zone));
+  scatter_.reset();
+}
+
+/// Windows that a soil far from the map's moves beyond their first order while the zone that was
+/// added last is settled: those that a zone touches or may come to touch, and those in which the
+/// model has no motion.
+WindowSet EffectFit::windows_far_from_linear(const LinearisedWindows& here) const {
+  constexpr double kEdgesMove = 4;  // windows, in all rounds of place_edges
+  std::vector<WindowZone> all = zones();
+  all.back() = comparison_.widened(all.back(), kEdgesMove);
+  WindowSet windows = here.unbalanced;
+  for (const WindowZone& zone : all) {
+    WindowSet both;
+    std::ranges::set_union(windows, comparison_.touching(zone), std::back_inserter(both));
+    windows = std::move(both);
+  }
+  return windows;
+}
+
+/// \param zone gets the edges that it is likeliest with
+EffectFit::Settled EffectFit::likeliest_soil(const Settled& start, EffectFound& zone) {
+  const EffectFound found = zone;
+  const auto& less = contest_.wide_directions;  // bearing, cohesion and friction come first
+  const Eigen::VectorXd weaker = less[0] + less[1] + less[2];
+  Settled best;
+  for (const double weakness : {0.0, 1.4, 2.8}) {
+    EffectFound placed = found;
+    take_edges(placed);
+    go_on_from(start);
+    fit_.zones.back() = weakness * weaker;
+    Settled settled = settled_with_edges(placed);
+    // The map's soil is the answer where none of all says anything.
+    if (!best.fit.zones.empty() && settled.nats >= best.nats) continue;
+    best = std::move(settled);
+    zone = placed;
+  }
+  return best;
+}
+
+/// Soil and edges of the zone that was added last, in turn: an edge that is off by half a window
+/// asks for a soil that is nowhere.
+EffectFit::Settled EffectFit::settled_with_edges(EffectFound& zone) {
+  constexpr int kStepsBefore = 3, kRounds = 3;
+  Settled settled = settled_from_here(kStepsBefore);
+  for (int round = 0; round < kRounds; ++round) {
+    go_on_from(settled);
+    if (!place_edges(zone) && round > 0) break;
+    settled = settled_from_here();
+  }
+  return settled;
+}
+
+void EffectFit::take_edges(const EffectFound& zone) {
+  contest_.zones_known.back().share = zone.share;
+  edges_.back() = {zone.begins, zone.ends};
+}
+
+/// Moves the edges of the zone that was added last to where its soil makes them likeliest.
+/// \returns whether they moved
+bool EffectFit::place_edges(EffectFound& zone) {
+  const Eigen::MatrixXd shifts = shifts_;
+  const Linearised here = linearise();
+  // What the inputs' scatter explains stays what it is.
+  const Eigen::MatrixXd measured = comparison_.measured() + here.windows.shifted_by(shifts);
+  const VehicleDeviation vehicle = deviation();
+  const LikelyEdges edges = likely_edges({.comparison = comparison_,
+                                          .deviation = vehicle,
+                                          .measured = measured,
+                                          .predicted = here.windows.base,
+                                          .noise = here.noise},
+                                         zones(), stop_);
+  zone.begins = edges.begins;
+  zone.ends = edges.ends;
+  zone.first_at = edges.begins_ci95;
+  zone.last_at = edges.ends_ci95;
+  zone.share = shares_between(edges.begins, edges.ends, comparison_.size());
+  const std::array<double, 2> before = edges_.back();
+  take_edges(zone);
+  return edges_.back() != before;
+}
+
+/// Steps are taken where they lead to what is likelier, and else shortened, until nothing changes
+/// by more than noise would.
+EffectFit::Settled EffectFit::settled_from_here(int steps_most) {
+  constexpr double kShorter = 0.4, kSmallest = 0.1, kSame_nats = 0.1;
+  Settled best;
+  ContestFit towards;
+  double share = 1;
+  for (int round = 0; round < steps_most && share > kSmallest; ++round) {
+    const Settled here{.fit = fit_, .shifts = shifts_};
+    const double nats = linearise().nats + prior_nats(contest_, fit_);
+    const bool is_same = round > 0 && std::abs(nats - best.nats) < kSame_nats;
+    if (round == 0 || nats < best.nats) {
+      best = {.fit = here.fit, .shifts = here.shifts, .nats = nats};
+      step();
+      towards = fit_;
+      best.fit.parameters_std = towards.parameters_std;
+      best.fit.zones_covariance = towards.zones_covariance;
+      share = std::min(1.0, share / kShorter);
+    } else {
+      share *= kShorter;
+      shifts_ = best.shifts;
+    }
+    if (is_same) break;
+    fit_ = towards;
+    fit_.parameters = best.fit.parameters + share * (towards.parameters - best.fit.parameters);
+    for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
+      fit_.zones[z] = best.fit.zones[z] + share * (towards.zones[z] - best.fit.zones[z]);
+    }
+  }
+  return best;
+}
+
+/// To the most likely parameters as the contest is linearised; steps that are long are shortened.
+/// \returns the longest part of it, in deviations of what a sound vehicle and its soils are off
+double EffectFit::step() {
+  constexpr double kLongest = 1.5, kZoneLongest = 4, kZoneFarthest = 24;  // deviations
+  ContestFit next = fit_contest(contest_);
+  const double longest = longest_of_sound(next.parameters - fit_.parameters);
+  if (longest > kLongest) {
+    next.parameters = fit_.parameters + kLongest / longest * (next.parameters - fit_.parameters);
+  }
+  for (std::size_t z = 0; z < next.zones.size(); ++z) {
+    const Eigen::VectorXd off = next.zones[z] - fit_.zones[z];
+    const double length = off.cwiseAbs().maxCoeff();
+    if (length > kZoneLongest) next.zones[z] = fit_.zones[z] + kZoneLongest / length * off;
+    next.zones[z] = next.zones[z].cwiseMax(-kZoneFarthest).cwiseMin(kZoneFarthest);
+  }
+  fit_ = std::move(next);
+  return longest;
+}
+
+/// Of a step, how far it takes whatever a sound vehicle and its soils may be off.
+double EffectFit::longest_of_sound(const Eigen::VectorXd& step) const {
+  double longest = 0;
+  for (std::size_t k = 0; k < trials_.size(); ++k) {
+    const auto& known = contest_.faults_known;
+    if (std::ranges::find(known, k) != known.end()) continue;
+    longest = std::max(longest, std::abs(step[static_cast<Eigen::Index>(k)]));
+  }
+  return longest;
+}
+
+int EffectFit::soil_at(std::size_t i) const {
+  const std::vector<WindowInput::Place>& places = comparison_.input(i).places;
+  const WindowPart& middle = places[places.size() / 2].part;
+  return map_.soil_index(middle.x_m, middle.y_m).value_or(0);
+}
+
+/// The soil of the map that most of a zone is said to be.
+int EffectFit::soil_of(std::size_t zone) const {
+  const Eigen::VectorXd& share = contest_.zones_known[zone].share;
+  std::vector<double> lies_on(map_.soils().size());
+  for (std::size_t i = 0; i < comparison_.size(); ++i) {
+    lies_on[static_cast<std::size_t>(soil_at(i))] += share[static_cast<Eigen::Index>(i)];
+  }
+  return static_cast<int>(std::ranges::max_element(lies_on) - lies_on.begin());
+}
+
+}  // namespace regoplan

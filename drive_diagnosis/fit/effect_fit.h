@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "drive_diagnosis/comparison/vehicle_trials.h"
+#include "drive_diagnosis/comparison/window_comparison.h"
+#include "drive_diagnosis/contest/effect_contest.h"
+#include "drive_diagnosis/contest/residual_noise.h"
+#include "drive_diagnosis/fit/likely_soils.h"
+#include "drive_diagnosis/fit/window_linearisation.h"
+
+namespace regoplan {
+
+/// Fits all that may be otherwise to a drive's windows, linearised anew about each fit: parameters
+/// of a sound vehicle and its soils, and the faults and zones that were found.
+class EffectFit {
+ public:
+  /// All must outlive it. \param likely soils that a zone may well have
+  EffectFit(WindowComparison& comparison, const TerrainMap& map,
+            const std::vector<VehicleTrial>& trials, const std::vector<LikelySoil>& likely,
+            const std::stop_token& stop);
+  EffectFit(const EffectFit&) = delete;
+  EffectFit& operator=(const EffectFit&) = delete;
+
+  /// The strongest effect of those that are not known yet, about the present fit.
+  EffectFound strongest(std::uint64_t seed);
+  /// An effect is known from now on.
+  void add(const EffectFound& effect);
+  /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
+  /// their means change what everything else does.
+  void settle();
+  /// The same with the effect that was added last. Soils far off are no longer linear, so that
+  /// steps may lead away again, and lead elsewhere from a soil like the map's than from weaker
+  /// ones, down to what carries no vehicle: the likeliest of where they led counts, each with a
+  /// zone that begins and ends where that soil makes it likeliest. While a zone is sought, windows
+  /// far from it are what they were, to first order; in the end all are linearised anew.
+  void settle_with(EffectFound& effect);
+
+  const ContestFit& fit() const { return fit_; }
+  /// How far each channel scatters.
+  const std::vector<double>& noise() const { return noise_; }
+  /// Indices of soils' numbers that vary.
+  const std::vector<std::size_t>& numbers() const { return numbers_; }
+  SoilNumbers numbers_of(const Eigen::VectorXd& values) const;
+  /// The parameters as they are fitted.
+  VehicleDeviation deviation() const;
+  /// What the model says of each window with them and the known zones.
+  Eigen::MatrixXd predicted() const;
+  /// The soil of the map that most of a zone is said to be. \param zone index of those added
+  int soil_of(std::size_t zone) const;
+  /// The soil of the map in the middle of a window.
+  int soil_at(std::size_t window) const;
+
+ private:
+  /// The windows about the present fit.
+  struct Linearised {
+    LinearisedWindows windows;
+    ResidualNoise noise;  ///< that the contest was made white by
+    /// By which what the fit leaves is unlikely; infinite where a zone carries nowhere.
+    double nats = 0;
+  };
+
+  /// A fit, and by how many nats what it leaves is unlikely.
+  struct Settled {
+    ContestFit fit;
+    Eigen::MatrixXd shifts;
+    double nats = std::numeric_limits<double>::infinity();
+  };
+  Eigen::VectorXd values_of(const SoilNumbers& numbers) const;
+  std::vector<Eigen::VectorXd> differences_among_soils_driven() const;
+  std::vector<WindowZone> zones() const;
+  Linearised linearise();
+  ResidualParts residual_parts(const LinearisedWindows& here) const;
+  ResidualNoise whiten(const LinearisedWindows& here);
+  std::vector<Eigen::MatrixXd> soil_columns(const Eigen::MatrixXd& base) const;
+  void whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise);
+  std::optional<ScatterSources> scatter_outside(const LinearisedWindows& here,
+                                                const Eigen::VectorXd& zone) const;
+  bool place_edges(EffectFound& zone);
+  void take_edges(const EffectFound& zone);
+  void go_on_from(Settled settled);
+  void settle_zone(EffectFound& zone);
+  WindowSet windows_far_from_linear(const LinearisedWindows& here) const;
+  Settled likeliest_soil(const Settled& start, EffectFound& zone);
+  Settled settled_with_edges(EffectFound& zone);
+  Settled settled_from_here(int steps_most = 10);
+  double step();
+  double longest_of_sound(const Eigen::VectorXd& step) const;
+
+  WindowComparison& comparison_;
+  const TerrainMap& map_;
+  const std::vector<VehicleTrial>& trials_;
+  const std::stop_token& stop_;
+  Eigen::MatrixXd shifts_;            ///< of the inputs that were linearised about
+  std::vector<std::size_t> numbers_;  ///< of soil, that vary
+  WindowLinearisation linearisation_;
+  EffectContest contest_;
+  ContestFit fit_;
+  std::vector<std::array<double, 2>> edges_;  ///< where each zone begins and ends, in windows
+  /// How far residuals scatter, where fits are compared by it; else as each fit leaves it.
+  std::optional<ScatterSources> scatter_;
+  std::vector<double> noise_;
+};
+
+}  // namespace regoplan

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "drive_diagnosis/recording/drive_recording.h"
+
+namespace regoplan {
+
+/// Puts the clock of a drive right, so that its time rises from row to row: rows out of order (time
+/// returns to where it was within three rows) and repeated times are left out; where the clock was
+/// set back for good, what follows counts on from there. Each is told as a finding.
+void mend_time(DriveRecording& drive);
+
+/// Takes out positions that only repeat the one before (stale), and those that jump: farther from
+/// the median of the fixes around than a vehicle of that speed can be. Steps after which positions
+/// go on with another datum are taken back. Told as findings.
+/// \param speed_max_mps what the vehicle can do at most; a jump is at least twice that
+void mend_positions(DriveRecording& drive, double speed_max_mps);
+
+/// The largest gap that does not end a stretch of a recording: ten times the median step, and 1 s
+/// at least.
+double gap_max_s(const DriveRecording& drive);
+
+}  // namespace regoplan
