@@ -89,7 +89,19 @@ ExitStatus draw_chart(const Options& options) {
   return kYes;
 }
 
-ExitStatus run(const Options& options) {
+/// What is said of paths and has no meaning for a chart; `--model` has none without a scenario.
+void refuse_what_is_of_paths(const CLI::App& parser, const Options& options) {
+  for (const char* option : {"--speed", "--deviation-max-m", "--follower", "--draws", "--json"}) {
+    if (parser.count(option) > 0) {
+      throw InputError(fmt::format("--chart takes no {}: it is drawn of no path", option));
+    }
+  }
+  if (!options.scenario && options.overrides.model_file) {
+    throw InputError("--chart takes --model with a SCENARIO.yaml alone");
+  }
+}
+
+ExitStatus run(const CLI::App& parser, const Options& options) {
   if (options.chart_folder) {
     if (!options.request.path_files.empty() || options.request.manoeuvre_file) {
       throw InputError("--chart takes neither paths nor --manoeuvres");
@@ -97,6 +109,7 @@ ExitStatus run(const Options& options) {
     if (!options.request.folder.path.empty()) {
       throw InputError("--chart takes no --out: it names the chart's folder itself");
     }
+    refuse_what_is_of_paths(parser, options);
     return draw_chart(options);
   }
   if (!options.scenario) throw InputError("SCENARIO.yaml is required (regoplan evaluate --help)");
@@ -189,7 +202,7 @@ Command add_evaluate_command(CLI::App& program) {
   add_force_flag(*parser, request.folder);
   add_network_flag(*parser);
   add_output_flags(*parser, request.json, request.quiet);
-  return {parser, [options] { return run(*options); }};
+  return {parser, [parser, options] { return run(*parser, *options); }};
 }
 
 }  // namespace regoplan

@@ -77,6 +77,12 @@ void sweep(const fs::path& folder) {
   throw InputError(fmt::format("{}: {}: {}", folder.option, at.string(), why));
 }
 
+const fs::path& non_empty(const ResultFolder& folder) {
+  if (folder.path.empty())
+    throw InputError(fmt::format("{}: empty, names no folder", folder.option));
+  return folder.path;
+}
+
 void require_replaceable(const ResultFolder& folder, const std::vector<std::string>& names) {
   const ResultManifest manifest(folder.path);
   for (const std::string& name : names) {
@@ -103,7 +109,7 @@ void require_results_fit(const ResultFolder& folder, const std::vector<std::stri
 }
 
 StagedFiles::StagedFiles(const ResultFolder& folder)
-    : folder_{tidy(folder.path), folder.force, folder.option},
+    : folder_{tidy(non_empty(folder)), folder.force, folder.option},
       made_(topmost_missing(folder_.path)) {
   const fs::path existing = made_.empty() ? folder_.path : made_.parent_path();
   if (!fs::is_directory(existing)) refuse(folder_, existing, "not a folder");

@@ -289,6 +289,25 @@ TEST_F(Evaluate, OptionsThatDoNotGoTogetherAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("chart")));
 }
 
+TEST_F(Evaluate, AChartTakesNothingThatIsOfPaths) {
+  const std::string chart = "--chart '" + folder_.path("chart") + "'";
+  const std::string scenario = " '" + folder_.path("scenario.yaml") + "' ";
+  const std::string model = file("m.yaml", "soil_name: dry_sand\n");
+  for (const auto& [given, error] : {
+           std::pair{scenario + "--speed 1", "--chart takes no --speed"},
+           std::pair{scenario + "--deviation-max-m 1", "--chart takes no --deviation-max-m"},
+           std::pair{scenario + "--follower pursuit", "--chart takes no --follower"},
+           std::pair{scenario + "--draws 9", "--chart takes no --draws"},
+           std::pair{scenario + "--json", "--chart takes no --json"},
+           std::pair{" --vehicle lrv --model " + model, "--model with a SCENARIO.yaml alone"},
+       }) {
+    const ProgramRun run = run_program(folder_, "evaluate " + chart + given);
+    EXPECT_EQ(run.status, 1) << given;
+    EXPECT_NE(run.errors.find(error), std::string::npos) << given << ": " << run.errors;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("chart")));
+}
+
 TEST_F(Evaluate, AChartIsAPictureAndTables) {
   const ProgramRun run =
       run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --chart '" +

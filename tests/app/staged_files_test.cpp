@@ -121,6 +121,7 @@ TEST(StagedFiles, AFolderThatIsAFileIsAnErrorBeforeAnyWork) {
   EXPECT_EQ(error_text([&] { require_writable_folder({folder.path("file/deeper")}); }),
             "--out: " + folder.path("file") + ": not a folder");
   EXPECT_EQ(error_text([&] { require_writable_folder({folder.path("new/deeper")}); }), "");
+  EXPECT_EQ(error_text([] { require_writable_folder({""}); }), "--out: empty, names no folder");
 }
 
 TEST(StagedFiles, AFolderThatTheSystemRefusesIsAnErrorThatLeavesNothing) {
