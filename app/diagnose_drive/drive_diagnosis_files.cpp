@@ -59,9 +59,10 @@ Json zone_json(const DriveDiagnosisRun& run, const SoilZoneFound& zone) {
     track.push_back({place.x_m, place.y_m});
   }
   const std::vector<MapSoil>& soils = run.setup.setup.map.soils();
+  const MapSoil& said = soils[static_cast<std::size_t>(zone.soil)];
   return {
       {"drive", run.drive_ids[zone.drive]},
-      {"map_soil", soils[static_cast<std::size_t>(zone.soil)].name},
+      {"map_soil", said.name},
       {"like", zone.like ? Json(soils[static_cast<std::size_t>(*zone.like)].name) : Json(nullptr)},
       {"resistance_share", estimate_json(zone.resistance)},
       {"track", track},
@@ -69,7 +70,8 @@ Json zone_json(const DriveDiagnosisRun& run, const SoilZoneFound& zone) {
       {"starts_ci95_s", zone.start_s},
       {"ends_s", zone.ends_s},
       {"ends_ci95_s", zone.end_s},
-      {"soil", soil_json(zone.estimate)}};
+      {"soil", soil_json(zone.estimate)},
+      {"soil_of_map", soil_json(said.soil)}};
 }
 
 Json zones_json(const DriveDiagnosisRun& run) {

@@ -56,6 +56,7 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
   EXPECT_NEAR(track.front()[0], 90, kWindow_m);
   EXPECT_NEAR(track.back()[0], 120, kWindow_m);
   EXPECT_GT(zones[0]["resistance_share"]["value"], 0);
+  EXPECT_LT(zones[0]["soil"]["kphi"]["mean"], zones[0]["soil_of_map"]["kphi"]["mean"]);
 
   const std::string corrected = folder_.path("said/corrected-map/scenario.yaml");
   const ProgramRun again = run("plan '" + corrected + "' --out '" + folder_.path("second") + "'");

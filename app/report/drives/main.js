@@ -89,6 +89,23 @@ byId('claims').append(
                               UNKNOWN,
                           Object.entries(claim.parameters).map(parameterText).join('; ')])) :
         'Nothing is claimed.');
+/// A number of a soil; one that is exact on the map has no spread.
+const spreadText = ({mean, std}) => std ? `${number(mean)} \u00b1 ${number(std)}` : number(mean);
+const differs = (a, b) => a.mean !== b.mean || a.std !== b.std;
+/// Numbers of a zone's soil that the drives tell otherwise than the map.
+const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) =>
+    wideTable(
+        `Soil of the zone of ${drive} from ${fixed(starts_s, 1)} s`,
+        columns(`${drive}, ${fixed(starts_s, 1)} to ${fixed(ends_s, 1, 's')}`,
+                `the map's ${words(map_soil)}`, 'the drives'),
+        Object.keys(soil)
+            .filter(key => differs(soil[key], soil_of_map[key]))
+            .map(key => [withUnit(key), spreadText(soil_of_map[key]), spreadText(soil[key])]));
+byId('zones').append(...(REPORT.zones.length ? REPORT.zones.map(zoneTable) : ['No zone of other soil.']));
+if (REPORT.zones.length)
+  byId('zones').append(
+      element('p', {class: 'note'},
+              '\u00b1: one standard deviation. All other numbers stay as the map has them.'));
 const verdict = why => why || 'may be driven';
 byId('verdicts').append(
     REPORT.verdicts.length ?
