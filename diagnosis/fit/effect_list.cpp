@@ -83,7 +83,7 @@ class EffectList {
         effect.coordinates.push_back(coordinate_of(parameter));
       }
     }
-    if (form.id == "shear_hump") {
+    if (form.id == "shear_hump" && form.form == "wong") {
       // the hump's modulus is where the peak lies, some times the exponential's
       effect.own_modulus = true;
       effect.coordinates.push_back(
@@ -113,8 +113,10 @@ class EffectList {
     } else if (form.id == "flexible_wheel") {
       effect.coordinates = {positive("per_n", 0.02 / largest_load_n(), 0.3 / largest_load_n())};
       push(effect);
-    } else if (form.form == "offset") {
-      effect.coordinates.front().spread = 0.1 * largest_load_n();
+    } else if (form.id == "load_transfer") {
+      for (Coordinate& c : effect.coordinates) {
+        if (c.name == "added_n") c.spread = 0.1 * largest_load_n();
+      }
       push(effect);
     } else {
       push(effect);

@@ -16,6 +16,7 @@ enum class ShearLaw {
   kAlongSlipVelocity,  ///< one limit, along the velocity of the rim through the soil
   kWithinLimit,        ///< along x and y apart, cut back softly where the resultant nears the limit
   kHump,               ///< peak, then residual (Wong)
+  kSoftening,          ///< as the base, along x and y apart, and strength lost with displacement
 };
 
 /// How the normal stress grows with depth where the soil lies in layers, z the depth of a point of
@@ -54,6 +55,7 @@ struct Effects {
   double limit = 1;             ///< factor on cohesion and tan(phi)
   ShearLaw shear = ShearLaw::kSeparate;
   double residual = 1;        ///< shear hump: residual over peak
+  double softening = 1;       ///< kSoftening: displacement over kx, ky at which 1 - 1/e is lost
   double coupling = 1;        ///< kWithinLimit: how far shares are cut back, 1 at the limit
   double sinkage_factor = 1;  ///< h = h0 factor + added
   double sinkage_added_m = 0;

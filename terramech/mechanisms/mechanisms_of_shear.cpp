@@ -60,6 +60,17 @@ std::vector<Definition> of_shear() {
          e.residual = p[0];
          return e;
        }},
+      {{"shear_hump",
+        "softening",
+        "tau/tau_max = (1 - exp(-j/k)) (R + (1 - R) exp(-(j/(d k))^2)), k = kx or ky",
+        "proxy; dense soil loosens to its residual strength (Wong 2008, section 2.4)",
+        {{"residual", .4, .95, .7}, {"distance", 1.5, 6, 3}}},
+       [](E e, P p, S) {
+         e.shear = ShearLaw::kSoftening;
+         e.residual = p[0];
+         e.softening = p[1];
+         return e;
+       }},
   };
 }
 // NOLINTEND(bugprone-easily-swappable-parameters, readability-function-size)

@@ -138,6 +138,17 @@ std::vector<Definition> of_sinkage() {
          e.soil.kx0_m *= 1 + p[1] * braking(at);
          return e;
        }},
+      {{"skid_branch",
+        "weakened",
+        "s < 0: c, tan(phi) times exp(-w |s|), h = h0 (1 + k |s|)",
+        "Wong & Reece 1967, part II (proxy): a braked wheel rolls on soil that it has sheared "
+        "ahead",
+        {{"weakening", .1, 1.5, .4}, {"sinkage", 0, 1, .4}}},
+       [](E e, P p, S at) {
+         e.limit *= std::exp(-p[0] * braking(at));
+         e.sinkage_factor *= 1 + p[1] * braking(at);
+         return e;
+       }},
       {{"rear_contact",
         "linear",
         "lambda = lambda0 + l1 s + l2 |beta|",

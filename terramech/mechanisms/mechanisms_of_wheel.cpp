@@ -105,6 +105,15 @@ std::vector<Definition> of_wheel() {
          return e;
        }},
       {{"load_transfer",
+        "affine",
+        "W = W0 (1 + k) + dW",
+        "statics: a load cell whose gain and zero are off",
+        {{"share", -.2, .2, .08}, {"added_n", -10, 10, 4}}},
+       [](E e, P p, S) {
+         e.load_n += p[0] * e.load_n + p[1];
+         return e;
+       }},
+      {{"load_transfer",
         "drawbar",
         "W = W0 + k Fx",
         "statics: the arm of a carriage that is not level",

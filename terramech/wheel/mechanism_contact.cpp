@@ -36,6 +36,12 @@ using vector_math::Vec;
   return residual * (1.0 + a * vector_math::exp(1.0 - j_over_k)) * mobilised(j_over_k);
 }
 
+/// Shear mobilised as in the base model on soil that loses strength beyond some displacement.
+[[gnu::always_inline]] inline Vec softened(Vec j_over_k, double residual, double softening) {
+  const Vec lost = j_over_k / softening;
+  return mobilised(j_over_k) * (residual + (1 - residual) * vector_math::exp(-lost * lost));
+}
+
 /// Mobilised shares of the shear limit along x and y (y: opposing the lateral motion).
 struct Shares {
   Vec x, y;
@@ -49,6 +55,10 @@ struct Shares {
     case ShearLaw::kHump:
       return {vector_math::with_sign(hump(vector_math::abs(jx), law.residual), jx),
               hump(jy, law.residual)};
+    case ShearLaw::kSoftening:
+      return {
+          vector_math::with_sign(softened(vector_math::abs(jx), law.residual, law.softening), jx),
+          softened(jy, law.residual, law.softening)};
     case ShearLaw::kWithinLimit: {
       const Vec ex = vector_math::with_sign(mobilised(vector_math::abs(jx)), jx);
       const Vec ey = mobilised(jy), a = ex * ex, b = ey * ey, least = a < b ? a : b;

@@ -45,6 +45,7 @@ struct Law {
 Law law_of(const Effects& effects) {
   return {.stress = {.shear = effects.shear,
                      .residual = effects.residual,
+                     .softening = effects.softening,
                      .coupling = effects.coupling,
                      .layering = effects.layering},
           .own = effects.shear != ShearLaw::kSeparate ||
