@@ -63,10 +63,13 @@ double scatter_of(const ChannelNoise& noise, double y) {
   return std::hypot(run_deviation(noise, y), noise.day_offset, noise.day_gain * y);
 }
 
-/// Whether more than two runs of a condition differ so much that some of them must stray.
+/// Whether more than two runs of a condition differ so much that some of them must stray; where one
+/// is told to already, it may be the others that do.
 bool at_odds(const ChannelNoise& noise, const std::vector<std::size_t>& runs,
              const std::vector<double>& adjusted) {
   if (runs.size() <= 2) return false;
+  const auto is_out = [&](std::size_t run) { return noise.weight[run] <= 0.5; };
+  if (std::ranges::any_of(runs, is_out)) return true;
   const auto [low, high] =
       std::ranges::minmax(runs, {}, [&](std::size_t run) { return adjusted[run]; });
   const double middle = (adjusted[low] + adjusted[high]) / 2;

@@ -161,10 +161,8 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
     if (!idle) return claimed;
     const ScoredId idle_pair = *best_of(scored_, claimed);
     notes_.push_back(fmt::format(
-        "{} and {} score best together, by {:.1f} nats, but on held-out conditions {} adds {:.1f} "
-        "standard errors only: the pair is given up",
-        claimed[0].ids.front(), claimed[1].ids.front(), idle->over_one_nats,
-        claimed[idle->effect].ids.front(), idle->gain));
+        "{} and {} score best together, by {:.1f} nats, but {}: the pair is given up",
+        claimed[0].ids.front(), claimed[1].ids.front(), idle->over_one_nats, idle->why));
     for (ScoredId& s : scored_) {
       if (s.account.effects.size() < 2) continue;
       const bool less_likely = s.score < idle_pair.score - Thresholds::kAsGood_nats;
@@ -209,7 +207,7 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
                        left.p_value);
   }
   const Leftover held_out = leftover_of(calibrated_, alone, threads_);
-  if (held_out.errors < Thresholds::kBesideExact_errors) return "";
+  if (std::min(held_out.errors, held_out.deviations) < Thresholds::kBesideExact_errors) return "";
   return fmt::format(
       "what it does is known exactly, and a remainder beside it predicts held-out conditions "
       "better by {:.1f} standard errors",
@@ -259,13 +257,33 @@ bool NameContest::another_holds(const std::vector<NameClass>& refuted,
   return false;
 }
 
-/// The effect of a pair without which held-out conditions are predicted as well, unless the whole
+/// What a second effect must gain over the other alone, whose form is a proxy: what that leaves of
+/// its own effect grows with it, and another effect takes part of it.
+double NameContest::least_over(const ScoredId& single) const {
+  const double gain_nats = single.score - scored_as(Account::Kind::kParameters, scored_).score;
+  return std::min(Thresholds::kSecond_nats + Thresholds::kFormShare * std::max(gain_nats, 0.0),
+                  Thresholds::kClearSecond_nats);
+}
+
+/// The effect of a pair that does not do its part: it gains no more over the other alone than that
+/// one's form may leave, or held-out conditions are predicted as well without it, unless the whole
 /// recording says so clearly that it is there that it only must not spoil them: a remainder beside
 /// the other name may predict there what it does.
 std::optional<NameContest::IdleEffect> NameContest::idle_effect(
     const std::vector<NameClass>& claimed) const {
   const ScoredId* pair = best_of(scored_, claimed);
   if (pair == nullptr) return std::nullopt;
+  const std::array<const ScoredId*, 2> alone{likeliest_single(scored_, claimed[1]),
+                                             likeliest_single(scored_, claimed[0])};
+  const auto over_nats = [&](std::size_t effect) {
+    return alone.at(effect) == nullptr ? INFINITY : pair->score - alone.at(effect)->score;
+  };
+  for (const std::size_t effect : {0, 1}) {
+    const double least_nats = alone.at(effect) ? least_over(*alone.at(effect)) : 0;
+    if (over_nats(effect) >= least_nats) continue;
+    return IdleEffect{over_nats(effect), fmt::format("{:.1f} nats may be left by the form of {}",
+                                                     least_nats, claimed[1 - effect].ids.front())};
+  }
   const auto proof = [&](const CandidateFit& fit, const Families& families) {
     const CorrectedModel model{.fit = &fit,
                                .remainder = remainder_settings(calibrated_.problem(), fit)};
@@ -274,21 +292,21 @@ std::optional<NameContest::IdleEffect> NameContest::idle_effect(
   std::array<double, 2> gain{-INFINITY, -INFINITY};
   for (const Families& families : families_of_all_columns(calibrated_.bed())) {
     const Eigen::VectorXd both = proof(pair->fit, families);
-    for (const std::size_t left_out : {0, 1}) {
-      const ScoredId* single = likeliest_single(scored_, claimed[1 - left_out]);
-      gain[left_out] = single == nullptr
-                           ? INFINITY
-                           : std::max(gain[left_out], gain_in_errors(calibrated_.bed(), both,
-                                                                     proof(single->fit, families)));
+    for (const std::size_t effect : {0, 1}) {
+      gain.at(effect) =
+          alone.at(effect) == nullptr
+              ? INFINITY
+              : std::max(gain.at(effect), gain_in_errors(calibrated_.bed(), both,
+                                                         proof(alone.at(effect)->fit, families)));
     }
   }
   const std::size_t least = gain[0] < gain[1] ? 0 : 1;
-  const ScoredId* alone = likeliest_single(scored_, claimed[1 - least]);
-  const double over_one_nats = alone == nullptr ? 0 : pair->score - alone->score;
-  const bool clear = over_one_nats > Thresholds::kClearSecond_nats &&
-                     gain[least] > -Thresholds::kLeastOfOne_errors;
-  if (clear || is_borne_out(claimed[1].probability, gain[least])) return std::nullopt;
-  return IdleEffect{least, gain[least], over_one_nats};
+  const bool clear = over_nats(least) > Thresholds::kClearSecond_nats &&
+                     gain.at(least) > -Thresholds::kLeastOfOne_errors;
+  if (clear || is_borne_out(claimed[1].probability, gain.at(least))) return std::nullopt;
+  return IdleEffect{over_nats(least),
+                    fmt::format("on held-out conditions {} adds {:.1f} standard errors only",
+                                claimed[least].ids.front(), gain.at(least))};
 }
 
 }  // namespace regoplan

@@ -43,12 +43,12 @@ class NameContest {
 
  private:
   struct IdleEffect {
-    std::size_t effect = 0;
-    double gain = 0;           // standard errors
     double over_one_nats = 0;  // what the pair scores over the other effect alone
+    std::string why;
   };
 
   std::vector<NameClass> proven_one_by_one();
+  double least_over(const ScoredId& single) const;
   std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const;
   HeldOut proof_of(const CandidateFit& fit, const std::vector<std::size_t>& remainder) const;
   std::string doubt_about(const CandidateFit& fit) const;

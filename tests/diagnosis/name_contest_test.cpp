@@ -109,7 +109,9 @@ TEST_F(NameContestOf, NoInstrumentIsBlamedBesideMisfitThatNoRemainderTakes) {
 }
 
 TEST_F(NameContestOf, BesideANameThatWasGivenUpASecondMustDoItsPartAsWell) {
-  hold(digging());
+  // A hump whose modulus is free spoils what is held out.
+  hold(digging(), {.conditions = 24}, {"slip_sinkage", "shear_hump"},
+       [](const Effect& effect) { return effect.form == "softening"; });
   for (ScoredId& one : scored_) {
     if (one.id() == "slip_sinkage") one.given_up = true;
     if (one.account.effects.size() == 2) one.score += 500;
@@ -122,6 +124,28 @@ TEST_F(NameContestOf, BesideANameThatWasGivenUpASecondMustDoItsPartAsWell) {
   EXPECT_NE(contest.notes().front().find("shear_hump adds"), std::string::npos)
       << contest.notes().front();
   EXPECT_TRUE(!claim || claim->names.size() == 1);
+}
+
+TEST_F(NameContestOf, ASecondNameMustGainMoreThanTheFormOfTheFirstMayLeave) {
+  hold(digging());
+  const double soil_nats = scored_as(Account::Kind::kParameters, scored_).score;
+  constexpr double kGain_nats = 400;
+  const auto notes_where_the_second_gains = [&](double nats) {
+    std::vector<ScoredId> scored = scored_;
+    for (ScoredId& one : scored) {
+      if (one.account.kind != Account::Kind::kEffects) continue;
+      const bool pair = one.account.effects.size() == 2;
+      one.score = soil_nats + (one.id() == "shear_hump" ? 0 : kGain_nats) + (pair ? nats : 0);
+    }
+    weigh(scored, PlainModel::kRefuted);
+    EXPECT_EQ(scored.front().id(), "shear_hump+slip_sinkage");
+    NameContest contest(*calibrated_, scored, PlainModel::kRefuted, 1, 1);
+    contest.decide();
+    return contest.notes().empty() ? "" : contest.notes().front();
+  };
+  const std::string why = "may be left by the form of slip_sinkage";
+  EXPECT_NE(notes_where_the_second_gains(16).find(why), std::string::npos);
+  EXPECT_EQ(notes_where_the_second_gains(18).find(why), std::string::npos);
 }
 
 TEST_F(NameContestOf, ANameThatOnlyScoresIsNotClaimedAndANoteSaysWhy) {

@@ -83,5 +83,27 @@ TEST(StrayRuns, TwoStraysOfThreeAreNoMajority) {
   EXPECT_LT(weight[runs[2]], 0.1);
 }
 
+TEST(StrayRuns, ARunThatIsOutOfThreeMayBeTheOneThatIsRight) {
+  // Nearer than what is at odds by itself, yet two have outvoted the third.
+  const DiagnosisSetup setup = told_noise();
+  const Recording recording = record({}, setup, setup.soil.mean, {.day = 0, .outliers = 0}, 4);
+  CondensedRecording outvoted = condense(recording, setup);
+  const std::vector<std::size_t> runs = outvoted.bed.conditions[outvoted.condition[17]].runs;
+  ASSERT_EQ(runs.size(), 3);
+  std::vector<double>& adjusted = outvoted.adjusted[0];
+  const double scatter = run_deviation(outvoted.noise[0], adjusted[runs[0]]);
+  adjusted[runs[1]] = adjusted[runs[0]] + 5.6 * scatter;
+  adjusted[runs[2]] = adjusted[runs[0]] + 5.5 * scatter;
+  outvoted.noise[0].weight[runs[0]] = 0.1;
+  outvoted.bed.channels[0] =
+      means_of(outvoted.day, outvoted.bed.conditions, outvoted.noise[0], adjusted);
+  const CalibratedBed bed(recording, setup);
+  const std::vector<double> weight =
+      strays_weighed_down(recording, outvoted, bed.fit.prediction).noise[0].weight;
+  EXPECT_EQ(weight[runs[0]], 1);
+  EXPECT_LT(weight[runs[1]], 0.1);
+  EXPECT_LT(weight[runs[2]], 0.1);
+}
+
 }  // namespace
 }  // namespace regoplan
