@@ -108,6 +108,17 @@ std::vector<TruthEffect> effects_on_shear() {
          p.softening_m = (1.5 + 2 * u) * p.soil.kx0_m;
          return p;
        }},
+      {"shear_hump",
+       "brittle",
+       "Bekker 1956: a share a of the soil has a peak and no strength far beyond",
+       .15,
+       .5,
+       false,
+       {},
+       [](P p, double a, double) {
+         p.brittle = a;
+         return p;
+       }},
       {"rate_dependence",
        "logarithm",
        "k (1 + a ln(1 + v/v0)), v0 .02-.1 m/s",

@@ -167,6 +167,18 @@ std::vector<TruthEffect> effects_on_sinkage() {
          p.soil.kx0_m *= 1 + 25 * a * braking(p) * braking(p);
          return p;
        }},
+      {"skid_branch",
+       "pushed_soil",
+       "s < 0: Fx - a W |s|^(1/2), h = h0 (1 + a |s|): the wheel pushes soil ahead",
+       .03,
+       .25,
+       false,
+       {.skid = true},
+       [](P p, double a, double) {
+         p.added_fx_n -= a * p.at.load_n * std::sqrt(braking(p));
+         p.sinkage_factor *= 1 + a * braking(p);
+         return p;
+       }},
       {"multi_pass",
        "logarithm",
        "k pass^a, c (1 + a ln(pass)/2), after Holm 1969",

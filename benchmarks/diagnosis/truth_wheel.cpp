@@ -51,6 +51,14 @@ double pressure_pa(const TruthPhysics& p, double depth_m) {
   return pressure;
 }
 
+/// Bekker 1956, soil that breaks: a peak of 1 near j = k, nothing left far beyond.
+double brittle_share(double j_over_k) {
+  constexpr double kK2 = 1.1;
+  const double root = std::sqrt(kK2 * kK2 - 1), slow = kK2 - root, fast = kK2 + root;
+  const auto bare = [&](double u) { return std::exp(-slow * u) - std::exp(-fast * u); };
+  return bare(j_over_k) / bare(std::log(fast / slow) / (fast - slow));
+}
+
 struct Shares {
   double x, y;
 };
@@ -58,7 +66,8 @@ struct Shares {
 Shares shear_shares(const TruthPhysics& p, double jx_m, double jy_m, double kx_m, double ky_m) {
   const auto law = [&](double j, double k) {
     const double softened = 1 - p.softening * -std::expm1(-std::pow(j / p.softening_m, 3));
-    return -std::expm1(-j / k) * (1 + p.sech_peak / std::cosh(j / k)) * softened;
+    const double lasting = -std::expm1(-j / k) * (1 + p.sech_peak / std::cosh(j / k)) * softened;
+    return p.brittle == 0 ? lasting : (1 - p.brittle) * lasting + p.brittle * brittle_share(j / k);
   };
   const double ex = law(std::abs(jx_m), kx_m), ey = law(jy_m, ky_m);
   double share = 1;

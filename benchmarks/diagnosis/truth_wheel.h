@@ -53,6 +53,7 @@ struct TruthPhysics {
   double sech_peak = 0;       ///< A of Kacigin & Guskov: 1 + A/cosh(j/k)
   double softening = 0;       ///< share of the shear strength lost far beyond
   double softening_m = 0.05;  ///< this displacement
+  double brittle = 0;         ///< share of the soil that shears after Bekker's brittle law
   double lug_m = 0;           ///< shear surface outside the rim by this
 
   RutProfile profile = RutProfile::kCubic;
