@@ -10,7 +10,8 @@ double rolling_resistance(const Vehicle& vehicle, double gravity_mps2, const Soi
   const WheelModel wheel({.wheel = vehicle.wheel, .soil = soil, .gravity_mps2 = gravity_mps2},
                          WheelAccuracy::kFast);
   const auto at = [&](double slip) { return wheel.forces(load_n, motion_at(slip, 0)); };
-  double below = 0, above = 0.95;  // pull grows with slip
+  // Pull grows with slip; a wheel that pulls nothing may slip a little backwards.
+  double below = -0.95, above = 0.95;
   constexpr int kHalvings = 20;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (below + above) / 2;

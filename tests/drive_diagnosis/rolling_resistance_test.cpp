@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "terramech/parameters/vehicle.h"
+#include "terramech/wheel/wheel_model.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {
@@ -18,6 +21,23 @@ Soil bearing(double kphi) {
 DriveEstimate added(const std::vector<Soil>& draws) {
   return added_resistance(preset_vehicle("lrv"), named_soils::kMoon_mps2, bearing(8e5),
                           bearing(1e5), draws);
+}
+
+TEST(RollingResistance, IsTheTorqueOfAWheelThatPullsNothing) {
+  const Vehicle lrv = preset_vehicle("lrv");
+  for (const auto& [name, soil, gravity_mps2] : named_soils::shipped()) {
+    const double load_n = lrv.mass_kg * gravity_mps2 / 4;
+    const WheelModel wheel(
+        WheelModelSpec{.wheel = lrv.wheel, .soil = soil, .gravity_mps2 = gravity_mps2});
+    WheelForces rolling = wheel.forces(load_n, motion_at(-0.3, 0));
+    for (double slip = -0.3; slip < 0.9; slip += 1e-3) {
+      const WheelForces at = wheel.forces(load_n, motion_at(slip, 0));
+      if (std::abs(at.fx_n) < std::abs(rolling.fx_n)) rolling = at;
+    }
+    EXPECT_NEAR(rolling_resistance(lrv, gravity_mps2, soil),
+                rolling.torque_nm / (lrv.wheel.radius_m * load_n), 2e-3)
+        << name;
+  }
 }
 
 TEST(AddedResistance, IsMoreWhereSoilBearsLess) {
