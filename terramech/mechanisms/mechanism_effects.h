@@ -54,7 +54,7 @@ struct Effects {
   double stiffness = 1;         ///< factor on k
   double limit = 1;             ///< factor on cohesion and tan(phi)
   ShearLaw shear = ShearLaw::kSeparate;
-  double residual = 1;        ///< shear hump: residual over peak
+  double residual = 1;        ///< kHump: residual over peak; kSoftening: over tau_max
   double softening = 1;       ///< kSoftening: displacement over kx, ky at which 1 - 1/e is lost
   double coupling = 1;        ///< kWithinLimit: how far shares are cut back, 1 at the limit
   double sinkage_factor = 1;  ///< h = h0 factor + added

@@ -62,9 +62,10 @@ std::vector<Definition> of_shear() {
        }},
       {{"shear_hump",
         "softening",
-        "tau/tau_max = (1 - exp(-j/k)) (R + (1 - R) exp(-(j/(d k))^2)), k = kx or ky",
+        "tau/tau_max = (1 - exp(-j/k)) (R + (1 - R) exp(-(j/(d k))^2)), k = kx or ky; the peak "
+        "stays below tau_max",
         "proxy; dense soil loosens to its residual strength (Wong 2008, section 2.4)",
-        {{"residual", .4, .95, .7}, {"distance", 1.5, 6, 3}}},
+        {{"residual", .4, .95, .7}, {"distance", 2, 6, 3.5}}},
        [](E e, P p, S) {
          e.shear = ShearLaw::kSoftening;
          e.residual = p[0];

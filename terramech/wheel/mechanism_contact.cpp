@@ -32,13 +32,15 @@ using vector_math::Vec;
 
 /// Wong's hump, as a share of the peak that it reaches at j = k.
 [[gnu::always_inline]] inline Vec hump(Vec j_over_k, double residual) {
-  const double a = 1 / (residual * (1 - 1 / std::numbers::e)) - 1;
-  return residual * (1.0 + a * vector_math::exp(1.0 - j_over_k)) * mobilised(j_over_k);
+  constexpr double kAtPeak = 1 - 1 / std::numbers::e;
+  return (residual + (1 / kAtPeak - residual) * vector_math::exp(1.0 - j_over_k)) *
+         mobilised(j_over_k);
 }
 
 /// Shear mobilised as in the base model on soil that loses strength beyond some displacement.
 [[gnu::always_inline]] inline Vec softened(Vec j_over_k, double residual, double softening) {
-  const Vec lost = j_over_k / softening;
+  constexpr double kAtOnce = 1e-100;  // what has not moved has lost nothing
+  const Vec lost = j_over_k / std::max(std::abs(softening), kAtOnce);
   return mobilised(j_over_k) * (residual + (1 - residual) * vector_math::exp(-lost * lost));
 }
 

@@ -10,7 +10,7 @@ namespace regoplan::wheel_contact {
 /// The stress under a wheel where a mechanism changes its law.
 struct StressLaw {
   ShearLaw shear = ShearLaw::kSeparate;
-  double residual = 1;   ///< shear hump: residual over peak
+  double residual = 1;   ///< kHump: residual over peak; kSoftening: over tau_max
   double softening = 1;  ///< kSoftening: displacement over kx, ky at which 1 - 1/e is lost
   double coupling = 1;   ///< kWithinLimit: how far shares are cut back, 1 at the limit
   Layering layering;

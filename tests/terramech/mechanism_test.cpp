@@ -37,6 +37,43 @@ TEST(Mechanism, ACarriagesArmAddsItsShareOfTheDrawbarPullThatTheWheelThenHas) {
   }
 }
 
+TEST(Mechanism, ALoadCellOffByGainAndZeroIsTheLoadThatTheWheelHas) {
+  const auto pair = named_soils::shipped_pairs().front();
+  const double load_n = pair.nominal_load_n, added_n = -0.05 * load_n;
+  const WheelForces off =
+      with(pair.spec, "load_transfer", "affine", {{"share", 0.2}, {"added_n", added_n}})
+          .forces(load_n, motion_at(0.3, 0.2));
+  const WheelForces alone =
+      WheelModel(pair.spec).forces(1.2 * load_n + added_n, motion_at(0.3, 0.2));
+  EXPECT_NEAR(off.fx_n, alone.fx_n, 1e-4 * load_n);
+  EXPECT_NEAR(off.sinkage_m, alone.sinkage_m, 1e-4 * alone.sinkage_m);
+}
+
+TEST(Mechanism, SoilThatABrakedWheelHasWeakenedHoldsLess) {
+  for (const auto& pair : named_soils::shipped_pairs()) {
+    const WheelMotion braked = motion_at(-0.5, 0);
+    const WheelForces base = WheelModel(pair.spec).forces(pair.nominal_load_n, braked);
+    const WheelForces weak =
+        with(pair.spec, "skid_branch", "weakened", {{"weakening", 0.8}, {"sinkage", 0}})
+            .forces(pair.nominal_load_n, braked);
+    EXPECT_LT(std::abs(weak.torque_nm), 0.9 * std::abs(base.torque_nm)) << pair.name;
+  }
+}
+
+TEST(Mechanism, OfAHumpStaysFiniteWhateverItsNumbers) {
+  const auto pair = named_soils::shipped_pairs().front();
+  for (const auto& [form, number] :
+       {std::pair{"softening", "distance"}, std::pair{"softening", "residual"},
+        std::pair{"wong", "residual"}}) {
+    for (const double value : {0.0, -1.0, 1e-300, 1e300}) {
+      const WheelForces forces = with(pair.spec, "shear_hump", form, {{number, value}})
+                                     .forces(pair.nominal_load_n, motion_at(0.3, 0));
+      EXPECT_TRUE(!has_forces(forces.status) || std::isfinite(forces.fx_n))
+          << form << " " << number << " " << value;
+    }
+  }
+}
+
 TEST(Mechanism, SlipSinkageDeepensTheRutAndCostsTorqueOnEverySoil) {
   for (const auto& pair : named_soils::shipped_pairs()) {
     const double load_n = pair.nominal_load_n, r = pair.spec.wheel.radius_m;
