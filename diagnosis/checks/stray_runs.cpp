@@ -63,18 +63,23 @@ double scatter_of(const ChannelNoise& noise, double y) {
   return std::hypot(run_deviation(noise, y), noise.day_offset, noise.day_gain * y);
 }
 
-/// Whether more than two runs of a condition differ so much that some of them must stray; where one
-/// is told to already, it may be the others that do.
+/// Whether more than two runs of a condition differ so much that some of them must stray, or those
+/// that were not weighed down already do so much from what neighbours tell.
 bool at_odds(const ChannelNoise& noise, const std::vector<std::size_t>& runs,
-             const std::vector<double>& adjusted) {
+             const std::vector<double>& adjusted, double expected) {
   if (runs.size() <= 2) return false;
-  const auto is_out = [&](std::size_t run) { return noise.weight[run] <= 0.5; };
-  if (std::ranges::any_of(runs, is_out)) return true;
   const auto [low, high] =
       std::ranges::minmax(runs, {}, [&](std::size_t run) { return adjusted[run]; });
   const double middle = (adjusted[low] + adjusted[high]) / 2;
-  return adjusted[high] - adjusted[low] >
-         Thresholds::kStray_deviations * std::sqrt(2.0) * scatter_of(noise, middle);
+  if (adjusted[high] - adjusted[low] >
+      Thresholds::kStray_deviations * std::sqrt(2.0) * scatter_of(noise, middle)) {
+    return true;
+  }
+  const auto is_out = [&](std::size_t run) { return noise.weight[run] <= 0.5; };
+  const double far = Thresholds::kStray_deviations * scatter_of(noise, expected);
+  return std::ranges::any_of(runs, is_out) && std::ranges::all_of(runs, [&](std::size_t run) {
+           return is_out(run) || std::abs(adjusted[run] - expected) > far;
+         });
 }
 
 /// Weights of a condition's runs once its neighbours are heard. Of two the one farther from what
@@ -127,8 +132,11 @@ CondensedRecording strays_weighed_down(const Recording& recording, CondensedReco
         if (z <= std::max(most, Thresholds::kDoubtfulStray_deviations) || settled.contains(at))
           continue;
         const std::vector<std::size_t> runs = measured_runs(bed.conditions[at], adjusted);
-        if (runs.size() <= 2 ? z <= Thresholds::kStray_deviations : !at_odds(noise, runs, adjusted))
+        const double told_by_others = data.mean[i] - left.error[i];
+        if (runs.size() <= 2 ? z <= Thresholds::kStray_deviations
+                             : !at_odds(noise, runs, adjusted, told_by_others)) {
           continue;
+        }
         most = z;
         worst = i;
       }

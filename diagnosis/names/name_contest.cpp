@@ -53,9 +53,11 @@ Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
 /// What names leave on held-out conditions when nothing stands beside them; fitted with a remainder
 /// they may leave more to it than they have to.
 struct Leftover {
-  double share = INFINITY;    ///< of the excess misfit, by the kind of families that leaves least
-  double deviations = 0;      ///< of noise, there
-  double errors = -INFINITY;  ///< by which a remainder predicts better, most over kinds of families
+  double share = INFINITY;  ///< of the excess misfit, by the kind of families that leaves least
+  double deviations = 0;    ///< of noise, there
+  /// By which a remainder predicts better in standard errors, or deviations of noise that are left
+  /// where these are fewer: most over kinds of families.
+  double clear = -INFINITY;
 
   bool is_worth_correcting() const {
     return share > Thresholds::kWorthCorrecting && deviations > Thresholds::kClear_errors;
@@ -82,11 +84,14 @@ Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& 
     const HeldOut alone = calibrated.held_out({.fit = &names}, families, threads);
     const HeldOut with =
         calibrated.held_out({.fit = &names, .remainder = remainder}, families, threads);
-    left.errors = std::max(left.errors, gain_in_errors(bed, with.corrected, alone.corrected));
-    const double excess = std::max(alone.excess, 0.0);
-    if (1 - alone.share_explained >= left.share) continue;
-    left.share = 1 - alone.share_explained;
-    left.deviations = left.share * excess / std::sqrt(2.0 * static_cast<double>(bed.size()));
+    const double share = 1 - alone.share_explained;
+    const double deviations =
+        share * std::max(alone.excess, 0.0) / std::sqrt(2.0 * static_cast<double>(bed.size()));
+    left.clear = std::max(
+        left.clear, std::min(gain_in_errors(bed, with.corrected, alone.corrected), deviations));
+    if (share >= left.share) continue;
+    left.share = share;
+    left.deviations = deviations;
   }
   return left;
 }
@@ -151,7 +156,7 @@ HeldOut NameContest::proof_of(const CandidateFit& fit,
 
 /// Of two effects each must do its part on held-out conditions, whatever the kind of families:
 /// scores take what one mechanism's form leaves for a second mechanism. A pair that does not is
-/// given up, and pairs that are less likely with it; the rest is weighed anew.
+/// given up, and less likely pairs with one of its names; the rest is weighed anew.
 std::vector<NameClass> NameContest::proven_one_by_one() {
   constexpr int kMostPairs = 5;
   for (int tried = 0;; ++tried) {
@@ -160,12 +165,18 @@ std::vector<NameClass> NameContest::proven_one_by_one() {
     const auto idle = idle_effect(claimed);
     if (!idle) return claimed;
     const ScoredId idle_pair = *best_of(scored_, claimed);
+    const auto shares_a_name = [&](const ScoredId& other) {
+      return std::ranges::any_of(other.account.effects, [&](const std::string& id) {
+        return idle_pair.account.effects.contains(id);
+      });
+    };
     notes_.push_back(fmt::format(
         "{} and {} score best together, by {:.1f} nats, but {}: the pair is given up",
         claimed[0].ids.front(), claimed[1].ids.front(), idle->over_one_nats, idle->why));
     for (ScoredId& s : scored_) {
       if (s.account.effects.size() < 2) continue;
-      const bool less_likely = s.score < idle_pair.score - Thresholds::kAsGood_nats;
+      const bool less_likely =
+          s.score < idle_pair.score - Thresholds::kAsGood_nats && shares_a_name(s);
       s.given_up = s.given_up || less_likely || tried + 1 == kMostPairs ||
                    s.account.effects == idle_pair.account.effects;
     }
@@ -207,11 +218,11 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
                        left.p_value);
   }
   const Leftover held_out = leftover_of(calibrated_, alone, threads_);
-  if (std::min(held_out.errors, held_out.deviations) < Thresholds::kBesideExact_errors) return "";
+  if (held_out.clear < Thresholds::kBesideExact_deviations) return "";
   return fmt::format(
-      "what it does is known exactly, and a remainder beside it predicts held-out conditions "
-      "better by {:.1f} standard errors",
-      held_out.errors);
+      "what it does is known exactly, and held-out conditions show a remainder beside it by {:.1f} "
+      "standard deviations",
+      held_out.clear);
 }
 
 /// An instrument is easily blamed for physics on no list: beside a fault that changes in time, or
@@ -257,12 +268,13 @@ bool NameContest::another_holds(const std::vector<NameClass>& refuted,
   return false;
 }
 
-/// What a second effect must gain over the other alone, whose form is a proxy: what that leaves of
-/// its own effect grows with it, and another effect takes part of it.
-double NameContest::least_over(const ScoredId& single) const {
+/// What a second effect must gain over the other alone. Where that one's form is a proxy, what it
+/// leaves of its own effect grows with it, and another effect takes part of it.
+double NameContest::least_over_nats(const ScoredId& single) const {
   const double gain_nats = single.score - scored_as(Account::Kind::kParameters, scored_).score;
-  return std::min(Thresholds::kSecond_nats + Thresholds::kFormShare * std::max(gain_nats, 0.0),
-                  Thresholds::kClearSecond_nats);
+  const double left_nats =
+      is_known_exactly(single.fit) ? 0 : Thresholds::kFormShare * std::max(gain_nats, 0.0);
+  return std::min(Thresholds::kSecond_nats + left_nats, Thresholds::kClearSecond_nats);
 }
 
 /// The effect of a pair that does not do its part: it gains no more over the other alone than that
@@ -278,11 +290,15 @@ std::optional<NameContest::IdleEffect> NameContest::idle_effect(
   const auto over_nats = [&](std::size_t effect) {
     return alone.at(effect) == nullptr ? INFINITY : pair->score - alone.at(effect)->score;
   };
-  for (const std::size_t effect : {0, 1}) {
-    const double least_nats = alone.at(effect) ? least_over(*alone.at(effect)) : 0;
-    if (over_nats(effect) >= least_nats) continue;
-    return IdleEffect{over_nats(effect), fmt::format("{:.1f} nats may be left by the form of {}",
-                                                     least_nats, claimed[1 - effect].ids.front())};
+  const auto missing_nats = [&](std::size_t effect) {
+    const ScoredId* other = alone.at(effect);
+    return other == nullptr ? -INFINITY : least_over_nats(*other) - over_nats(effect);
+  };
+  const std::size_t lesser = missing_nats(0) > missing_nats(1) ? 0 : 1;
+  if (missing_nats(lesser) > 0) {
+    return IdleEffect{over_nats(lesser), fmt::format("{:.1f} nats may be left by the form of {}",
+                                                     least_over_nats(*alone.at(lesser)),
+                                                     claimed[1 - lesser].ids.front())};
   }
   const auto proof = [&](const CandidateFit& fit, const Families& families) {
     const CorrectedModel model{.fit = &fit,

@@ -48,7 +48,7 @@ class NameContest {
   };
 
   std::vector<NameClass> proven_one_by_one();
-  double least_over(const ScoredId& single) const;
+  double least_over_nats(const ScoredId& single) const;
   std::optional<IdleEffect> idle_effect(const std::vector<NameClass>& claimed) const;
   HeldOut proof_of(const CandidateFit& fit, const std::vector<std::size_t>& remainder) const;
   std::string doubt_about(const CandidateFit& fit) const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "calibrated_bed.h"
 
@@ -83,26 +84,43 @@ TEST(StrayRuns, TwoStraysOfThreeAreNoMajority) {
   EXPECT_LT(weight[runs[2]], 0.1);
 }
 
-TEST(StrayRuns, ARunThatIsOutOfThreeMayBeTheOneThatIsRight) {
-  // Nearer than what is at odds by itself, yet two have outvoted the third.
+/// What is made of three runs of a condition that lie so many standard deviations from the model,
+/// where the replicates' weights are told.
+std::vector<double> weights_of_three(const std::array<double, 3>& deviations,
+                                     const std::array<double, 3>& weights) {
   const DiagnosisSetup setup = told_noise();
   const Recording recording = record({}, setup, setup.soil.mean, {.day = 0, .outliers = 0}, 4);
-  CondensedRecording outvoted = condense(recording, setup);
-  const std::vector<std::size_t> runs = outvoted.bed.conditions[outvoted.condition[17]].runs;
-  ASSERT_EQ(runs.size(), 3);
-  std::vector<double>& adjusted = outvoted.adjusted[0];
-  const double scatter = run_deviation(outvoted.noise[0], adjusted[runs[0]]);
-  adjusted[runs[1]] = adjusted[runs[0]] + 5.6 * scatter;
-  adjusted[runs[2]] = adjusted[runs[0]] + 5.5 * scatter;
-  outvoted.noise[0].weight[runs[0]] = 0.1;
-  outvoted.bed.channels[0] =
-      means_of(outvoted.day, outvoted.bed.conditions, outvoted.noise[0], adjusted);
+  CondensedRecording condensed = condense(recording, setup);
   const CalibratedBed bed(recording, setup);
-  const std::vector<double> weight =
-      strays_weighed_down(recording, outvoted, bed.fit.prediction).noise[0].weight;
-  EXPECT_EQ(weight[runs[0]], 1);
-  EXPECT_LT(weight[runs[1]], 0.1);
-  EXPECT_LT(weight[runs[2]], 0.1);
+  const std::size_t at = condensed.condition[17];
+  const std::vector<std::size_t> runs = condensed.bed.conditions[at].runs;
+  const auto& conditions = condensed.bed.channels[0].conditions;
+  const auto place = std::ranges::find(conditions, at) - conditions.begin();
+  const double model = bed.fit.prediction[place];
+  const double scatter = run_deviation(condensed.noise[0], model);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    condensed.adjusted[0][runs[i]] = model + deviations.at(i) * scatter;
+    condensed.noise[0].weight[runs[i]] = weights.at(i);
+  }
+  condensed.bed.channels[0] =
+      means_of(condensed.day, condensed.bed.conditions, condensed.noise[0], condensed.adjusted[0]);
+  const CondensedRecording found = strays_weighed_down(recording, condensed, bed.fit.prediction);
+  std::vector<double> result;
+  for (const std::size_t run : runs) result.push_back(found.noise[0].weight[run]);
+  return result;
+}
+
+TEST(StrayRuns, ARunThatTwoHaveOutvotedIsRightWhereNeighboursAgreeWithIt) {
+  // Nearer to each other than what is at odds by itself.
+  const std::vector<double> weight = weights_of_three({0.2, 5.4, 5.6}, {0.1, 1, 1});
+  EXPECT_EQ(weight[0], 1);
+  EXPECT_LT(weight[1], 0.1);
+  EXPECT_LT(weight[2], 0.1);
+}
+
+TEST(StrayRuns, AStrayStaysOneWhereNeighboursLieBetweenItAndItsFellows) {
+  const std::vector<double> weight = weights_of_three({-2.7, -2.6, 2}, {1, 1, 0.1});
+  EXPECT_EQ(weight, (std::vector<double>{1, 1, 0.1}));
 }
 
 }  // namespace
