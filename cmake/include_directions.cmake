@@ -46,13 +46,12 @@ room(diagnosis/checks terramech diagnosis/recording diagnosis/findings diagnosis
 room(diagnosis/names terramech diagnosis/recording diagnosis/findings diagnosis/bed diagnosis/fit
      diagnosis/checks)
 room(diagnosis terramech diagnosis)
-room(drive_diagnosis/recording terramech)
+room(drive_diagnosis/recording)
 room(drive_diagnosis/instruments terramech maps drive_diagnosis/recording)
 room(drive_diagnosis/comparison terramech maps drive_diagnosis/recording
      drive_diagnosis/instruments)
 room(drive_diagnosis/contest drive_diagnosis/recording)
-room(drive_diagnosis/fit terramech maps drive_diagnosis/recording drive_diagnosis/comparison
-     drive_diagnosis/contest)
+room(drive_diagnosis/fit terramech maps drive_diagnosis/comparison drive_diagnosis/contest)
 room(drive_diagnosis terramech maps drive_diagnosis)
 room(driving terramech maps planner)
 room(benchmarking terramech maps planner)

@@ -12,9 +12,11 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result);
 
 /// Claims that one side takes more current than the other straight ahead on the level, where
 /// `result.currents` found it, and says where.
+/// \pre result.currents
 void claim_side_drag(DriveDiagnosis& result);
 
 /// Claims what the contest of `result.effects` found, and says where zones lie.
+/// \pre result.effects
 void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                    DriveDiagnosis& result);
 

@@ -14,6 +14,7 @@
 
 #include "app/io/interrupt.h"
 #include "app/io/printable_text.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
@@ -58,6 +59,22 @@ std::string help_call(const CLI::App& program) {
   return call + " --help";
 }
 
+/// An empty name is a slip of the hand (an unset variable of a script), whatever would become of
+/// it.
+void refuse_empty_names(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    const bool names_folder = type == "DIR";
+    const bool names_file = type.starts_with("FILE") || type.find('.') != std::string::npos;
+    if (!names_folder && !names_file) continue;
+    const std::vector<std::string>& given = option->results();
+    if (std::ranges::none_of(given, &std::string::empty)) continue;
+    throw InputError(fmt::format("{}: empty, names no {}", option->get_name(),
+                                 names_folder ? "folder" : "file"));
+  }
+  for (const CLI::App* called : app.get_subcommands()) refuse_empty_names(*called);
+}
+
 int run(CLI::App& program, const std::vector<Command>& commands, int argc,
         const char* const* argv) {
   try {
@@ -73,6 +90,7 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc,
   } catch (const CLI::ParseError& bad) {
     return fail(fmt::format("{} ({})", bad.what(), help_call(program)));
   }
+  refuse_empty_names(program);
   const auto command = std::ranges::find_if(
       commands, [](const Command& candidate) { return candidate.parser->parsed(); });
   return command->run();

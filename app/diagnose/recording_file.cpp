@@ -217,6 +217,11 @@ void refuse_where_too_many_are_left_out(const RecordingFile& read) {
 
 RecordingFile read_recording(std::istream& stream, const std::string& file) {
   CsvTable table(stream, file);
+  if (!table.find_column("run_id") && table.find_column("x_m")) {
+    throw table.error(
+        "column run_id is missing; a drive, which has x_m, is diagnosed with --scenario "
+        "SCENARIO.yaml");
+  }
   for (const std::string_view column : kRequired) table.column(column);
   if (std::ranges::none_of(kChannels,
                            [&](Channel c) { return table.find_column(name(c)).has_value(); })) {

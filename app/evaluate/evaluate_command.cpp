@@ -91,13 +91,15 @@ ExitStatus draw_chart(const Options& options) {
 
 /// What is said of paths and has no meaning for a chart; `--model` has none without a scenario.
 void refuse_what_is_of_paths(const CLI::App& parser, const Options& options) {
-  for (const char* option : {"--speed", "--deviation-max-m", "--follower", "--draws", "--json"}) {
+  for (const char* option :
+       {"--speed", "--deviation-max-m", "--follower", "--draws", "--seed", "--json"}) {
     if (parser.count(option) > 0) {
-      throw InputError(fmt::format("--chart takes no {}: it is drawn of no path", option));
+      throw InputError(fmt::format(
+          "--chart takes no {}: it is a picture of vehicle and soils, of no path", option));
     }
   }
   if (!options.scenario && options.overrides.model_file) {
-    throw InputError("--chart takes --model with a SCENARIO.yaml alone");
+    throw InputError("--chart takes --model only with a SCENARIO.yaml");
   }
 }
 
@@ -145,7 +147,7 @@ void add_chart_options(CLI::App& parser, Options& options) {
       ->needs(chart);
   parser.add_option("--chart-speed-mps", options.speed_max_mps, "of the chart: from a tenth to it")
       ->type_name("MPS")
-      ->check(in_range(kAbove0))
+      ->check(in_range({.min = 0, .max = 100, .min_excluded = true}))
       ->capture_default_str()
       ->needs(chart);
 }

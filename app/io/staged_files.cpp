@@ -77,6 +77,7 @@ void sweep(const fs::path& folder) {
   throw InputError(fmt::format("{}: {}: {}", folder.option, at.string(), why));
 }
 
+/// Made absolute, an empty name would be the working folder.
 const fs::path& non_empty(const ResultFolder& folder) {
   if (folder.path.empty())
     throw InputError(fmt::format("{}: empty, names no folder", folder.option));

@@ -62,12 +62,11 @@ ExitStatus run_wheel(const WheelOptions& options) {
   if (std::filesystem::is_directory(options.conditions)) {
     throw InputError(options.conditions + ": cannot be read");
   }
+  const ResultFolder folder = out_folder(options);
   if (options.out && std::filesystem::exists(*options.out) &&
       std::filesystem::equivalent(*options.out, options.conditions)) {
     throw InputError("--out: " + options.conditions + " would overwrite its own input");
   }
-
-  const ResultFolder folder = out_folder(options);
 
   const std::stop_token stop = stop_on_interrupt();
   PolledInput input(options.conditions, stop);

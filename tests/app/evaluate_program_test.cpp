@@ -298,8 +298,9 @@ TEST_F(Evaluate, AChartTakesNothingThatIsOfPaths) {
            std::pair{scenario + "--deviation-max-m 1", "--chart takes no --deviation-max-m"},
            std::pair{scenario + "--follower pursuit", "--chart takes no --follower"},
            std::pair{scenario + "--draws 9", "--chart takes no --draws"},
+           std::pair{scenario + "--seed 3", "--chart takes no --seed"},
            std::pair{scenario + "--json", "--chart takes no --json"},
-           std::pair{" --vehicle lrv --model " + model, "--model with a SCENARIO.yaml alone"},
+           std::pair{" --vehicle lrv --model " + model, "--model only with a SCENARIO.yaml"},
        }) {
     const ProgramRun run = run_program(folder_, "evaluate " + chart + given);
     EXPECT_EQ(run.status, 1) << given;

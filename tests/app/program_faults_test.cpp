@@ -47,6 +47,21 @@ class Faults : public testing::Test {
   ScratchFolder folder_;
 };
 
+TEST_F(Faults, AnEmptyNameOfAFileOrFolderIsTold) {
+  for (const auto& [arguments, error] : {
+           std::pair{"wheel c.csv --model m.yaml --out ''", "--out: empty, names no file"},
+           std::pair{"compare a b --out ''", "--out: empty, names no folder"},
+           std::pair{"evaluate s.yaml p.csv --out ''", "--out: empty, names no folder"},
+           std::pair{"benchmark suite.yaml --out ''", "--out: empty, names no folder"},
+           std::pair{"export plan --nav2 ''", "--nav2: empty, names no folder"},
+           std::pair{"diagnose r.csv --setup '' --out o", "--setup: empty, names no file"},
+       }) {
+    const ProgramRun told = run(arguments);
+    EXPECT_EQ(told.status, 1) << arguments;
+    EXPECT_NE(told.errors.find(error), std::string::npos) << arguments << ": " << told.errors;
+  }
+}
+
 TEST_F(Faults, OutputThatIsLostIsAnError) {
   for (const std::string& arguments :
        {"wheel" + file("c.csv") + "--model" + file("m.yaml"), "map info" + file("dem.tif"),

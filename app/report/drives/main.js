@@ -93,19 +93,25 @@ byId('claims').append(
 const spreadText = ({mean, std}) => std ? `${number(mean)} \u00b1 ${number(std)}` : number(mean);
 const differs = (a, b) => a.mean !== b.mean || a.std !== b.std;
 /// Numbers of a zone's soil that the drives tell otherwise than the map.
-const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) =>
-    wideTable(
-        `Soil of the zone of ${drive} from ${fixed(starts_s, 1)} s`,
-        columns(`${drive}, ${fixed(starts_s, 1)} to ${fixed(ends_s, 1, 's')}`,
-                `the map's ${words(map_soil)}`, 'the drives'),
-        Object.keys(soil)
-            .filter(key => differs(soil[key], soil_of_map[key]))
-            .map(key => [withUnit(key), spreadText(soil_of_map[key]), spreadText(soil[key])]));
-byId('zones').append(...(REPORT.zones.length ? REPORT.zones.map(zoneTable) : ['No zone of other soil.']));
+const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) => {
+  const of = `${drive}, ${fixed(starts_s, 1)} to ${fixed(ends_s, 1, 's')}`;
+  return element(
+      'div', {}, element('h3', {}, of),
+      wideTable(
+          `Soil of the zone of ${of}`,
+          columns('number', `the map's ${words(map_soil)}`, 'the drives'),
+          Object.keys(soil)
+              .filter(key => differs(soil[key], soil_of_map[key]))
+              .map(key => [withUnit(key), spreadText(soil_of_map[key]), spreadText(soil[key])])));
+};
+const zonesText = REPORT.windows_used ? 'No zone of other soil.' :
+                                        'Not looked for: no vehicle was compared with its map.';
+byId('zones').append(...(REPORT.zones.length ? REPORT.zones.map(zoneTable) : [zonesText]));
 if (REPORT.zones.length)
-  byId('zones').append(
-      element('p', {class: 'note'},
-              '\u00b1: one standard deviation. All other numbers stay as the map has them.'));
+  byId('zones').append(element(
+      'p', {class: 'note'},
+      '\u00b1: one standard deviation, as far as soils differ where the drives tell nothing: they tell most of ' +
+          'bearing and strength. The numbers vary together, which is not shown. All others stay as the map has them.'));
 const verdict = why => why || 'may be driven';
 byId('verdicts').append(
     REPORT.verdicts.length ?
