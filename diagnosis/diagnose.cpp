@@ -94,7 +94,9 @@ class Diagnosing {
     found_.before = lack_of_fit(recording, remainder, options_.seed);
     found_.after = found_.before;
     unfit_ = found_.before.f > found_.before.critical;
-    beyond_doubt_ = found_.before.p_value < Thresholds::kBeyondDoubt_p;
+    beyond_doubt_ = unfit_ && lack_of_fit(recording, remainder, options_.seed,
+                                          Thresholds::kBeyondDoubt_p, NoiseTails::kHeavy)
+                                      .p_value < Thresholds::kBeyondDoubt_p;
     if (loose && !unfit_ && kWide * loose->x.lpNorm<Eigen::Infinity>() > Thresholds::kWorstPull) {
       // too far, unless numbers nearer to their tests fit as well
       const LackOfFit near = lack_of_fit(recording, calibrated_.remainder_of(base), options_.seed);

@@ -11,12 +11,22 @@
 namespace regoplan {
 namespace {
 
+/// The mean of runs with heavy tails: Student's t of as many degrees of freedom as have the
+/// kurtosis of that mean, scaled to the standard deviation 1.
+double mean_of_heavy_tailed(std::size_t runs, double normal, std::mt19937_64& random) {
+  const double dof = 4 + static_cast<double>(runs);
+  std::chi_squared_distribution<double> chi2(dof);
+  return normal * std::sqrt((dof - 2) / chi2(random));
+}
+
 /// Noise factors per channel and the fit's response, whitened.
 class WhitenedFit {
  public:
-  WhitenedFit(const CondensedRecording& recording, const FitRemainder& fit)
+  WhitenedFit(const CondensedRecording& recording, const FitRemainder& fit,
+              NoiseTails tails = NoiseTails::kNormal)
       : recording_(recording),
         fit_(fit),
+        tails_(tails),
         factor_(recording.bed),
         jacobian_(whitened(recording.bed, factor_, fit.jacobian)) {
     const Eigen::Index p = jacobian_.cols();
@@ -67,7 +77,11 @@ class WhitenedFit {
       }
       Eigen::Index row = bed.offset(i);
       for (const std::size_t k : bed.channels[i].conditions) {
-        z[row++] = scale * together(c, static_cast<Eigen::Index>(k));
+        double value = together(c, static_cast<Eigen::Index>(k));
+        if (tails_ == NoiseTails::kHeavy) {
+          value = mean_of_heavy_tailed(bed.conditions[k].runs.size(), value, random);
+        }
+        z[row++] = scale * value;
       }
     }
     Eigen::VectorXd truth(jacobian_.cols());
@@ -92,6 +106,7 @@ class WhitenedFit {
  private:
   const CondensedRecording& recording_;
   const FitRemainder& fit_;
+  NoiseTails tails_;
   NoiseFactors factor_;
   Eigen::MatrixXd jacobian_;
   Eigen::LLT<Eigen::MatrixXd> precision_;
@@ -101,9 +116,9 @@ class WhitenedFit {
 }  // namespace
 
 LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
-                      std::uint64_t seed, double significance) {
+                      std::uint64_t seed, double significance, NoiseTails tails) {
   constexpr int kDraws = 2000;
-  const WhitenedFit whitened(recording, fit);
+  const WhitenedFit whitened(recording, fit, tails);
   const Eigen::VectorXd found = whitened.statistics(whitened.whiten(fit.residual), fit.x);
   std::mt19937_64 random(seed);
   Eigen::MatrixXd draws(found.size(), kDraws);

@@ -16,12 +16,19 @@ struct FitRemainder {
   double truth_spread = 1;   ///< standard deviation of the true x (1/3 where priors were widened)
 };
 
+/// How far noise goes beside its standard deviation.
+enum class NoiseTails {
+  kNormal,
+  kHeavy,  ///< a run as Student's t with 5 degrees of freedom: sensors and beds have outliers
+};
+
 /// Lack of fit against pure error. The misfit (priors counted as data) of all channels together and
 /// of each channel is compared with what noise alone makes of it in 2000 seeded draws, in which
 /// the noise is known no better than from its degrees of freedom and channels scatter together as
 /// replicates do. The worst of them counts; `critical` is at `significance` for all together.
 LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
-                      std::uint64_t seed, double significance = Thresholds::kLackOfFit_p);
+                      std::uint64_t seed, double significance = Thresholds::kLackOfFit_p,
+                      NoiseTails tails = NoiseTails::kNormal);
 
 /// One way in which a recording may differ from a model: what some effect would add.
 struct Direction {

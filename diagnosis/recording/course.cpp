@@ -65,6 +65,23 @@ std::vector<double> size_of_conditions(const std::vector<double>& of_run,
   return size;
 }
 
+/// How many runs tell what follows a column: (sum of v)^2 over the sum of v^2, v the squared
+/// distance of a run from the mean of its replicates.
+double runs_that_carry(const Column& column, const std::vector<Condition>& conditions) {
+  double sum = 0, squares = 0;
+  for (const Condition& at : conditions) {
+    double mean = 0;
+    for (const std::size_t run : at.runs) mean += column.value[run];
+    mean /= static_cast<double>(at.runs.size());
+    for (const std::size_t run : at.runs) {
+      const double v = std::pow(column.value[run] - mean, 2);
+      sum += v;
+      squares += v * v;
+    }
+  }
+  return squares > 0 ? sum * sum / squares : 0;
+}
+
 using ChannelContrasts = std::vector<std::optional<ReplicateContrasts>>;
 
 /// What the replicates of each channel say, where they tell its noise.
@@ -102,6 +119,7 @@ std::optional<Course> course_of(const Recording& recording,
   const ChannelContrasts contrasts = contrasts_of(recording, conditions, channels, setup, stop);
   std::optional<Course> best;
   for (const Column& column : columns_of(recording)) {
+    if (runs_that_carry(column, conditions) < Thresholds::kCourseRuns) continue;
     for (const CourseKind& kind : kinds) {
       throw_if_stopped(stop);
       Course course{.column = column.name,

@@ -12,9 +12,10 @@ struct Thresholds {
   /// Of the lack of fit of a single recording: chosen so that no more than one in a hundred
   /// recordings without mismatch is taken for one with it, other tests beside it counted.
   static constexpr double kLackOfFit_p = 0.005;
-  /// Of a lack of fit that needs no proof on held-out conditions, or that is left where an
-  /// instrument is blamed: chosen, a fifth of the above. Of 120 right claims of instruments in 590
-  /// generated recordings none left one of less than .0045, of 17 wrong ones five.
+  /// Of a lack of fit that needs no proof on held-out conditions (noise with heavy tails would have
+  /// to make it), or that is left where an instrument is blamed: chosen, a fifth of the above. Of
+  /// 120 right claims of instruments in 590 generated recordings none left one of less than .0045,
+  /// of 17 wrong ones five.
   static constexpr double kBeyondDoubt_p = 1e-3;
   /// Of a difference between recordings: as above, since it must hold under three settings of the
   /// base model.
@@ -51,6 +52,9 @@ struct Thresholds {
   /// That a course must gain over days and scatter: chosen above what 25 columns and kinds tried on
   /// replicates without a course reach (Course tests).
   static constexpr double kCourse_nats = 12;
+  /// Runs that must carry a course at least, by their squared distance from their replicates: a
+  /// single run that has no run before it, or lies at an end of time, carries no more than 2.
+  static constexpr double kCourseRuns = 4;
 
   // What calibration may do.
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
@@ -67,6 +68,22 @@ TEST(Course, OfATimeThatReplicatesShareIsNoneWhateverTheirLoadsDo) {
     run.measured[0] += 0.02 * run.conditions.time_s * heavier;
   }
   EXPECT_FALSE(condense(recording, setup).course.has_value());
+}
+
+TEST(Course, OfOneRunThatHasNoRunBeforeItIsNone) {
+  const DiagnosisSetup setup = simulant_setup();
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    // Every round in the same order: only the first run of all follows another one than its
+    // replicates do.
+    Recording recording =
+        record({}, setup, setup.soil.mean, {.conditions = 18, .replicates = 3}, seed);
+    std::array<double, kChannelCount>& first = recording.runs.front().measured;
+    first[0] -= 3;
+    first[1] -= 3;
+    first[3] -= 2e-3;
+    const CondensedRecording found = condense(recording, setup);
+    EXPECT_FALSE(found.course && found.course->column == "after_slip_ratio") << seed;
+  }
 }
 
 TEST(Course, IsFoundAndDoesNotWidenTheNoise) {

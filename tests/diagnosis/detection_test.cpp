@@ -129,6 +129,15 @@ TEST(LackOfFit, IsFoundWhereNoiseDoesAsMuchOnceInFiveHundredTimesAndNotOnceInAHu
   }
 }
 
+TEST(LackOfFit, IsLikelierByNoiseWithHeavyTails) {
+  const Calibrated made = left_by_noise_with(0.002, calibrated({}, 4), 9);
+  const auto p_of = [&](NoiseTails tails) {
+    return lack_of_fit(made.recording, made.remainder, 9, Thresholds::kBeyondDoubt_p, tails)
+        .p_value;
+  };
+  EXPECT_GT(p_of(NoiseTails::kHeavy), 2 * p_of(NoiseTails::kNormal));
+}
+
 TEST(LackOfFit, IsTheSameForTheSameSeed) {
   const Calibrated made = calibrated({}, 4);
   EXPECT_EQ(lack_of_fit(made.recording, made.remainder, 9).critical,
