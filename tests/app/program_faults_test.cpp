@@ -154,12 +154,12 @@ TEST_F(Faults, APipeThatNobodyWritesToCanBeInterrupted) {
   const std::vector<std::string> waiting = {
       "wheel" + pipe + "--model" + file("m.yaml"),
       "wheel" + file("c.csv") + "--model" + pipe,
-      "evaluate" + file("scenario.yaml") + pipe + "--out" + file("out"),
-      "drive" + file("scenario.yaml") + pipe + "--out" + file("out"),
-      "diagnose" + pipe + "--setup" + file("m.yaml") + "--out" + file("out"),
+      "evaluate" + file("scenario.yaml") + pipe + "--out" + file("evaluated"),
+      "drive" + file("scenario.yaml") + pipe + "--out" + file("driven"),
+      "diagnose" + pipe + "--setup" + file("m.yaml") + "--out" + file("diagnosed"),
       "map info" + pipe};
-  // All wait at once. They are interrupted late enough that they have started on a busy machine
-  // too.
+  // Each has a folder of its own: what a command leaves is nobody else's then. All wait at once.
+  // They are interrupted late enough that they have started on a busy machine too.
   std::vector<std::future<int>> statuses;
   for (const std::string& arguments : waiting) {
     statuses.push_back(std::async(std::launch::async, [&, i = statuses.size()] {
@@ -177,7 +177,9 @@ TEST_F(Faults, APipeThatNobodyWritesToCanBeInterrupted) {
                            "; timeout --preserve-status -k 20 -s INT 1.5 @ wheel" + pipe +
                            "--model" + file("m.yaml");
   EXPECT_EQ(shell(held), 130);
-  EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
+  for (const char* out : {"evaluated", "driven", "diagnosed"}) {
+    EXPECT_FALSE(std::filesystem::exists(folder_.path(out))) << out;
+  }
 }
 
 TEST_F(Faults, AFolderThatDoesNotExistIsASlipWhereAFileIsNamed) {
