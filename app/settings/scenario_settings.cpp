@@ -7,6 +7,7 @@
 #include <iterator>
 #include <thread>
 
+#include "app/settings/carried_mechanisms.h"
 #include "app/settings/map_notices.h"
 #include "app/settings/model_settings.h"
 #include "app/settings/settings_mapping.h"
@@ -254,7 +255,11 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
   const SettingsNode root = read_settings(file);
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   std::optional<ModelSettings> model;
-  if (overrides.model_file) model = read_model_file(*overrides.model_file);
+  std::vector<std::string> model_notices;
+  if (overrides.model_file) {
+    model = read_model_file(*overrides.model_file);
+    model_notices = leave_test_bed_behind(model->spec.mechanisms, *overrides.model_file);
+  }
   const WheelVariant variant = model ? model->spec.variant : WheelVariant::kIshigami2007;
 
   return read_mapping(root, [&](SettingsMapping& mapping) {
@@ -297,6 +302,7 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
                                  ? PlanStatus::kFeasible
                                  : PlanStatus::kInfeasible;
     }
+    std::ranges::move(model_notices, std::back_inserter(scenario.notices));
     if (model && !model->soil_name) {
       scenario.notices.push_back(fmt::format(
           "{}: no soil_name: its mechanisms count on every soil, its soil numbers on none",

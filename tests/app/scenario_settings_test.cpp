@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "tests/app/error_text.h"
@@ -128,6 +129,25 @@ TEST_F(ScenarioSettings, AModelWithMechanismsNeedsNoSoilOfTheMap) {
             problem("200", "201").map.soils().front().soil.mean.cohesion_pa);
   ASSERT_FALSE(with_mechanism.notices.empty());
   EXPECT_NE(with_mechanism.notices.back().find("no soil_name"), std::string::npos);
+}
+
+TEST_F(ScenarioSettings, WhatAModelSaysOfItsTestBedIsLeftBehind) {
+  const std::string model = folder_.write(
+      "m.yaml", replaced(replaced(kSimulantModel, "soil_name: simulant\n", ""), "mechanisms: []",
+                         "mechanisms: [{id: slope_tilt}, {id: grousers}, {id: load_transfer}, "
+                         "{id: slip_scale}, {id: soil_zone}, {id: multi_pass}]"));
+  const Scenario read = scenario("200", "201", {.model_file = model});
+  ASSERT_EQ(read.problem.mechanisms.size(), 2u);
+  EXPECT_EQ(read.problem.mechanisms.front().id, "grousers");
+  EXPECT_EQ(read.problem.mechanisms.back().id, "multi_pass");
+  const auto told = [&](const std::string& words) {
+    return std::ranges::count_if(read.notices, [&](const std::string& notice) {
+      return notice.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_EQ(told("is left out"), 4);
+  EXPECT_EQ(told("slope_tilt is left out"), 1);
+  EXPECT_EQ(told("multi_pass changes nothing here"), 1);
 }
 
 TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
