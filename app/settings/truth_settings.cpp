@@ -89,6 +89,19 @@ std::vector<Soil> read_soils(const SettingsNode& node, const Planned& planned) {
   return soils;
 }
 
+/// A zone that no vehicle on the map can meet is a mistake in its coordinates.
+void require_on_map(const SoilZone& zone, const GridFrame& map, const SettingsNode& corners) {
+  const auto [west, east] = std::ranges::minmax(zone.corners, {}, &PathPoint::x_m);
+  const auto [south, north] = std::ranges::minmax(zone.corners, {}, &PathPoint::y_m);
+  if (east.x_m > map.west_m && west.x_m < map.east_m() && north.y_m > map.south_m() &&
+      south.y_m < map.north_m) {
+    return;
+  }
+  throw corners.error(
+      fmt::format("the zone lies beside the map (x {:.10g} to {:.10g}, y {:.10g} to {:.10g} m)",
+                  map.west_m, map.east_m(), map.south_m(), map.north_m));
+}
+
 SoilZone read_zone(const SettingsNode& node, const Planned& planned) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
     SoilZone zone{.name = mapping.required("name").text(),
@@ -104,6 +117,7 @@ SoilZone read_zone(const SettingsNode& node, const Planned& planned) {
       throw corners.error(
           fmt::format("{} corners are not valid (allowed: at least 3)", zone.corners.size()));
     }
+    require_on_map(zone, planned.problem.map.elevation().frame, corners);
     return zone;
   });
 }

@@ -107,6 +107,8 @@ TEST_F(DriveProgram, TruthFilesAreReadStrictly) {
           {"truth.yaml:1", "2 corners", "at least 3"});
   refused("zones: [{name: a, like: mare, corners_m: [[0, 0], [1, 0], [1e300, 0]]}]\n",
           {"1e300", "-1000000000 to 1000000000"});
+  refused("zones:\n- {name: a, like: mare, corners_m: [[-9, 0], [-8, 0], [-8, 5]]}\n",
+          {"truth.yaml:2", "corners_m", "beside the map (x 0 to "});
   refused("ruts: {stiffening: -1}\n", {"stiffening", "0 to 10"});
   EXPECT_FALSE(std::filesystem::exists(folder_.path("out")));
 }
