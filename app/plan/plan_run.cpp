@@ -68,6 +68,15 @@ std::string again_notice(const PlanOrigin& origin) {
                          : fmt::format("changed since then: {}", fmt::join(changed, ", ")));
 }
 
+/// The rasters of a plan with paths that its time did not suffice for; empty where all are there.
+std::string missing_rasters_notice(const PlanResult& result) {
+  if (result.interrupted || result.candidates.empty()) return "";
+  if (result.rasters && !result.rasters->probability.empty()) return "";
+  return fmt::format("no time was left for {}: more time (--time, planner.time_s) makes them",
+                     result.rasters ? "probability.tif"
+                                    : "margin.tif, supply.tif and probability.tif");
+}
+
 ExitStatus status_of(const PlanResult& result) {
   if (result.interrupted) return kInterrupted;
   return result.status == PlanStatus::kFeasible ? kYes : kNo;
@@ -101,6 +110,8 @@ PlanRun run_plan(const Scenario& scenario, const PlanOutput& output) {
   if (output.json) {
     fmt::print("{}", plan_json(scenario.problem, result, origin, output.folder.path));
   }
+  const std::string missing = missing_rasters_notice(result);
+  if (!missing.empty()) notify(missing, output.quiet);
   say(fmt::format("report: {}\n", (output.folder.path / "report.html").string()));
   const ExitStatus status = status_of(result);
   return {.status = status, .result = std::move(result)};
