@@ -100,6 +100,10 @@ ExitStatus run_diagnosis(const Options& options) {
     for (const std::string& warning : doubtful_values(run.references.back(), run.setup.setup)) {
       recording.warnings.push_back(fmt::format("{}: {}", reference, warning));
     }
+    if (run.references.back().cells == run.recording.cells) {
+      recording.warnings.push_back(
+          fmt::format("{}: the same runs as the recording's: nothing can differ", reference));
+    }
     notify_of_left_out(run.references.back().left_out, options.quiet);
   }
   for (std::string& warning : doubtful_values(run.recording, run.setup.setup)) {

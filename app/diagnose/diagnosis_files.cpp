@@ -202,6 +202,23 @@ std::string diagnosis_json(const DiagnosisRun& run) {
   return diagnosis_content(run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+namespace {
+
+/// A comment line for each name that the corrected model does without.
+std::string left_out_text(const std::vector<Claim>& claims, const WheelModelSpec& model) {
+  std::string text;
+  for (const Claim& claim : claims) {
+    if (std::ranges::count(model.mechanisms, claim.id, &Mechanism::id) > 0) continue;
+    const bool of_wheel = std::ranges::count(mechanism_forms(), claim.id, &MechanismForm::id) > 0;
+    text += fmt::format("# {} is left out: {}\n", claim.id,
+                        of_wheel ? "see the notes of diagnosis.json"
+                                 : "a fault of an instrument is no part of a model of the wheel");
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string corrected_model_text(const DiagnosisRun& run) {
   const Diagnosis& diagnosis = run.diagnosis;
   const DiagnosisSetup& setup = run.setup.setup;
@@ -217,8 +234,8 @@ std::string corrected_model_text(const DiagnosisRun& run) {
   }
   std::string sentence = diagnosis.sentence;
   std::ranges::replace(sentence, '\n', ' ');
-  std::string text =
-      fmt::format("# {}: {}\n", name(diagnosis.verdict), sentence) + model_text(settings);
+  std::string text = fmt::format("# {}: {}\n", name(diagnosis.verdict), sentence) +
+                     left_out_text(diagnosis.claims, settings.spec) + model_text(settings);
   read_model(parse_settings(text, "corrected-model.yaml"));  // whoever is given it can read it
   return text;
 }

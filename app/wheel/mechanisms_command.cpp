@@ -62,7 +62,7 @@ std::vector<std::optional<Change>> changes_of(const MechanismForm& form) {
   WheelModelSpec spec = pictured();
   const WheelModel base(spec);
   spec.mechanisms = {{std::string(form.id), std::string(form.form), {}}};
-  // what typically changes nothing is shown at the top of its range
+  // A changed soil is not changed by default: it is shown at the low ends of its ranges.
   for (const MechanismParameter& parameter : form.parameters) {
     if (form.id == "soil_change") {
       spec.mechanisms[0].parameters[std::string(parameter.name)] = parameter.low;
@@ -218,9 +218,9 @@ ExitStatus run_mechanisms(const MechanismsOptions& options) {
   if (!options.quiet) {
     fmt::print(
         "\nPictures: change at slip -0.6 -0.3 0 0.2 0.4 0.6 0.8, slip angle 15 deg, at the "
-        "defaults, on dry\nsand (second pass, 0.2 m/s, 8 h, inside a zone); forces over the load, "
-        "sinkage over its own:\n# above +5 %, + above +0.5 %, . less, - below -0.5 %, = below -5 "
-        "%, x no equilibrium.\n");
+        "defaults (soil_change:\nthe low ends of its ranges), on dry sand (second pass, 0.2 m/s, "
+        "8 h, inside a zone); forces over the\nload, sinkage over its own: # above +5 %, + above "
+        "+0.5 %, . less, - below -0.5 %, = below -5 %,\nx no equilibrium.\n");
   }
   return kYes;
 }

@@ -128,17 +128,16 @@ std::vector<std::string> names_of(const Claim& claim) {
   return names;
 }
 
-/// " (turned about z: turn_rad 0.17, std 0.01)" of a claim that one fitted number tells.
+/// " (turned about z: turn_rad 0.17, std 0.01)" of a claim that stands alone.
 std::string number_words(const Claim& claim) {
-  const auto is_fitted = [](const auto& parameter) {
-    return parameter.second.standard_deviation > 0;
-  };
-  if (!claim.equivalent.empty() || std::ranges::count_if(claim.parameters, is_fitted) != 1) {
-    return "";
+  if (!claim.equivalent.empty() || claim.form.empty()) return "";
+  std::string numbers;
+  for (const auto& [name, estimate] : claim.parameters) {
+    if (estimate.standard_deviation <= 0) continue;  // known, not fitted
+    numbers += fmt::format("{}{} {:.3g}, std {:.2g}", numbers.empty() ? ": " : "; ", name,
+                           estimate.value, estimate.standard_deviation);
   }
-  const auto& [name, estimate] = *std::ranges::find_if(claim.parameters, is_fitted);
-  return fmt::format(" ({}: {} {:.3g}, std {:.2g})", claim.form, name, estimate.value,
-                     estimate.standard_deviation);
+  return fmt::format(" ({}{})", claim.form, numbers);
 }
 
 /// "slip_sinkage explains 45 %; max_stress_angle or rear_contact explains 30 %".

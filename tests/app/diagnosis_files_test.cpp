@@ -127,6 +127,18 @@ TEST(CorrectedModel, IsAModelFileWithTheSoilsSpread) {
   EXPECT_EQ(generic.spec.generic->nodes[0].slip_angle_rad, 0.28);
 }
 
+TEST(CorrectedModel, SaysWhichNamesItDoesWithout) {
+  EXPECT_EQ(corrected_model_text(claimed_diagnosis()).find("left out"), std::string::npos);
+  DiagnosisRun run = claimed_diagnosis();
+  run.diagnosis.claims = {{.id = "sensor_bias", .form = "fy_n", .probability = 0.99}};
+  EXPECT_NE(corrected_model_text(run).find(
+                "# sensor_bias is left out: a fault of an instrument is no part"),
+            std::string::npos);
+  run.diagnosis.claims = {{.id = "bearing_drag", .form = "linear", .probability = 0.99}};
+  EXPECT_NE(corrected_model_text(run).find("# bearing_drag is left out: see the notes"),
+            std::string::npos);
+}
+
 TEST(CorrectedModel, OfADiagnosisThatHadNoneYetIsTheModelItStartedFrom) {
   DiagnosisRun run = claimed_diagnosis();
   run.diagnosis = {.interrupted = true};

@@ -21,6 +21,18 @@ void expect_says(const std::string& sentence, const std::vector<std::string>& wo
   }
 }
 
+TEST(Sentence, TellsFormAndFittedNumbersOfANameThatStandsAlone) {
+  Diagnosis diagnosis = named();
+  Claim& claim = diagnosis.claims.front();
+  claim.form = "exponent";
+  claim.parameters = {{"n1", {0.31, 0.04}}, {"n2", {0.1, 0.02}}, {"known", {3, 0}}};
+  expect_says(sentence_of(diagnosis), {"96 % (exponent: n1 0.31, std 0.04; n2 0.1, std 0.02)."});
+  claim.parameters.clear();
+  expect_says(sentence_of(diagnosis), {"96 % (exponent)."});
+  claim.equivalent = {"grousers"};
+  EXPECT_EQ(sentence_of(diagnosis).find("exponent"), std::string::npos);
+}
+
 TEST(Sentence, NamesChannelSizeRegionMechanismAndProbability) {
   expect_says(sentence_of(named()),
               {"Sinkage lies 4.2 mm (95 %: 3.5 to 4.9) above the calibrated model at "
