@@ -34,39 +34,55 @@ bool looks_geographic(const DriveWindow& window, const GridFrame& frame) {
   return map_far && std::abs(window.x_m) <= 180 && std::abs(window.y_m) <= 90;
 }
 
+/// Of the windows of a drive that have a position, how many lie where.
+struct WindowsPlaced {
+  int all = 0, on_map = 0, geographic = 0;
+  int on_map_exchanged = 0;  ///< if x were y and y were x
+
+  double share_on_map() const { return all > 0 ? static_cast<double>(on_map) / all : 0; }
+};
+
+/// What is wrong with where a drive lies.
+std::string place_words(const WindowsPlaced& placed) {
+  if (placed.geographic > 0) {
+    return "positions look like degrees of longitude and latitude, the map is in metres: bring "
+           "them to the map's coordinates; off the map, the measured attitude counts";
+  }
+  std::string text = fmt::format(
+      "{:.0f} % of the way lies off the map, or where it knows no height: there the measured "
+      "attitude counts",
+      100 * (1 - placed.share_on_map()));
+  constexpr double kMuch = 0.8;
+  if (placed.on_map < kMuch * placed.all && placed.on_map_exchanged == placed.all) {
+    return text + "; with x and y exchanged all of it would lie on the map: are they?";
+  }
+  if (placed.on_map > 0) return text;
+  return text + "; are the positions in the map's coordinates, metres and no degrees?";
+}
+
 void check_place(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                  DriveDiagnosis& result) {
-  std::vector<int> inside(drives.size()), placed(drives.size()), geographic(drives.size());
-  int all_inside = 0, all_placed = 0;
+  std::vector<WindowsPlaced> places(drives.size());
+  WindowsPlaced all;
   for (const DriveWindow& window : result.windows) {
     if (std::isnan(window.x_m)) continue;
-    ++placed[window.drive];
-    ++all_placed;
-    if (!std::isnan(setup.map.height_m(window.x_m, window.y_m))) {
-      ++inside[window.drive];
-      ++all_inside;
-    }
-    geographic[window.drive] += looks_geographic(window, setup.map.elevation().frame);
+    const bool on_map = !std::isnan(setup.map.height_m(window.x_m, window.y_m));
+    WindowsPlaced& place = places[window.drive];
+    ++place.all;
+    ++all.all;
+    place.on_map += on_map;
+    all.on_map += on_map;
+    place.on_map_exchanged += !std::isnan(setup.map.height_m(window.y_m, window.x_m));
+    place.geographic += looks_geographic(window, setup.map.elevation().frame);
   }
-  result.share_on_map = all_placed > 0 ? static_cast<double>(all_inside) / all_placed : 0;
+  result.share_on_map = all.share_on_map();
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    if (placed[i] == 0 || inside[i] == placed[i]) continue;
-    const double share = static_cast<double>(inside[i]) / placed[i];
-    const std::string text =
-        geographic[i] > 0
-            ? "positions look like degrees of longitude and latitude, the map is in metres: bring "
-              "them to the map's coordinates; off the map, the measured attitude counts"
-            : fmt::format(
-                  "{:.0f} % of the way lies off the map, or where it knows no height: there "
-                  "the measured attitude counts{}",
-                  100 * (1 - share),
-                  inside[i] > 0 ? ""
-                                : "; are the positions in the map's coordinates, metres "
-                                  "and no degrees?");
-    result.findings.push_back({.id = geographic[i] > 0 ? "other_coordinates" : "off_the_map",
+    const WindowsPlaced& place = places[i];
+    if (place.on_map == place.all) continue;
+    result.findings.push_back({.id = place.geographic > 0 ? "other_coordinates" : "off_the_map",
                                .drive = drives[i].drive_id,
-                               .text = text,
-                               .value = share});
+                               .text = place_words(place),
+                               .value = place.share_on_map()});
   }
 }
 
