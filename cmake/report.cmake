@@ -43,7 +43,8 @@ regoplan_embed(
   kDiagnosisHtml app/report/diagnosis/diagnosis.html
   kDiagnosisScript ${diagnosis_scripts}
   kDrivesHtml app/report/drives/drives.html
-  kDrivesScript app/report/map/terrain.js app/report/map/map_chart.js app/report/drives/main.js
+  kDrivesScript app/report/map/terrain.js app/report/map/map_chart.js app/report/drives/residuals.js
+                app/report/drives/main.js
   kLoopHtml app/report/loop/loop.html
   kLoopScript app/report/map/terrain.js app/report/map/map_chart.js app/report/loop/main.js
   kCompareHtml app/report/compare/compare.html

@@ -137,6 +137,18 @@ Predictions held_out_predictions(const Windows& windows, const Groups& groups,
   return result;
 }
 
+std::vector<ComparedChannel> compared_sides(const Windows& windows, const Predictions& predicted) {
+  std::vector<ComparedChannel> sides{{.name = "current_left_a"}, {.name = "current_right_a"}};
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+      sides[side].windows.push_back(windows[i].window);
+      sides[side].measured.push_back(windows[i].current_a.at(side));
+      sides[side].corrected.push_back(predicted.model_a[i].at(side));
+    }
+  }
+  return sides;
+}
+
 HeldOutCurrents judge(const Windows& windows, const Predictions& predicted) {
   HeldOutCurrents result;
   std::map<std::size_t, HeldOutCurrents::Charge> charges;
@@ -364,6 +376,7 @@ std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecordi
   const Predictions predicted = held_out_predictions(chosen, groups, stop);
   result.held_out = judge(chosen, predicted);
   result.held_out.held_out = kind;
+  result.compared = compared_sides(chosen, predicted);
   Groups clusters = groups;
   if (kind == "day") {
     for (std::size_t i = 0; i < chosen.size(); ++i) clusters[i] = static_cast<int>(chosen[i].drive);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drive_diagnosis/comparison/compared_channel.h"
 #include "drive_diagnosis/instruments/mounting.h"
 #include "drive_diagnosis/recording/drive_windows.h"
 
@@ -77,6 +78,7 @@ struct CurrentDiagnosis {
   std::vector<std::string> equivalent;  ///< what these drives cannot tell from it
   int windows = 0;
   int clusters = 0;
+  std::vector<ComparedChannel> compared;  ///< left, right; corrected: held out
 };
 
 /// Fits and judges the currents of both sides. Nothing where fewer than 30 windows drive steadily

@@ -45,7 +45,8 @@ class EffectSearch {
     VehicleEffects result{.windows = static_cast<int>(comparison_.size()),
                           .channels = comparison_.channels(),
                           .has_torque = comparison_.has_torque()};
-    result.rms = rms(comparison_.measured() - comparison_.predicted_as_said(stop_));
+    const Eigen::MatrixXd as_said = comparison_.predicted_as_said(stop_);
+    result.rms = rms(comparison_.measured() - as_said);
     constexpr int kEffectsMost = 3;
     fit_.settle();  // soils and sensors as they are, before anything is judged
     std::vector<EffectFound> found;
@@ -77,7 +78,9 @@ class EffectSearch {
     result.vehicle =
         estimated_vehicle(uncertain_, trials_, fit_.fit().parameters, fit_.fit().parameters_std);
     result.soils = soils_left();
-    result.rms_after = rms(comparison_.measured() - fit_.predicted());
+    const Eigen::MatrixXd corrected = fit_.predicted();
+    result.rms_after = rms(comparison_.measured() - corrected);
+    result.compared = compared(as_said, corrected);
     return result;
   }
 
@@ -89,6 +92,26 @@ class EffectSearch {
           std::sqrt(residuals.col(k).squaredNorm() / static_cast<double>(residuals.rows())));
     }
     return result;
+  }
+
+  std::vector<ComparedChannel> compared(const Eigen::MatrixXd& as_said,
+                                        const Eigen::MatrixXd& corrected) const {
+    std::vector<std::size_t> windows;
+    for (std::size_t i = 0; i < comparison_.size(); ++i) windows.push_back(comparison_.window(i));
+    const auto values = [](const Eigen::MatrixXd& of, Eigen::Index channel) {
+      return std::vector<double>(of.col(channel).begin(), of.col(channel).end());
+    };
+    std::vector<ComparedChannel> channels;
+    for (Eigen::Index k = 0; k < corrected.cols(); ++k) {
+      const auto channel = static_cast<std::size_t>(k);
+      channels.push_back({.name = comparison_.channels()[channel],
+                          .windows = windows,
+                          .measured = values(comparison_.measured(), k),
+                          .model = values(as_said, k),
+                          .corrected = values(corrected, k),
+                          .noise = fit_.noise()[channel]});
+    }
+    return channels;
   }
 
   VehicleFinding told(const EffectFound& effect) const {

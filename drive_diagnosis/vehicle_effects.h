@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "drive_diagnosis/comparison/compared_channel.h"
 #include "drive_diagnosis/comparison/vehicle_trials.h"
 #include "drive_diagnosis/comparison/window_comparison.h"
 #include "drive_diagnosis/comparison/window_prediction.h"
@@ -52,6 +53,7 @@ struct VehicleEffects {
   std::vector<double> rms;        ///< of the residuals, of what is said to be
   std::vector<double> rms_after;  ///< with what was found and estimated
   bool has_torque = false;
+  std::vector<ComparedChannel> compared;  ///< window by window, in the order of `channels`
 };
 
 /// What became of the windows, and what they say where there are at least 12 to be compared.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "app/diagnose_drive/drive_diagnosis_report.h"
 #include "app/io/csv_cells.h"
@@ -228,22 +230,56 @@ std::string drive_diagnosis_json(const DriveDiagnosisRun& run) {
   return drive_diagnosis_content(run).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::vector<const ComparedChannel*> compared_channels(const DriveDiagnosis& diagnosis) {
+  std::vector<const ComparedChannel*> channels;
+  const auto add = [&channels](const std::vector<ComparedChannel>& more) {
+    for (const ComparedChannel& channel : more) channels.push_back(&channel);
+  };
+  if (diagnosis.currents) add(diagnosis.currents->compared);
+  if (diagnosis.effects) add(diagnosis.effects->compared);
+  return channels;
+}
+
 namespace {
 
+constexpr std::array<std::pair<const char*, std::vector<double> ComparedChannel::*>, 3>
+    kComparedColumns{{{"measured", &ComparedChannel::measured},
+                      {"model", &ComparedChannel::model},
+                      {"corrected", &ComparedChannel::corrected}}};
+
+/// Every window, with what was compared in it; cells are empty where nothing was.
 std::string windows_csv(const DriveDiagnosisRun& run) {
   std::string text =
       "drive_id,start_s,end_s,x_m,y_m,yaw_deg,speed_mps,acceleration_mps2,yaw_rate_rad_s,"
-      "pitch_deg,roll_deg\n";
-  for (const DriveWindow& window : run.diagnosis.windows) {
+      "pitch_deg,roll_deg";
+  const std::vector<const ComparedChannel*> channels = compared_channels(run.diagnosis);
+  const std::vector<DriveWindow>& windows = run.diagnosis.windows;
+  std::vector<std::vector<double>> added;
+  for (const ComparedChannel* channel : channels) {
+    for (const auto& [prefix, values] : kComparedColumns) {
+      text += fmt::format(",{}_{}", prefix, channel->name);
+      std::vector<double>& column = added.emplace_back(windows.size(), kNotSampled);
+      for (std::size_t i = 0; i < (channel->*values).size(); ++i) {
+        column[channel->windows[i]] = (channel->*values)[i];
+      }
+    }
+  }
+  text += '\n';
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    const DriveWindow& window = windows[w];
     text += text_cell(run.drive_ids[window.drive]);
+    const auto add = [&text](double value) {
+      text += ',';
+      text += number_cell(value);
+    };
     for (const double value :
          {window.start_s, window.end_s, window.x_m, window.y_m, window.yaw_rad / kDegree,
           window.speed_mps, window.acceleration_mps2, window.yaw_rate_rad_s,
           window.pitch_rad / kDegree, window.roll_rad / kDegree}) {
-      text += ',';
-      text += number_cell(value);
+      add(value);
     }
-    text += "\n";
+    for (const std::vector<double>& column : added) add(column[w]);
+    text += '\n';
   }
   return text;
 }

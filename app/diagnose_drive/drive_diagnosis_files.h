@@ -28,6 +28,9 @@ struct DriveDiagnosisRun {
 nlohmann::ordered_json drive_diagnosis_content(const DriveDiagnosisRun& run);
 std::string drive_diagnosis_json(const DriveDiagnosisRun& run);
 
+/// What was compared window by window: of the currents and of the vehicle's model.
+std::vector<const ComparedChannel*> compared_channels(const DriveDiagnosis& diagnosis);
+
 /// The diagnosis in a few lines for a terminal.
 std::string drive_diagnosis_summary(const DriveDiagnosisRun& run);
 

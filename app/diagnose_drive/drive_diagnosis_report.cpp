@@ -64,11 +64,31 @@ nlohmann::json tracks_json(const std::vector<DriveWindow>& windows) {
   return tracks;
 }
 
+/// Measured less modelled of each window that was compared; of many windows, as many as are seen.
+nlohmann::json residuals_json(const DriveDiagnosis& diagnosis) {
+  nlohmann::json residuals = nlohmann::json::array();
+  for (const ComparedChannel* channel : compared_channels(diagnosis)) {
+    const std::size_t step = 1 + channel->windows.size() / kPlacesDrawn;
+    nlohmann::json rows = nlohmann::json::array();
+    for (std::size_t i = 0; i < channel->windows.size(); i += step) {
+      const DriveWindow& window = diagnosis.windows[channel->windows[i]];
+      const auto left = [&](const std::vector<double>& model) {
+        return model.empty() ? kNotSampled : channel->measured[i] - model[i];
+      };
+      rows.push_back({window.drive, (window.start_s + window.end_s) / 2, left(channel->model),
+                      left(channel->corrected)});
+    }
+    residuals.push_back({{"channel", channel->name}, {"noise", channel->noise}, {"rows", rows}});
+  }
+  return residuals;
+}
+
 }  // namespace
 
 std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
   nlohmann::json data = nlohmann::json::parse(drive_diagnosis_json(run));
   data["tracks"] = tracks_json(run.diagnosis.windows);
+  data["residuals"] = residuals_json(run.diagnosis);
   data["map"] = report_map(run.setup.setup.map, kSmall);
   std::vector<std::string> lead;
   if (const auto what = what_would_decide(run.diagnosis)) lead.push_back(*what);

@@ -1,8 +1,12 @@
 // `diagnose` of a drive, and what it hands back, as a person meets them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "app/io/csv_cells.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
 #include "tests/scratch_folder.h"
@@ -34,6 +38,27 @@ class DriveDiagnosisProgram : public testing::Test {
     return nlohmann::json::parse(folder_.read("said/diagnosis.json"));
   }
 
+  /// Of the difference between two columns of windows.csv, where both have values.
+  double root_mean_square(const std::string& column, const std::string& other) const {
+    std::istringstream text(folder_.read("said/windows.csv"));
+    std::string line;
+    std::getline(text, line);
+    const std::vector<std::string> names = *split_cells(line);
+    const auto place = [&names](const std::string& name) {
+      return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    };
+    double squares = 0;
+    int count = 0;
+    while (std::getline(text, line)) {
+      const std::vector<std::string> cells = *split_cells(line);
+      const std::string &a = cells.at(place(column)), &b = cells.at(place(other));
+      if (a.empty() || b.empty()) continue;
+      squares += std::pow(std::stod(a) - std::stod(b), 2);
+      ++count;
+    }
+    return std::sqrt(squares / count);
+  }
+
   ScratchFolder folder_;
 };
 
@@ -57,6 +82,12 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
   EXPECT_NEAR(track.back()[0], 120, kWindow_m);
   EXPECT_GT(zones[0]["resistance_share"]["value"], 0);
   EXPECT_LT(zones[0]["soil"]["kphi"]["mean"], zones[0]["soil_of_map"]["kphi"]["mean"]);
+  for (const auto& [channel, fit] : diagnosis()["fit"].items()) {
+    EXPECT_NEAR(root_mean_square("measured_" + channel, "model_" + channel), fit["baseline_rmse"],
+                1e-6);
+    EXPECT_NEAR(root_mean_square("measured_" + channel, "corrected_" + channel),
+                fit["corrected_rmse"], 1e-6);
+  }
 
   const std::string corrected = folder_.path("said/corrected-map/scenario.yaml");
   const ProgramRun again = run("plan '" + corrected + "' --out '" + folder_.path("second") + "'");

@@ -140,6 +140,10 @@ if (REPORT.windows_used) {
       `${compared} of ${REPORT.windows} windows are compared with the vehicle's model` +
           (reasons.length ? `; left out: ${reasons.join(', ')}.` : '.')));
 }
+if (REPORT.residuals.length) {
+  byId('residuals-section').hidden = false;
+  residualsAlongTheWay(byId('residuals'));
+}
 byId('findings').append(
     ...(REPORT.findings.length ?
             REPORT.findings.map(({drive, text}) => element('li', {}, drive ? `${drive}: ${text}` : text)) :

@@ -55,6 +55,7 @@ const UNIT_ENDINGS = [
   ['_m', 'm'],
   ['_s', 's'],
   ['_n', 'N'],
+  ['_a', 'A'],
 ];
 
 /// A key as {name, unit}: "sinkage_max_m" as {name: "sinkage max", unit: "m"}.
