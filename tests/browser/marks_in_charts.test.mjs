@@ -9,6 +9,7 @@ after(stopBrowser);
 
 const CHARTS = {
   diagnosis: [['#maps', /slip ratio .* standard deviations/], ['#curves', /measured .* corrected/]],
+  drives: [['#residuals', /s: .* m\/s/]],
   benchmark: [['#profiles', /% of the runs up to/], ['#boxes', /median .* quartiles/]],
 };
 

@@ -4,10 +4,12 @@ const number = value => (isKnown(value) ? significant(value, 3) : UNKNOWN);
 const TRACK_POINTS = REPORT.tracks.flatMap(track => track.points.map(p => [...p, track.drive]));
 const EXTENTS = [0, 1].map(axis => d3.extent(TRACK_POINTS, p => p[axis]));
 
+const SOILS_DIFFER = REPORT.map.soils.length > 1;
+
 /// The driven tracks over the map, zones that were found below them.
 function drawTracks(svg, width) {
   const chart = mapChart(svg, width, ...EXTENTS, {around_m: 20, tight: true}), {box, x, y} = chart;
-  drawGround(svg, chart, REPORT.map);
+  drawGround(svg, chart, REPORT.map, {soils: SOILS_DIFFER});
   drawAxes(svg, box, {scale: x, title: 'x, m'}, {scale: y, title: 'y, m', grid: false});
   const line = d3.line().x(p => x(p[0])).y(p => y(p[1]));
   for (const zone of REPORT.zones)
@@ -37,7 +39,8 @@ const trackKeys = () => [
   ...(REPORT.zones.length ? [{name: 'zone of other soil', colour: UNDER_LIMIT, area: true}] : []),
   ...(REPORT.drives.length <= MOST_NAMED ?
           REPORT.drives.map(({drive_id}, k) => ({name: drive_id, colour: seriesColour(k)})) :
-          [])
+          []),
+  ...(SOILS_DIFFER ? soilKeys(REPORT.map) : [])
 ];
 
 if (TRACK_POINTS.length)

@@ -22,21 +22,30 @@ function mapChart(svg, width, xs, ys, {around_m = 6, height_max = 560, tight = f
   return {box, x: scale(xs, box.left, box.right), y: scale(ys, box.bottom, box.top)};
 }
 
-/// The terrain's picture in the theme's light, made once for each map.
-const mapShades = new Map();
-function shadeOf(map) {
-  if (!mapShades.has(map)) mapShades.set(map, {});
-  const shades = mapShades.get(map), theme = isDark() ? 'dark' : 'light';
-  if (!shades[theme]) {
-    const terrain = readTerrain(map);
-    shades[theme] = hillshade(terrain, shadingStretch(terrain), isDark()).toDataURL();
-  }
-  return shades[theme];
+/// Pictures of a map: its terrain in the theme's light, its soils. Each is made once.
+const mapPictures = new Map();
+function mapPicture(map, name, make) {
+  if (!mapPictures.has(map)) mapPictures.set(map, {terrain: readTerrain(map)});
+  const pictures = mapPictures.get(map);
+  if (!pictures[name]) pictures[name] = make(pictures.terrain).toDataURL();
+  return pictures[name];
 }
+const shadeOf = map => mapPicture(
+    map, isDark() ? 'dark' : 'light',
+    terrain => hillshade(terrain, shadingStretch(terrain), isDark()));
+const soilsOf = map => mapPicture(map, 'soils', soilLayer);
 
-/// Hillshade and rocks of a report's map below what a map chart shows, cut off at its axes.
+/// Keys of a map's soils as `drawGround` colours them.
+const soilKeys = map => map.soils.map(({name}, k) => {
+  const {r, g, b} = d3.rgb(soilColour(k));
+  return {name: words(name), colour: `rgba(${r}, ${g}, ${b}, ${2 * SOILS_OPACITY})`, area: true};
+});
+
+/// Hillshade and rocks of a report's map below what a map chart shows, cut off at its axes; with
+/// `soils` their colours as well.
+const SOILS_OPACITY = 0.35;
 let grounds = 0;
-function drawGround(svg, {box, x, y}, map) {
+function drawGround(svg, {box, x, y}, map, {soils = false} = {}) {
   const id = `ground-${++grounds}`;
   svg.append('clipPath')
       .attr('id', id)
@@ -46,13 +55,16 @@ function drawGround(svg, {box, x, y}, map) {
       .attr('width', box.right - box.left)
       .attr('height', box.bottom - box.top);
   const ground = svg.append('g').attr('clip-path', `url(#${id})`);
-  ground.append('image')
-      .attr('href', shadeOf(map))
-      .attr('preserveAspectRatio', 'none')
-      .attr('x', x(map.west_m))
-      .attr('y', y(map.north_m))
-      .attr('width', x(map.west_m + map.raster.columns * map.raster.cell_width_m) - x(map.west_m))
-      .attr('height', y(map.north_m - map.raster.rows * map.raster.cell_height_m) - y(map.north_m));
+  const lay = picture =>
+      ground.append('image')
+          .attr('href', picture)
+          .attr('preserveAspectRatio', 'none')
+          .attr('x', x(map.west_m))
+          .attr('y', y(map.north_m))
+          .attr('width', x(map.west_m + map.raster.columns * map.raster.cell_width_m) - x(map.west_m))
+          .attr('height', y(map.north_m - map.raster.rows * map.raster.cell_height_m) - y(map.north_m));
+  lay(shadeOf(map));
+  if (soils) lay(soilsOf(map)).attr('opacity', SOILS_OPACITY);
   for (const [x_m, y_m, radius_m] of map.rocks)
     ground.append('circle')
         .attr('class', 'rock')
