@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "diagnosis/checks/bed_memory.h"
@@ -57,7 +58,7 @@ class Diagnosing {
     complete_ = found_;
     tell("scoring what may be wrong", 0.15);
     const bool located = rejected_;
-    score();
+    look_for_names();
     if (rejected_ && !located) locate_mismatch();
     found_.ranking = ranking();
     complete_ = found_;
@@ -165,11 +166,16 @@ class Diagnosing {
     return all;
   }
 
-  void score() {
-    scored_ = score_candidates(calibrated_.problem(), calibrated_.wide_problem(), effects_,
+  void score(const std::vector<Effect>& effects, std::string_view stage, double from, double to) {
+    scored_ = score_candidates(calibrated_.problem(), calibrated_.wide_problem(), effects,
                                {.threads = options_.threads, .progress = [&](double share) {
-                                  tell("scoring what may be wrong", 0.15 + 0.7 * share);
+                                  tell(stage, from + (to - from) * share);
                                 }});
+    weigh(scored_, plain_model());
+  }
+
+  void look_for_names() {
+    score(effects_, "scoring what may be wrong", 0.15, 0.85);
     found_.support = support_of(scored_, plain_model());
     if (found_.support.best_gain_nats > Thresholds::kNoChance_nats) {
       unfit_ = true;
@@ -184,16 +190,34 @@ class Diagnosing {
     return rejected_ ? PlainModel::kDoubted : PlainModel::kHolds;
   }
 
+  /// What names may be claimed. An instrument is not accused of what physics does as well that is
+  /// named in part else: that competes with it then.
+  std::optional<ProvenClaim> claim_of_names() {
+    const std::size_t notes = found_.notes.size();
+    auto claim = contest_of_names();
+    if (!claim || !accuses_instrument(claim->names)) return claim;
+    found_.notes.resize(notes);
+    std::vector<Effect> effects = effects_;
+    std::ranges::copy_if(effects_in_part_, std::back_inserter(effects),
+                         [](const Effect& effect) { return is_later_physics(effect.id); });
+    score(effects, "scoring physics beside an instrument's fault", 0.86, 0.88);
+    return contest_of_names();
+  }
+
+  std::optional<ProvenClaim> contest_of_names() {
+    NameContest contest(calibrated_, scored_, plain_model(), options_.seed, options_.threads);
+    auto claim = contest.decide();
+    scored_ = contest.scored();
+    add_notes(contest.notes());
+    return claim;
+  }
+
   void decide() {
     if (!rejected_) {
       nothing_is_missing();
       return;
     }
-    NameContest contest(calibrated_, scored_, plain_model(), options_.seed, options_.threads);
-    const auto claim = contest.decide();
-    scored_ = contest.scored();
-    add_notes(contest.notes());
-    if (claim) {
+    if (const auto claim = claim_of_names()) {
       found_.claims = claims_of(calibrated_.problem(), scored_, claim->names, claim->fit);
       const bool single = std::ranges::all_of(
           claim->names, [](const NameClass& names) { return names.ids.size() == 1; });
@@ -206,7 +230,9 @@ class Diagnosing {
       return;
     }
     if (unfit_ && named_in_part()) return;
-    if (unfit_) {
+    // Likelier than the plain model even with all that it has in its favour where no test speaks.
+    const bool is_likelier = found_.support.log_odds > Thresholds::kHolds_log_prior;
+    if (unfit_ || is_likelier) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);
       const bool proven = correction.refused.empty() &&
                           correction.proof.share_explained > Thresholds::kWorthCorrecting;
@@ -216,10 +242,11 @@ class Diagnosing {
         take(std::move(correction));
         return;
       }
-      found_.notes.push_back(
-          fmt::format("there may be a lack of fit (p = {:.2g}), but no correction proves its "
-                      "worth on held-out conditions: it is taken for chance",
-                      found_.before.p_value));
+      if (unfit_)
+        found_.notes.push_back(
+            fmt::format("there may be a lack of fit (p = {:.2g}), but no correction proves its "
+                        "worth on held-out conditions: it is taken for chance",
+                        found_.before.p_value));
     }
     // what spoke against the calibrated model does not hold
     if (!unfit_) {

@@ -83,6 +83,13 @@ TEST(Diagnose, ABiasedSensorIsCalledASensor) {
   EXPECT_TRUE(found.corrected_model.mechanisms.empty());
 }
 
+TEST(Diagnose, AShareOfTheSideForceToOneSideIsASensorOrTheFlanksFriction) {
+  BedPlan plan;  // slip angles to one side: friction on the flank does what crosstalk does
+  plan.instruments = [](WheelRun& run) { run.measured[0] -= 0.25 * run.measured[1]; };
+  const Diagnosis found = diagnosed({}, 21, plan);
+  EXPECT_TRUE(names(found, "sensor_crosstalk") && names(found, "flank_friction")) << found.sentence;
+}
+
 TEST(Diagnose, AnAmplifierOnAnotherRangeIsASensorHoweverFarOff) {
   BedPlan plan;
   plan.instruments = [](WheelRun& run) { run.measured[0] *= 1.5; };
