@@ -165,7 +165,11 @@ std::string parameters_words(const Diagnosis& diagnosis) {
                         worst->parameter, worst->calibrated.value, worst->prior.value, worst->pull);
   }
   if (diagnosis.suspects.empty()) {
-    return text + "; no physics is missing that these data could show.";
+    const bool doubted = diagnosis.support.tests != PlainModel::kHolds;
+    return text + (doubted
+                       ? "; what stands out beside it proves nothing on held-out conditions and "
+                         "is taken for chance (see the notes)."
+                       : "; no physics is missing that these data could show.");
   }
   return text +
          "; a number that far from its tests is no clean bill: " + list_of(diagnosis.suspects) +

@@ -21,6 +21,13 @@ void expect_says(const std::string& sentence, const std::vector<std::string>& wo
   }
 }
 
+TEST(Sentence, OfOtherSoilNumbersSaysWhatWasTakenForChance) {
+  Diagnosis diagnosis{.verdict = Verdict::kParameters};
+  expect_says(sentence_of(diagnosis), {"no physics is missing that these data could show"});
+  diagnosis.support.tests = PlainModel::kDoubted;
+  expect_says(sentence_of(diagnosis), {"is taken for chance (see the notes)"});
+}
+
 TEST(Sentence, TellsFormAndFittedNumbersOfANameThatStandsAlone) {
   Diagnosis diagnosis = named();
   Claim& claim = diagnosis.claims.front();
