@@ -135,7 +135,7 @@ std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
       return setup_note(recording, noise);
     case NoiseSource::kNeighbours:
       return fmt::format(
-          "{}: neither replicates nor setup tell the noise; {:.3g} was taken from "
+          "{}: too few replicates, and no setup, tell the noise; {:.3g} was taken from "
           "the scatter between neighbouring conditions, which is cautious: small "
           "effects stay unseen",
           channel, noise.constant);

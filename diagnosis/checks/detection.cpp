@@ -71,7 +71,8 @@ class WhitenedFit {
     for (Eigen::Index c = 0; c < channels; ++c) {
       const auto i = static_cast<std::size_t>(c);
       double scale = 1;
-      if (const int dof = recording_.noise[i].degrees_of_freedom; dof > 0) {
+      const ChannelNoise& noise = recording_.noise[i];
+      if (const int dof = noise.degrees_of_freedom + noise.neighbour_degrees_of_freedom; dof > 0) {
         std::chi_squared_distribution<double> chi2(dof);
         scale = std::sqrt(dof / std::max(chi2(random), 0.05 * dof));
       }

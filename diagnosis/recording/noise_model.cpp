@@ -17,6 +17,7 @@ namespace regoplan {
 namespace {
 
 constexpr int kFewest = 4;  // degrees of freedom to trust replicates
+constexpr int kEnough = 6;  // from here on, whatever neighbouring conditions scatter
 
 /// Shares of the constant part that the other parts are tried at. Nothing and even factors: weighed
 /// alike, nearly a half-Cauchy prior about a run's scatter (Gelman 2006, Bayesian Analysis 1, 515).
@@ -128,9 +129,25 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
   }
 }
 
-/// Scatter between neighbouring conditions of what the model leaves.
-double neighbour_deviation(const std::vector<Condition>& conditions,
-                           const std::vector<double>& value, const std::vector<double>& model) {
+/// Root mean square of values that are far off where they are farther than outliers lie: a median
+/// alone would take tails for narrower than they are.
+double winsorised_rms(const std::vector<double>& off, double rough) {
+  const double most = Thresholds::kOutlier_deviations * rough;
+  double sum = 0;
+  for (const double value : off) sum += std::pow(std::min(value, most), 2);
+  return std::sqrt(sum / static_cast<double>(off.size()));
+}
+
+struct NeighbourScatter {
+  double deviation = 0;        ///< of one run; 0 where there are too few
+  int degrees_of_freedom = 0;  ///< by which it is known
+};
+
+/// Scatter between neighbouring conditions of what the model leaves: each run against the mean of
+/// its two nearest.
+NeighbourScatter neighbour_scatter(const std::vector<Condition>& conditions,
+                                   const std::vector<double>& value,
+                                   const std::vector<double>& model) {
   struct Point {
     double s, b, l, residual;
   };
@@ -142,8 +159,8 @@ double neighbour_deviation(const std::vector<Condition>& conditions,
                         value[run] - model[run]});
     }
   }
-  if (points.size() < 4) return 0;
-  std::vector<double> differences;
+  if (points.size() < 4) return {};
+  std::vector<double> off;
   for (std::size_t i = 0; i < points.size(); ++i) {
     std::vector<std::pair<double, double>> others;
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -153,9 +170,51 @@ double neighbour_deviation(const std::vector<Condition>& conditions,
       others.emplace_back(distance, points[k].residual);
     }
     std::ranges::partial_sort(others, others.begin() + 2);
-    differences.push_back(std::abs(points[i].residual - (others[0].second + others[1].second) / 2));
+    off.push_back(std::abs(points[i].residual - (others[0].second + others[1].second) / 2));
   }
-  return median(differences) / (0.6745 * std::sqrt(1.5));
+  const double rough = median(off) / 0.6745;
+  // Each difference shares its runs with about four others.
+  constexpr int kShared = 4;
+  return {std::max(rough, winsorised_rms(off, rough)) / std::sqrt(1.5),
+          std::max(1, static_cast<int>(points.size()) / kShared)};
+}
+
+ChannelNoise told_by_neighbours(Channel channel, const NeighbourScatter& scatter,
+                                std::size_t runs) {
+  return {.channel = channel,
+          .source = NoiseSource::kNeighbours,
+          .constant = scatter.deviation,
+          .neighbour_degrees_of_freedom = scatter.degrees_of_freedom,
+          .weight = std::vector<double>(runs, 1.0)};
+}
+
+/// The least share of its true variance that so few replicates show but once in a thousand.
+double variance_share_of_few(int degrees_of_freedom) {
+  // Wilson & Hilferty 1931: the cube root of chi squared over its degrees is nearly normal.
+  constexpr double kOneInThousand = -3.09;
+  const double spread = 2.0 / (9.0 * degrees_of_freedom);
+  return std::pow(std::max(1 - spread + kOneInThousand * std::sqrt(spread), 0.2), 3);
+}
+
+double signal_rms(const std::vector<double>& value) {
+  double sum = 0;
+  int count = 0;
+  for (const double y : value) {
+    if (!std::isfinite(y)) continue;
+    sum += y * y;
+    ++count;
+  }
+  return std::sqrt(sum / std::max(count, 1));
+}
+
+/// Whether neighbouring conditions scatter more than few replicates, and no more than these may by
+/// chance tell too little.
+bool is_uncontradicted(const NeighbourScatter& scatter, const ChannelNoise& by_replicates,
+                       const std::vector<double>& value) {
+  const double told = run_deviation(by_replicates, signal_rms(value));
+  const double least =
+      scatter.deviation * std::sqrt(variance_share_of_few(by_replicates.degrees_of_freedom));
+  return told < scatter.deviation && told > least;
 }
 
 int runs_on_two_days(const Recording& recording, const Replicates& replicates) {
@@ -230,13 +289,15 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   const Replicates replicates = replicates_of(conditions, adjusted);
   noise.degrees_of_freedom = replicates.contrasts;
   if (replicates.contrasts < kFewest) {
-    const auto given = setup.noise_standard_deviation.find(channel);
-    noise.source = given != setup.noise_standard_deviation.end() ? NoiseSource::kSetup
-                                                                 : NoiseSource::kNeighbours;
-    noise.constant = noise.source == NoiseSource::kSetup
-                         ? given->second
-                         : neighbour_deviation(conditions, adjusted, model);
     noise.degrees_of_freedom = 0;
+    const auto given = setup.noise_standard_deviation.find(channel);
+    if (given != setup.noise_standard_deviation.end()) {
+      noise.source = NoiseSource::kSetup;
+      noise.constant = given->second;
+    } else {
+      noise = told_by_neighbours(channel, neighbour_scatter(conditions, adjusted, model),
+                                 adjusted.size());
+    }
     assume_a_day(noise);
     if (!(noise.constant > 0)) {
       throw InputError(
@@ -280,6 +341,14 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   };
   weigh_outliers(replicates, beside, whole_deviation, noise.weight);
   fit();
+  if (replicates.contrasts < kEnough && trend.empty()) {
+    const NeighbourScatter scatter = neighbour_scatter(conditions, adjusted, model);
+    if (is_uncontradicted(scatter, noise, adjusted)) {
+      noise = told_by_neighbours(channel, scatter, adjusted.size());
+      assume_a_day(noise);
+      return noise;
+    }
+  }
   if (!days_seen) {
     assume_a_day(noise);
     seek_untold_days(recording, conditions, adjusted, stop, noise);

@@ -30,7 +30,9 @@ struct ChannelNoise {
   std::vector<double> day_log_likelihood = {};
   /// Restricted log likelihood of the replicates, less half a nat for each part but the constant.
   double log_likelihood = 0;
-  int degrees_of_freedom = 0;
+  int degrees_of_freedom = 0;  ///< of replicates
+  /// By as many its scatter is known, where neighbouring conditions tell it; 0 elsewhere.
+  int neighbour_degrees_of_freedom = 0;
   std::vector<double> weight;         ///< per run, in [0, 1]: below 1 for outliers
   std::vector<std::size_t> outliers;  ///< runs
   double trend = 0;                   ///< factor of the trend column that was given
@@ -46,7 +48,8 @@ struct ChannelRuns {
 /// Noise from replicates: restricted maximum likelihood over the contrasts within conditions, with
 /// outliers (3.5 standard deviations from their fellows) weighted down. Without replicates (fewer
 /// than 4 degrees of freedom) the setup's number; without that the scatter between neighbouring
-/// conditions, which counts some of the signal as noise and so errs on the cautious side.
+/// conditions, which counts some of the signal as noise and so errs on the cautious side. So does
+/// that scatter where few replicates (fewer than 6) tell less and do not contradict it.
 /// \param trend per run: a column that explains part of what replicates differ by, its factor
 /// fitted along; empty: none
 /// \throws InputError where all replicates of the channel are identical; Interrupted

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <numeric>
 #include <random>
 
@@ -171,6 +173,51 @@ TEST(NoiseModel, WithoutReplicatesAndSetupNeighboursErrOnTheCautiousSide) {
   const ChannelNoise noise = noise_of(made);
   EXPECT_EQ(noise.source, NoiseSource::kNeighbours);
   EXPECT_GT(noise.constant, 0.3);
+}
+
+/// A run of each of so many conditions side by side, without signal.
+Bed side_by_side(int conditions, const std::function<double()>& noise) {
+  Bed made;
+  made.conditions.resize(static_cast<std::size_t>(conditions));
+  for (std::size_t k = 0; k < made.conditions.size(); ++k) {
+    made.conditions[k] = {.load_n = 60, .slip_ratio = 0.02 * static_cast<double>(k), .runs = {k}};
+    made.recording.runs.push_back({.load_n = 60});
+    made.value.push_back(noise());
+    made.recording.runs.back().measured[0] = made.value.back();
+  }
+  return made;
+}
+
+TEST(NoiseModel, NeighboursTellNoiseWithHeavyTailsAsWideAsItIs) {
+  double ratio = 0;
+  constexpr int kBeds = 20;
+  for (int seed = 0; seed < kBeds; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    std::student_t_distribution<double> heavy(4);
+    const double unit = std::sqrt(2.0);  // its deviation
+    ratio += noise_of(side_by_side(80, [&] { return heavy(random) / unit; })).constant / kBeds;
+  }
+  EXPECT_GT(ratio, 0.85);
+  EXPECT_LT(ratio, 1.1);
+}
+
+TEST(NoiseModel, FewReplicatesThatHappenToAgreeDoNotSetTheNoise) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  Bed made = side_by_side(60, [&] { return normal(random); });
+  const auto run_again = [&made](std::size_t condition) {
+    made.conditions[condition].runs.push_back(made.value.size());
+    made.value.push_back(made.value[condition] + 0.4);
+    made.recording.runs.push_back({.load_n = 60});
+    made.recording.runs.back().measured[0] = made.value.back();
+  };
+  for (const std::size_t condition : {3, 17, 31, 46}) run_again(condition);
+  const ChannelNoise few = noise_of(made);
+  EXPECT_EQ(few.source, NoiseSource::kNeighbours);
+  EXPECT_GT(few.neighbour_degrees_of_freedom, 10);
+  EXPECT_NEAR(few.constant, 1, 0.25);
+  for (const std::size_t condition : {8, 25, 40}) run_again(condition);
+  EXPECT_EQ(noise_of(made).source, NoiseSource::kReplicates);
 }
 
 TEST(NoiseModel, IdenticalReplicatesAreAnError) {
