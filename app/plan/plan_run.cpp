@@ -72,9 +72,9 @@ std::string again_notice(const PlanOrigin& origin) {
 std::string missing_rasters_notice(const PlanResult& result) {
   if (result.interrupted || result.candidates.empty()) return "";
   if (result.rasters && !result.rasters->probability.empty()) return "";
-  return fmt::format("no time was left for {}: more time (--time, planner.time_s) makes them",
-                     result.rasters ? "probability.tif"
-                                    : "margin.tif, supply.tif and probability.tif");
+  return fmt::format(
+      "no time was left for {}: more time (--time, planner.time_s) makes them",
+      result.rasters ? "probability.tif" : "margin.tif, supply.tif and probability.tif");
 }
 
 ExitStatus status_of(const PlanResult& result) {
