@@ -4,12 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/command/progress_line.h"
 #include "app/diagnose_drive/corrected_files.h"
 #include "app/diagnose_drive/drive_diagnosis_files.h"
 #include "app/diagnose_drive/drive_file.h"
 #include "app/io/interrupt.h"
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
@@ -22,6 +24,24 @@ void make_ids_distinct(std::vector<DriveRecording>& drives) {
     };
     if (std::any_of(drives.begin(), drives.begin() + static_cast<std::ptrdiff_t>(i), same)) {
       drives[i].drive_id += fmt::format(" ({})", i + 1);
+    }
+  }
+}
+
+/// A drive given twice would count twice.
+void require_different(const std::vector<DriveRecording>& drives) {
+  const auto same = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::ranges::equal(a, b, [](double one, double other) {
+      return one == other || (std::isnan(one) && std::isnan(other));
+    });
+  };
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (same(drives[i].time_s, drives[k].time_s) && same(drives[i].x_m, drives[k].x_m) &&
+          same(drives[i].y_m, drives[k].y_m)) {
+        throw InputError(fmt::format("{}: the same drive as {}: each counts once", drives[i].file,
+                                     drives[k].file));
+      }
     }
   }
 }
@@ -45,6 +65,7 @@ DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
               static_cast<double>(drives.size()) / static_cast<double>(command.drives.size()));
     drives.push_back(read_drive(file, columns));
   }
+  require_different(drives);
   make_ids_distinct(drives);
   for (const DriveRecording& drive : drives) {
     run.drive_ids.push_back(drive.drive_id);

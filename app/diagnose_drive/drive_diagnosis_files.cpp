@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -52,6 +53,17 @@ Json soil_json(const UncertainSoil& soil) {
         {"std", soil.standard_deviation.*parameter.member / parameter.file_unit}};
   }
   return numbers;
+}
+
+/// The map's soils that were driven on, as the map has them and as the drives tell them.
+Json soils_json(const DriveDiagnosisRun& run, const VehicleEffects& effects) {
+  Json soils = Json::object();
+  const std::vector<MapSoil>& map = run.setup.setup.map.soils();
+  for (std::size_t i = 0; i < std::min(map.size(), effects.soils.size()); ++i) {
+    const Json said = soil_json(map[i].soil), told = soil_json(effects.soils[i].soil);
+    if (said != told) soils[map[i].name] = {{"map", said}, {"drives", told}};
+  }
+  return soils;
 }
 
 /// A zone with the soil that is there and the track through it.
@@ -209,7 +221,10 @@ Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
   json["findings"] = list_json(diagnosis.findings, finding_json);
   json["fit"] = fit_json(diagnosis);
   if (diagnosis.currents) json["currents"] = currents_json(run, *diagnosis.currents);
-  if (diagnosis.effects) json["vehicle"] = vehicle_json(diagnosis.effects->vehicle);
+  if (diagnosis.effects) {
+    json["vehicle"] = vehicle_json(diagnosis.effects->vehicle);
+    json["soils"] = soils_json(run, *diagnosis.effects);
+  }
   json["mounting"] = list_json(diagnosis.mountings, [](const Mounting& day) {
     return Json{{"day", day.day},
                 {"pitch_deg", degrees_json(day.pitch_rad)},

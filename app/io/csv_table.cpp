@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <istream>
+#include <utility>
 
 #include "app/io/csv_cells.h"
 #include "app/io/number_text.h"
@@ -23,6 +24,21 @@ CsvTable::CsvTable(std::istream& stream, std::string file)
     if (std::ranges::count(*header, column) > 1) throw error("column " + column + " given twice");
   }
   columns_ = std::move(*header);
+  require_commas();
+}
+
+/// Of what other programs export, the two that would be told as missing columns.
+void CsvTable::require_commas() const {
+  const std::string& first = columns_.front();
+  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF")) {
+    throw error("the file is UTF-16 (allowed: UTF-8)");
+  }
+  if (columns_.size() > 1) return;
+  for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
+    if (first.find(separator) != std::string::npos) {
+      throw error(fmt::format("cells are separated by {} (allowed: commas)", name));
+    }
+  }
 }
 
 std::optional<std::size_t> CsvTable::find_column(std::string_view sought) const {

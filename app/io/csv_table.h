@@ -61,6 +61,7 @@ class CsvTable {
 
  private:
   std::optional<Cells> next_line();
+  void require_commas() const;
 
   std::istream& stream_;
   std::string file_;

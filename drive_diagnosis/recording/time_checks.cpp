@@ -28,6 +28,22 @@ void keep_rows(DriveRecording& drive, const std::vector<bool>& kept) {
   for (DriveChannel& channel : drive.channels) keep(channel.values, kept);
 }
 
+/// A log whose rows stand in reverse order is turned round; a clock that is set back stays.
+bool turn_round(DriveRecording& drive) {
+  std::size_t back = 0;
+  for (std::size_t i = 1; i < drive.time_s.size(); ++i) {
+    back += drive.time_s[i] < drive.time_s[i - 1] ? 1 : 0;
+  }
+  constexpr double kMost = 0.9;
+  const double steps = static_cast<double>(drive.time_s.size()) - 1;
+  if (static_cast<double>(back) <= kMost * steps || back == 0) return false;
+  std::ranges::reverse(drive.time_s);
+  std::ranges::reverse(drive.x_m);
+  std::ranges::reverse(drive.y_m);
+  for (DriveChannel& channel : drive.channels) std::ranges::reverse(channel.values);
+  return true;
+}
+
 double median_step_s(const std::vector<double>& time_s) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < time_s.size(); ++i) {
@@ -122,6 +138,10 @@ double gap_max_s(const DriveRecording& drive) {
 }
 
 void mend_time(DriveRecording& drive) {
+  if (turn_round(drive)) {
+    tell(drive, "time_reversed", "the rows stand in reverse order of time: turned round",
+         static_cast<double>(drive.size()));
+  }
   std::vector<double>& time = drive.time_s;
   const double step_s = median_step_s(time);
   std::vector<bool> kept(time.size(), true);

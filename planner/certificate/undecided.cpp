@@ -24,6 +24,14 @@ double more_time_s(double time_s) {
   return 10 * decade;
 }
 
+/// What a search asked beyond the scenario's limit; empty where it asked no more.
+std::string reserve_words(double margin_min, const RejectedState& state) {
+  if (!is_margin(state.reason) || !state.exceeded || state.exceeded->limit <= margin_min + 1e-9) {
+    return "";
+  }
+  return fmt::format("; this search kept a reserve, the scenario asks {:.3g}", margin_min);
+}
+
 /// The rejected state that stands for those nearest to the goal: of their most frequent reason, the
 /// one that missed its limit by the smallest share.
 std::string narrowest_place(const PlanningProblem& problem,
@@ -55,8 +63,9 @@ std::string narrowest_place(const PlanningProblem& problem,
     if (!near(i) || rejected[i].reason != reason) continue;
     if (best == rejected.size() || missed_by(rejected[i]) < missed_by(rejected[best])) best = i;
   }
-  return fmt::format("nearest to the goal, with at least {:.0f} m to go, it was stopped by {}",
-                     left_m[best], rejection_text(rejected[best]));
+  return fmt::format("nearest to the goal, with at least {:.0f} m to go, it was stopped by {}{}",
+                     left_m[best], rejection_text(rejected[best]),
+                     reserve_words(problem.limits.margin_min, rejected[best]));
 }
 
 }  // namespace

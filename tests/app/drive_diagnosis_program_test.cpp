@@ -89,6 +89,12 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
                 fit["corrected_rmse"], 1e-6);
   }
 
+  const std::string drive = "'" + folder_.path("driven/drive.csv") + "'";
+  const ProgramRun twice = run("diagnose " + drive + " " + drive + " --scenario '" + s +
+                               "' --out '" + folder_.path("twice") + "'");
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_NE(twice.errors.find("the same drive as"), std::string::npos) << twice.errors;
+
   const std::string corrected = folder_.path("said/corrected-map/scenario.yaml");
   const ProgramRun again = run("plan '" + corrected + "' --out '" + folder_.path("second") + "'");
   EXPECT_EQ(again.status, 0) << again.errors;

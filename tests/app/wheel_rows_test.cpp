@@ -99,6 +99,11 @@ TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
   EXPECT_EQ(rows_error("load_n,slip_ratio\n1,0\n"), "c.csv:1: column slip_angle_deg is missing");
   EXPECT_EQ(rows_error("load_n,load_n\n"), "c.csv:1: column load_n given twice");
   EXPECT_EQ(rows_error(""), "c.csv: empty (expected a header line)");
+  EXPECT_EQ(rows_error("load_n;slip_ratio\n1;0\n"),
+            "c.csv:1: cells are separated by semicolons (allowed: commas)");
+  EXPECT_EQ(rows_error("load_n\tslip_ratio\n"),
+            "c.csv:1: cells are separated by tabs (allowed: commas)");
+  EXPECT_EQ(rows_error("\xFF\xFEl"), "c.csv:1: the file is UTF-16 (allowed: UTF-8)");
 }
 
 TEST(WheelRows, ATableWithoutRowsIsATableWithoutRows) {

@@ -40,6 +40,17 @@ DriveRecording straight(double speed_mps) {
   return drive;
 }
 
+TEST(MendTime, RowsInReverseOrderAreTurnedRound) {
+  DriveRecording drive = at_times({6, 5, 4, 3, 3, 2, 1, 0.5, 0.4, 0.3, 0.2, 0.1, 0});
+  drive.channels[0].values.front() = 7;
+  mend_time(drive);
+  EXPECT_TRUE(told(drive, "time_reversed"));
+  EXPECT_FALSE(told(drive, "time_runs_back"));
+  EXPECT_TRUE(std::ranges::is_sorted(drive.time_s));
+  EXPECT_EQ(drive.x_m, drive.time_s);  // every row keeps what it held
+  EXPECT_EQ(drive.channels[0].values.back(), 7);
+}
+
 TEST(MendTime, RowsOutOfOrderAndRepeatedTimesAreLeftOut) {
   DriveRecording drive = at_times({0, 1, 2, 1.5, 3, 3, 4});
   mend_time(drive);

@@ -30,6 +30,17 @@ TEST(Undecided, APathThatWaitsForItsVerificationIsSaid) {
   EXPECT_EQ(why, "1 s did not suffice, give it 5 s: 1 path was found and not yet verified");
 }
 
+TEST(Undecided, ALimitThatASearchSetItselfIsNotTakenForTheScenarios) {
+  PlanResult result;
+  result.rejected_states = {{.reason = Rejection::kTraction,
+                             .x_m = 30,
+                             .y_m = 25,
+                             .exceeded = Exceeded{.found = 0.149, .limit = 0.15}}};
+  const std::string why = why_undecided(problem_with({}), result, {});
+  EXPECT_NE(why.find("this search kept a reserve, the scenario asks 0.05"), std::string::npos)
+      << why;
+}
+
 TEST(Undecided, NamesTheNarrowestPlaceNearestToTheGoal) {
   PlanResult result;
   const auto add = [&](Rejection reason, double x_m, double value) {

@@ -107,6 +107,22 @@ const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) => {
               .filter(key => differs(soil[key], soil_of_map[key]))
               .map(key => [withUnit(key), spreadText(soil_of_map[key]), spreadText(soil[key])])));
 };
+/// Numbers of a soil of the map that the drives tell otherwise, all along.
+const soilTable = ([name, {map, drives}]) => element(
+    'div', {}, element('h3', {}, words(name)),
+    wideTable(
+        `${words(name)}, as the map has it and as the drives tell it`,
+        columns('number', 'the map', 'the drives'),
+        Object.keys(map)
+            .filter(key => differs(map[key], drives[key]))
+            .map(key => [withUnit(key), spreadText(map[key]), spreadText(drives[key])])));
+const soilsTold = Object.entries(REPORT.soils || {});
+if (soilsTold.length) {
+  byId('soils-section').hidden = false;
+  byId('soils').append(
+      element('p', {class: 'note'}, 'Outside zones. corrected-map/ has these numbers: they are fitted along with all else.'),
+      ...soilsTold.map(soilTable));
+}
 const zonesText = REPORT.windows_used ? 'No zone of other soil.' :
                                         'Not looked for: no vehicle was compared with its map.';
 byId('zones').append(...(REPORT.zones.length ? REPORT.zones.map(zoneTable) : [zonesText]));
@@ -123,7 +139,9 @@ byId('verdicts').append(
             REPORT.verdicts.map(
                 flip => [flip.drive, fixed(flip.starts_s, 1), fixed(flip.ends_s, 1), place(flip.x_m, flip.y_m),
                          verdict(flip.before), verdict(flip.after)])) :
-        'None: what was driven is judged as before.');
+        'None: what was driven is judged as before.',
+    element('p', {class: 'note'},
+            'Each window is judged by its means: what lasts less than a window only evaluate tells.'));
 const fits = Object.entries(REPORT.fit);
 byId('fit').append(
     fits.length ? wideTable(
