@@ -230,9 +230,7 @@ class Diagnosing {
       return;
     }
     if (unfit_ && named_in_part()) return;
-    // Likelier than the plain model even with all that it has in its favour where no test speaks.
-    const bool is_likelier = found_.support.log_odds > Thresholds::kHolds_log_prior;
-    if (unfit_ || is_likelier) {
+    if (unfit_) {
       Correction correction = correction_without_name(calibrated_, scored_, options_.threads);
       const bool proven = correction.refused.empty() &&
                           correction.proof.share_explained > Thresholds::kWorthCorrecting;
@@ -242,11 +240,10 @@ class Diagnosing {
         take(std::move(correction));
         return;
       }
-      if (unfit_)
-        found_.notes.push_back(
-            fmt::format("there may be a lack of fit (p = {:.2g}), but no correction proves its "
-                        "worth on held-out conditions: it is taken for chance",
-                        found_.before.p_value));
+      found_.notes.push_back(
+          fmt::format("there may be a lack of fit (p = {:.2g}), but no correction proves its "
+                      "worth on held-out conditions: it is taken for chance",
+                      found_.before.p_value));
     }
     // what spoke against the calibrated model does not hold
     if (!unfit_) {

@@ -63,27 +63,26 @@ std::string place_words(const WindowsPlaced& placed) {
 void check_place(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                  DriveDiagnosis& result) {
   std::vector<WindowsPlaced> places(drives.size());
-  WindowsPlaced all;
   for (const DriveWindow& window : result.windows) {
     if (std::isnan(window.x_m)) continue;
-    const bool on_map = !std::isnan(setup.map.height_m(window.x_m, window.y_m));
     WindowsPlaced& place = places[window.drive];
     ++place.all;
-    ++all.all;
-    place.on_map += on_map;
-    all.on_map += on_map;
+    place.on_map += !std::isnan(setup.map.height_m(window.x_m, window.y_m));
     place.on_map_exchanged += !std::isnan(setup.map.height_m(window.y_m, window.x_m));
     place.geographic += looks_geographic(window, setup.map.elevation().frame);
   }
-  result.share_on_map = all.share_on_map();
+  WindowsPlaced all;
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const WindowsPlaced& place = places[i];
+    all.all += place.all;
+    all.on_map += place.on_map;
     if (place.on_map == place.all) continue;
     result.findings.push_back({.id = place.geographic > 0 ? "other_coordinates" : "off_the_map",
                                .drive = drives[i].drive_id,
                                .text = place_words(place),
                                .value = place.share_on_map()});
   }
+  result.share_on_map = all.share_on_map();
 }
 
 /// How far the smoothing of poses reaches beyond a window, where a vehicle's model is compared.

@@ -2,36 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
 namespace regoplan {
 namespace {
 
-struct Reason {
+struct OfTestBed {
   std::string_view id;
+  bool is_left_out;  ///< else it stays and changes nothing
   std::string_view words;
 };
 
 constexpr std::array kOfTestBed{
-    Reason{"slope_tilt", "a tilt of the test bed; slopes are those of the map"},
-    Reason{"load_transfer", "a load of the test bed told wrongly; loads are the vehicle's own"},
-    Reason{"slip_scale", "a rim speed of the test bed told wrongly; the vehicle's is its own"},
-    Reason{"soil_zone", "a place along the test bed; soils lie where the map says"},
+    OfTestBed{"slope_tilt", true, "a tilt of the test bed; slopes are those of the map"},
+    OfTestBed{"load_transfer", true,
+              "a load of the test bed told wrongly; loads are the vehicle's own"},
+    OfTestBed{"slip_scale", true,
+              "a rim speed of the test bed told wrongly; the vehicle's is its own"},
+    OfTestBed{"soil_zone", true, "a place along the test bed; soils lie where the map says"},
+    OfTestBed{"multi_pass", false,
+              "soil that wheels have passed already; a plan has one pass of each wheel"},
+    OfTestBed{"cohesion_drift", false,
+              "a course over time; a plan has the soil of the course's beginning"},
 };
-
-constexpr std::array kIdle{
-    Reason{"multi_pass", "soil that wheels have passed already; a plan has one pass of each wheel"},
-    Reason{"cohesion_drift", "a course over time; a plan has the soil of the course's beginning"},
-};
-
-template <std::size_t N>
-const Reason* reason_for(const std::array<Reason, N>& reasons, const Mechanism& mechanism) {
-  for (const Reason& reason : reasons) {
-    if (reason.id == mechanism.id) return &reason;
-  }
-  return nullptr;
-}
 
 }  // namespace
 
@@ -39,17 +34,13 @@ std::vector<std::string> leave_test_bed_behind(std::vector<Mechanism>& mechanism
                                                const std::string& file) {
   std::vector<std::string> notices;
   std::erase_if(mechanisms, [&](const Mechanism& mechanism) {
-    const Reason* reason = reason_for(kOfTestBed, mechanism);
-    if (reason == nullptr) return false;
-    notices.push_back(fmt::format("{}: {} is left out: {}", file, mechanism.id, reason->words));
-    return true;
+    const auto* of_bed = std::ranges::find(kOfTestBed, mechanism.id, &OfTestBed::id);
+    if (of_bed == kOfTestBed.end()) return false;
+    notices.push_back(fmt::format("{}: {} {}: {}", file, mechanism.id,
+                                  of_bed->is_left_out ? "is left out" : "changes nothing here",
+                                  of_bed->words));
+    return of_bed->is_left_out;
   });
-  for (const Mechanism& mechanism : mechanisms) {
-    const Reason* reason = reason_for(kIdle, mechanism);
-    if (reason == nullptr) continue;
-    notices.push_back(
-        fmt::format("{}: {} changes nothing here: {}", file, mechanism.id, reason->words));
-  }
   return notices;
 }
 

@@ -60,25 +60,14 @@ int leave_foreign_passes_out(const std::vector<Reference>& references, Recording
   return static_cast<int>(foreign);
 }
 
-double root_mean_square(const std::vector<double>& values) {
-  double sum = 0;
-  int count = 0;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    sum += value * value;
-    ++count;
-  }
-  return count == 0 ? 0 : std::sqrt(sum / count);
-}
-
 /// One run scatters alike on both: who has no replicates learns it from the other, as it is at the
 /// lender's usual signal where it grows with that.
 void lend_noise(const CondensedRecording& from, DiagnosisSetup& to) {
   for (std::size_t c = 0; c < from.noise.size(); ++c) {
     const ChannelNoise& noise = from.noise[c];
     if (noise.source == NoiseSource::kNeighbours) continue;
-    to.noise_standard_deviation.try_emplace(
-        noise.channel, run_deviation(noise, root_mean_square(from.adjusted[c])));
+    to.noise_standard_deviation.try_emplace(noise.channel,
+                                            usual_deviation(noise, from.adjusted[c]));
   }
 }
 

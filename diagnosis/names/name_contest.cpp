@@ -28,16 +28,13 @@ bool is_borne_out(double probability, double errors) {
 
 /// What a claim explains on held-out conditions, and of the pulls on the soil numbers.
 struct Worth {
-  double gain = 0;            ///< standard errors
-  double share = 0;           ///< of the excess misfit
-  double slack = 0;           ///< noise alone moves that share by so much
-  double held_out_share = 0;  ///< of the excess misfit, the pulls not counted
+  double gain = 0;   ///< standard errors
+  double share = 0;  ///< of the excess misfit
+  double slack = 0;  ///< noise alone moves that share by so much
 
   /// \param probability of all that is claimed
   bool proves(double probability) const {
-    // Soil numbers that go back to their tests are no name's merit where it predicts worse.
-    return is_borne_out(probability, gain) && share + slack > Thresholds::kWorthCorrecting &&
-           held_out_share + slack > 0;
+    return is_borne_out(probability, gain) && share + slack > Thresholds::kWorthCorrecting;
   }
 };
 
@@ -50,8 +47,7 @@ Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
   const auto size = static_cast<double>(calibrated.bed().size());
   return {.gain = gain_in_errors(calibrated.bed(), proof.corrected, proof.calibrated, back),
           .share = (proof.share_explained * excess + back) / std::max(excess + back, 1e-12),
-          .slack = std::sqrt(2.0 * size) / (excess + back + 1),
-          .held_out_share = proof.share_explained};
+          .slack = std::sqrt(2.0 * size) / (excess + back + 1)};
 }
 
 /// What names leave on held-out conditions when nothing stands beside them; fitted with a remainder

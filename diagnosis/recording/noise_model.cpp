@@ -196,22 +196,11 @@ double variance_share_of_few(int degrees_of_freedom) {
   return std::pow(std::max(1 - spread + kOneInThousand * std::sqrt(spread), 0.2), 3);
 }
 
-double signal_rms(const std::vector<double>& value) {
-  double sum = 0;
-  int count = 0;
-  for (const double y : value) {
-    if (!std::isfinite(y)) continue;
-    sum += y * y;
-    ++count;
-  }
-  return std::sqrt(sum / std::max(count, 1));
-}
-
 /// Whether neighbouring conditions scatter more than few replicates, and no more than these may by
 /// chance tell too little.
 bool is_uncontradicted(const NeighbourScatter& scatter, const ChannelNoise& by_replicates,
                        const std::vector<double>& value) {
-  const double told = run_deviation(by_replicates, signal_rms(value));
+  const double told = usual_deviation(by_replicates, value);
   const double least =
       scatter.deviation * std::sqrt(variance_share_of_few(by_replicates.degrees_of_freedom));
   return told < scatter.deviation && told > least;
@@ -279,6 +268,17 @@ double run_deviation(const ChannelNoise& noise, double y) {
   return std::hypot(noise.constant, noise.proportional * y);
 }
 
+double usual_deviation(const ChannelNoise& noise, const std::vector<double>& values) {
+  double sum = 0;
+  int count = 0;
+  for (const double y : values) {
+    if (!std::isfinite(y)) continue;
+    sum += y * y;
+    ++count;
+  }
+  return run_deviation(noise, count == 0 ? 0 : std::sqrt(sum / count));
+}
+
 ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condition>& conditions,
                             const ChannelRuns& runs, const DiagnosisSetup& setup,
                             const std::vector<double>& trend, const std::stop_token& stop) {
@@ -341,7 +341,8 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   };
   weigh_outliers(replicates, beside, whole_deviation, noise.weight);
   fit();
-  if (replicates.contrasts < kEnough && trend.empty()) {
+  const bool told_by_setup = setup.noise_standard_deviation.contains(channel);
+  if (replicates.contrasts < kEnough && trend.empty() && !told_by_setup) {
     const NeighbourScatter scatter = neighbour_scatter(conditions, adjusted, model);
     if (is_uncontradicted(scatter, noise, adjusted)) {
       noise = told_by_neighbours(channel, scatter, adjusted.size());

@@ -67,6 +67,10 @@ void share_day_offsets(std::vector<ChannelNoise>& noise);
 /// Standard deviation of one run that measures y, without its day's part.
 double run_deviation(const ChannelNoise& noise, double y);
 
+/// The same where y is as large as these values in the root mean square; those not measured (NaN)
+/// do not count.
+double usual_deviation(const ChannelNoise& noise, const std::vector<double>& values);
+
 /// Correlation between channels of what replicates scatter. \return channels x channels
 Eigen::MatrixXd noise_correlation(const std::vector<ChannelNoise>& noise,
                                   const std::vector<Condition>& conditions,

@@ -216,6 +216,9 @@ TEST(NoiseModel, FewReplicatesThatHappenToAgreeDoNotSetTheNoise) {
   EXPECT_EQ(few.source, NoiseSource::kNeighbours);
   EXPECT_GT(few.neighbour_degrees_of_freedom, 10);
   EXPECT_NEAR(few.constant, 1, 0.25);
+  DiagnosisSetup told;
+  told.noise_standard_deviation[Channel::kFx] = 0.3;
+  EXPECT_EQ(noise_of(made, told).source, NoiseSource::kReplicates);  // neighbours do not overrule
   for (const std::size_t condition : {8, 25, 40}) run_again(condition);
   EXPECT_EQ(noise_of(made).source, NoiseSource::kReplicates);
 }

@@ -64,9 +64,9 @@ def judged(truth, said):
     """Whether a diagnosis is right, and whether by the names alone."""
     classes = [{claim["id"], *claim["equivalent"]} for claim in said["mechanisms"]]
     if truth["stratum"] == "nulls":
-        return said["verdict"] in ("consistent", "parameters"), True
+        return [said["verdict"] in ("consistent", "parameters")] * 2
     if truth["stratum"] == "unlisted":
-        return said["verdict"] == "unexplained" and not classes, True
+        return [said["verdict"] == "unexplained" and not classes] * 2
     accepted = [set(names) for names in truth["accepted"]]
     right = (bool(classes) and all(any(names & one for one in classes) for names in accepted)
              and all(any(names & one for names in accepted) for one in classes))
