@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
 
 #include "diagnosis/checks/bed_memory.h"
@@ -111,7 +110,7 @@ class Diagnosing {
     }
     // replicates that follow a course differ by more than noise, whatever their means do
     const auto& course = recording.course;
-    if (course && course->in_time()) {
+    if (course && !course->after_run()) {
       unfit_ = true;
       beyond_doubt_ = true;
     }
@@ -137,7 +136,7 @@ class Diagnosing {
     const CondensedRecording& recording = calibrated_.recording();
     found_.where =
         locate(recording, calibrated_.remainder_of(calibrated_.base()), options_.seed + 1);
-    if (!recording.course) return;
+    if (!recording.course || recording.course->in_place()) return;
     if (auto when = last_part_of(recording)) found_.where.insert(found_.where.begin(), *when);
   }
 
@@ -166,16 +165,12 @@ class Diagnosing {
     return all;
   }
 
-  void score(const std::vector<Effect>& effects, std::string_view stage, double from, double to) {
-    scored_ = score_candidates(calibrated_.problem(), calibrated_.wide_problem(), effects,
+  void look_for_names() {
+    scored_ = score_candidates(calibrated_.problem(), calibrated_.wide_problem(), effects_,
                                {.threads = options_.threads, .progress = [&](double share) {
-                                  tell(stage, from + (to - from) * share);
+                                  tell("scoring what may be wrong", 0.15 + 0.7 * share);
                                 }});
     weigh(scored_, plain_model());
-  }
-
-  void look_for_names() {
-    score(effects_, "scoring what may be wrong", 0.15, 0.85);
     found_.support = support_of(scored_, plain_model());
     if (found_.support.best_gain_nats > Thresholds::kNoChance_nats) {
       unfit_ = true;
@@ -190,21 +185,8 @@ class Diagnosing {
     return rejected_ ? PlainModel::kDoubted : PlainModel::kHolds;
   }
 
-  /// What names may be claimed. An instrument is not accused of what physics does as well that is
-  /// named in part else: that competes with it then.
+  /// What names may be claimed.
   std::optional<ProvenClaim> claim_of_names() {
-    const std::size_t notes = found_.notes.size();
-    auto claim = contest_of_names();
-    if (!claim || !accuses_instrument(claim->names)) return claim;
-    found_.notes.resize(notes);
-    std::vector<Effect> effects = effects_;
-    std::ranges::copy_if(effects_in_part_, std::back_inserter(effects),
-                         [](const Effect& effect) { return is_later_physics(effect.id); });
-    score(effects, "scoring physics beside an instrument's fault", 0.86, 0.88);
-    return contest_of_names();
-  }
-
-  std::optional<ProvenClaim> contest_of_names() {
     NameContest contest(calibrated_, scored_, plain_model(), options_.seed, options_.threads);
     auto claim = contest.decide();
     scored_ = contest.scored();
@@ -335,7 +317,24 @@ class Diagnosing {
     }
   }
 
+  /// Replicates that follow the run before are no clean bill, whatever their means do: the bed was
+  /// not alike for them.
+  void only_bed_memory() {
+    found_.verdict = Verdict::kUnexplained;
+    found_.only_bed_memory = true;
+    found_.remainder_share = 1;
+    if (found_.where.empty()) {
+      if (auto after = last_part_of(calibrated_.recording())) found_.where.push_back(*after);
+    }
+    take(calibrated_alone(calibrated_, options_.threads));
+  }
+
   void nothing_is_missing() {
+    const auto& course = calibrated_.recording().course;
+    if (course && course->after_run()) {
+      only_bed_memory();
+      return;
+    }
     if (!consistent_) list_suspects();
     found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
     take(calibrated_alone(calibrated_, options_.threads));

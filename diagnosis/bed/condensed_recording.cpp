@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string_view>
 
 #include "diagnosis/recording/untold_days.h"
@@ -167,8 +168,8 @@ struct Grouped {
 };
 
 Grouped group(const Recording& recording, const Usable& usable, const WheelModel& model,
-              const std::vector<int>& block) {
-  Grouped result{.conditions = group_conditions(recording, usable.runs, block)};
+              const std::vector<int>& block, Places places = Places::kApart) {
+  Grouped result{.conditions = group_conditions(recording, usable.runs, block, places)};
   result.condition.assign(recording.runs.size(), result.conditions.size());
   std::vector<std::optional<ChannelValues>> at_means;
   for (std::size_t k = 0; k < result.conditions.size(); ++k) {
@@ -192,6 +193,28 @@ Grouped group(const Recording& recording, const Usable& usable, const WheelModel
     if (measured) result.channels.push_back({channel, std::move(adjusted), std::move(modelled)});
   }
   return result;
+}
+
+/// Per channel and run.
+std::vector<std::vector<double>> values_of(const std::vector<ChannelRuns>& channels) {
+  std::vector<std::vector<double>> values;
+  for (const ChannelRuns& channel : channels) values.push_back(channel.adjusted);
+  return values;
+}
+
+/// Runs by which scatter is told where the recording has next to no replicates on one place of the
+/// bed: those of other places, as a wheel that rolls on is never twice on the same. Samples of one
+/// run are none.
+std::optional<Grouped> replicates_elsewhere(const Recording& recording, const Usable& usable,
+                                            const WheelModel& model, const Grouped& grouped) {
+  if (!recording.columns.position) return std::nullopt;
+  std::size_t repeated = 0;
+  for (const Condition& at : grouped.conditions) repeated += at.runs.size() - 1;
+  std::set<std::string_view> ids;
+  for (const std::size_t run : usable.runs) ids.insert(recording.runs[run].run_id);
+  if (repeated >= static_cast<std::size_t>(kEnoughReplicates) || ids.size() < usable.runs.size())
+    return std::nullopt;
+  return group(recording, usable, model, {}, Places::kTogether);
 }
 
 /// What may change in the course of a recording: every channel by as much, by a share of itself, or
@@ -354,7 +377,14 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
                     "diagnosis needs {} and more",
                     grouped.conditions.size(), fewest));
   }
-  if (auto untold = untold_days(recording, grouped.conditions, grouped.channels, setup, stop)) {
+  const auto elsewhere = replicates_elsewhere(recording, usable, model, grouped);
+  const Grouped& replicated = elsewhere ? *elsewhere : grouped;
+  if (elsewhere) {
+    result.notes.emplace_back(
+        "replicates lie at different positions: their scatter is told as if these were alike");
+  }
+  if (auto untold =
+          untold_days(recording, replicated.conditions, replicated.channels, setup, stop)) {
     result.notes.push_back(fmt::format(
         "replicates differ by their round: {} days that the recording does not tell were assumed "
         "({:.0f} nats over scatter alone); a column `day` or `time_s` decides",
@@ -362,24 +392,24 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
     recording = std::move(untold->rounds.recording);
   }
   for (const WheelRun& run : recording.runs) result.day.push_back(run.day);
-  result.course = course_of(recording, grouped.conditions, grouped.channels,
-                            course_kinds(recording, usable, grouped, setup, stop), setup, stop);
-  for (std::size_t c = 0; c < grouped.channels.size(); ++c) {
-    const ChannelRuns& runs = grouped.channels[c];
+  result.course = course_of(recording, replicated.conditions, replicated.channels,
+                            course_kinds(recording, usable, replicated, setup, stop), setup, stop);
+  for (std::size_t c = 0; c < replicated.channels.size(); ++c) {
+    const ChannelRuns& runs = replicated.channels[c];
     result.noise.push_back(
-        estimate_noise(recording, grouped.conditions, runs, setup,
+        estimate_noise(recording, replicated.conditions, runs, setup,
                        result.course ? result.course->trend[c] : std::vector<double>{}, stop));
   }
   if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
   if (result.course && result.course->in_time()) {
     grouped = group(recording, usable, model, blocks_of(*result.course));
     place_in_time(*result.course, grouped.conditions);
-  } else if (result.course) {
+  } else if (result.course && result.course->after_run()) {
     take_off(*result.course, result.noise, grouped.channels);
   }
   bed.conditions = std::move(grouped.conditions);
   result.condition = std::move(grouped.condition);
-  for (ChannelRuns& runs : grouped.channels) result.adjusted.push_back(std::move(runs.adjusted));
+  result.adjusted = values_of(grouped.channels);
   if (result.noise.empty()) throw InputError("recording: no channel is measured");
   share_day_offsets(result.noise);
   for (std::size_t c = 0; c < result.noise.size(); ++c) {
@@ -389,7 +419,9 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   }
   bed.accuracy = sufficient_accuracy(bed);
   bed.stop = std::move(stop);
-  result.correlation = noise_correlation(result.noise, bed.conditions, result.adjusted);
+  result.correlation = elsewhere ? noise_correlation(result.noise, elsewhere->conditions,
+                                                     values_of(elsewhere->channels))
+                                 : noise_correlation(result.noise, bed.conditions, result.adjusted);
   return result;
 }
 

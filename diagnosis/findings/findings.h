@@ -170,6 +170,8 @@ struct Diagnosis {
   std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
   double share_explained = 0;
   bool correction_refused = false;  ///< none proved its worth: what is handed on has no name's part
+  /// All that is unexplained is that replicates follow what the run before left in the bed.
+  bool only_bed_memory = false;
   LackOfFit before, after;
   std::vector<SoilPull> soil;
   std::vector<Experiment> next_experiments;

@@ -54,7 +54,9 @@ Quantity quantity_of(const std::string& column) {
       {"position_m", {"position", "m"}},
       {"time_s", {"time", "s"}},
       {"day", {"time since the first day", "s"}},
-      {"run_order", {"run", ""}}};
+      {"warm_up", {"what is left of a warm-up", ""}},
+      {"after_slip_ratio", {"slip ratio of the run before", ""}},
+      {"after_load_n", {"load of the run before", "N"}}};
   const auto known = kWords.find(column);
   return known == kWords.end() ? Quantity{column, ""} : known->second;
 }
@@ -70,6 +72,9 @@ Quantity time_in_its_unit(const Quantity& seconds, double longest_s) {
 
 /// "slip ratio 0.3 to 0.8".
 std::string range_words(const std::string& column, double from, double to) {
+  if (column == "run_order") {  // runs count from 1, as the rows of the recording do
+    return fmt::format("run {:.0f} to {:.0f}", std::ceil(from) + 1, std::floor(to) + 1);
+  }
   Quantity quantity = quantity_of(column);
   if (quantity.unit == "s") {
     quantity = time_in_its_unit(quantity, std::max(std::abs(from), std::abs(to)));
@@ -202,6 +207,14 @@ std::string class_words(const Diagnosis& diagnosis) {
   return apart ? "" : " These data cannot tell the names apart." + experiment_words(diagnosis);
 }
 
+/// Where the run before is all that replicates tell beside the soil.
+std::string bed_memory_words() {
+  return "Replicates follow what the run before left in the bed (see the notes), and no name on "
+         "the list does that; beside it nothing is missing that these data could show. The "
+         "corrected model is the calibrated one, for a bed as it was in the mean. To decide, "
+         "prepare the bed anew before each run.";
+}
+
 /// A name that is likelier than all else, and by a third and more, is not denied, though it is not
 /// claimed.
 std::string nameless_words(const Diagnosis& diagnosis) {
@@ -243,6 +256,7 @@ std::string sentence_of(const Diagnosis& diagnosis) {
       return where + "part of the " + against(diagnosis) +
              " has a name: " + partial_words(diagnosis) + class_words(diagnosis);
     case Verdict::kUnexplained:
+      if (diagnosis.only_bed_memory) return where + bed_memory_words();
       return where + "the " + against(diagnosis) + " is real and " + nameless_words(diagnosis) +
              "; it is modelled without a name, within the conditions measured only." +
              experiment_words(diagnosis);

@@ -11,11 +11,6 @@ bool has_one_form(const Effect& effect) {
   return effect.id.starts_with("sensor_") || effect.id == "slip_scale" || effect.id == "slope_tilt";
 }
 
-bool is_later_physics(const std::string& id) {
-  return id == "sliding_sinkage" || id == "flank_friction" || id == "side_surcharge" ||
-         id == "rim_friction";
-}
-
 bool is_told_by_time(const Effect& effect) {
   return effect.id == "cohesion_drift" || effect.course != FaultCourse::kConstant;
 }

@@ -48,10 +48,6 @@ bool is_instrument(const std::string& id);
 /// sensor's bias, constant gain and crosstalk, a scale, a tilt.
 bool has_one_form(const Effect& effect);
 
-/// Whether it is physics that real sand and grains asked for: named in part, where it must beat a
-/// remainder, and beside it where an instrument would be accused of the same.
-bool is_later_physics(const std::string& id);
-
 /// Whether nothing but the time of the runs tells it from other effects: two of these together
 /// would share one course in time in any way one likes.
 bool is_told_by_time(const Effect& effect);

@@ -53,7 +53,6 @@ bool can_bear(std::string_view id, const Columns& columns) {
   if (id == "skid_branch") return columns.skid;
   if (id == "slip_sinkage") return columns.driving;
   if (id == "soil_change") return columns.difference;
-  if (is_later_physics(std::string(id)) && !columns.part) return false;
   if (id == "grousers") return columns.lugs;
   const std::set<std::string_view> kSideways{
       "lateral_digging", "rut_asymmetry",    "shear_modulus_slip_angle", "coupled_shear",

@@ -7,9 +7,8 @@
 
 namespace regoplan {
 
-/// What effects are to explain: a recording against the model as a whole, by names whose rates of
-/// error are known from campaigns; in part, by later names too; or against a reference, where the
-/// soil may have changed.
+/// What effects are to explain: a recording against the model as a whole; in part, where carried
+/// soil is a form of lugs; or against a reference, where the soil may have changed too.
 enum class EffectsOf { kRecording, kPart, kDifference };
 
 /// Every form of every mechanism and instrument fault that the recording can bear, each from every

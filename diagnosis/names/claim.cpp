@@ -66,12 +66,6 @@ std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
   return claimed;
 }
 
-bool accuses_instrument(const std::vector<NameClass>& claimed) {
-  return std::ranges::any_of(claimed, [](const NameClass& names) {
-    return std::ranges::all_of(names.ids, is_instrument);
-  });
-}
-
 bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed) {
   const std::set<std::string>& ids = scored.account.effects;
   return ids.size() == claimed.size() && std::ranges::all_of(claimed, [&](const NameClass& names) {

@@ -17,9 +17,6 @@ struct NameClass {
 /// first is likelier than none, of all that it may be.
 std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored);
 
-/// Whether one of the classes has names of instruments and no physics.
-bool accuses_instrument(const std::vector<NameClass>& claimed);
-
 /// Whether a candidate consists of one effect of each class.
 bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed);
 

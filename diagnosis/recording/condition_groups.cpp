@@ -13,12 +13,12 @@ constexpr double kSameAngle_rad = 0.5 * std::numbers::pi / 180 + 1e-9;
 constexpr double kLoadGap = 0.08;
 
 /// Whether a run may stand with one of the group.
-bool agree(const WheelRun& a, const WheelRun& b) {
+bool agree(const WheelRun& a, const WheelRun& b, Places places) {
   return std::abs(a.slip_ratio - b.slip_ratio) <= kSameSlip &&
          std::abs(a.slip_angle_rad - b.slip_angle_rad) <= kSameAngle_rad &&
          a.conditions.pass == b.conditions.pass &&
          a.conditions.speed_mps == b.conditions.speed_mps &&
-         a.conditions.position_m == b.conditions.position_m &&
+         (places == Places::kTogether || a.conditions.position_m == b.conditions.position_m) &&
          a.conditions.heading_rad == b.conditions.heading_rad && a.wheel == b.wheel;
 }
 
@@ -48,7 +48,7 @@ std::vector<std::size_t> levels(const std::vector<double>& values, double gap) {
 
 std::vector<Condition> group_conditions(const Recording& recording,
                                         const std::vector<std::size_t>& used,
-                                        const std::vector<int>& block) {
+                                        const std::vector<int>& block, Places places) {
   std::vector<double> log_loads;
   for (const std::size_t run : used) log_loads.push_back(std::log(recording.runs[run].load_n));
   const std::vector<std::size_t> load_level = levels(log_loads, std::log1p(kLoadGap));
@@ -59,7 +59,7 @@ std::vector<Condition> group_conditions(const Recording& recording,
     std::size_t g = 0;
     const auto fits = [&](std::size_t k) {
       return group_level[k] == load_level[i] && std::ranges::all_of(groups[k].runs, [&](auto r) {
-               return agree(recording.runs[r], run) &&
+               return agree(recording.runs[r], run, places) &&
                       (block.empty() || block[r] == block[used[i]]);
              });
     };

@@ -22,14 +22,20 @@ struct Condition {
   std::vector<std::size_t> runs;  ///< indices into the recording
 };
 
+/// Whether runs at other places of the bed may be replicates.
+enum class Places { kApart, kTogether };
+
 /// Groups runs into replicates: slip ratio within 0.01 and slip angle within 0.5 deg of each
 /// other, pass, speed, position and wheel alike, and loads of one level (levels are where the
 /// sorted loads of all runs leave a gap of 8 %). Time and wheel angle do not part replicates.
 /// \param used which runs to group
 /// \param block per run, where time is a place: runs of different blocks are no replicates
+/// \param places kTogether: position parts no replicates either; the position of a condition is
+/// that of its first run
 std::vector<Condition> group_conditions(const Recording& recording,
                                         const std::vector<std::size_t>& used,
-                                        const std::vector<int>& block = {});
+                                        const std::vector<int>& block = {},
+                                        Places places = Places::kApart);
 
 /// Level of each value: a new one begins where the sorted values leave a gap above `gap`.
 std::vector<std::size_t> levels(const std::vector<double>& values, double gap);

@@ -17,6 +17,7 @@ struct Column {
   std::string name;
   std::vector<double> value;  // per run, scaled to [0, 1]
   double low = 0, high = 0;
+  double cost_nats = 0;  // of having been chosen among others of its name
 };
 
 void add(std::string name, std::vector<double> value, std::vector<Column>& columns) {
@@ -24,6 +25,34 @@ void add(std::string name, std::vector<double> value, std::vector<Column>& colum
   if (!(high > low)) return;
   for (double& v : value) v = (v - low) / (high - low);
   columns.push_back({std::move(name), std::move(value), low, high});
+}
+
+/// Stretches between any two sixteenths of the runs along the bed, and from one to its end.
+void add_stretches(const std::vector<WheelRun>& runs, std::vector<Column>& columns) {
+  constexpr std::size_t kParts = 16;
+  std::vector<double> along_m;
+  for (const WheelRun& run : runs) along_m.push_back(run.conditions.position_m);
+  std::ranges::sort(along_m);
+  std::vector<double> edges_m;
+  for (std::size_t k = 1; k < kParts; ++k) edges_m.push_back(along_m[runs.size() * k / kParts]);
+  edges_m.push_back(std::nextafter(along_m.back(), INFINITY));
+  const auto repeated = std::ranges::unique(edges_m);
+  edges_m.erase(repeated.begin(), repeated.end());
+  std::vector<Column> stretches;
+  for (std::size_t i = 0; i < edges_m.size(); ++i) {
+    for (std::size_t k = i + 1; k < edges_m.size(); ++k) {
+      Column column{.name = "position_m", .low = edges_m[i], .high = edges_m[k]};
+      for (const WheelRun& run : runs) {
+        const double x_m = run.conditions.position_m;
+        column.value.push_back(x_m >= column.low && x_m < column.high ? 1 : 0);
+      }
+      stretches.push_back(std::move(column));
+    }
+  }
+  for (Column& column : stretches) {
+    column.cost_nats = std::log(static_cast<double>(stretches.size()));
+    columns.push_back(std::move(column));
+  }
 }
 
 /// What the runs may follow; rows stand in the order of the runs.
@@ -45,6 +74,7 @@ std::vector<Column> columns_of(const Recording& recording) {
       columns);
   add("after_load_n", each([&](std::size_t i) { return runs[i == 0 ? 0 : i - 1].load_n; }),
       columns);
+  if (recording.columns.position) add_stretches(runs, columns);
   return columns;
 }
 
@@ -132,7 +162,7 @@ std::optional<Course> course_of(const Recording& recording,
         for (std::size_t i = 0; i < trend.size(); ++i) trend[i] *= column.value[i];
         course.trend.push_back(std::move(trend));
       }
-      course.gain_nats = gain_nats(contrasts, course.trend);
+      course.gain_nats = gain_nats(contrasts, course.trend) - column.cost_nats;
       if (course.gain_nats > (best ? best->gain_nats : Thresholds::kCourse_nats)) best = course;
     }
   }

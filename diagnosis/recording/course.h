@@ -8,18 +8,25 @@
 
 namespace regoplan {
 
-/// How replicates change in the course of a recording: what would else be taken for scatter.
+/// How replicates change in the course of a recording, or from place to place: what would else be
+/// taken for scatter.
 struct Course {
-  std::string
-      column;  ///< `time_s`, `day`, `run_order`, `warm_up`, `after_slip_ratio`, `after_load_n`
+  /// `time_s`, `day`, `run_order`, `warm_up`, `after_slip_ratio`, `after_load_n`, `position_m`
+  std::string column;
   std::string kind;      ///< what changes: `offset`, `gain`, `cohesion`, `strength`, `stiffness`
   double gain_nats = 0;  ///< over days and scatter alone, all channels
-  std::vector<double> value;               ///< of the column, per run, from 0 to 1
-  double low = 0, high = 0;                ///< what 0 and 1 stand for, in the column's unit
+  std::vector<double> value;  ///< of the column, per run, from 0 to 1
+  /// What 0 and 1 stand for, in the column's unit; of `position_m` where the stretch lies on which
+  /// it is 1.
+  double low = 0, high = 0;
   std::vector<std::vector<double>> trend;  ///< per channel and run, as estimate_noise() takes it
 
-  /// Whether it follows time, so that time can be a place, or what the run before was.
-  bool in_time() const { return column != "after_slip_ratio" && column != "after_load_n"; }
+  /// Whether it follows time, so that time can be a place.
+  bool in_time() const { return !after_run() && !in_place(); }
+  /// Whether it follows what the run before was.
+  bool after_run() const { return column == "after_slip_ratio" || column == "after_load_n"; }
+  /// Whether replicates on some stretch of the bed differ from those elsewhere.
+  bool in_place() const { return column == "position_m"; }
 };
 
 /// Changes of the model values of one channel that a course may follow, per run.

@@ -17,7 +17,6 @@ namespace regoplan {
 namespace {
 
 constexpr int kFewest = 4;  // degrees of freedom to trust replicates
-constexpr int kEnough = 6;  // from here on, whatever neighbouring conditions scatter
 
 /// Shares of the constant part that the other parts are tried at. Nothing and even factors: weighed
 /// alike, nearly a half-Cauchy prior about a run's scatter (Gelman 2006, Bayesian Analysis 1, 515).
@@ -342,7 +341,7 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   weigh_outliers(replicates, beside, whole_deviation, noise.weight);
   fit();
   const bool told_by_setup = setup.noise_standard_deviation.contains(channel);
-  if (replicates.contrasts < kEnough && trend.empty() && !told_by_setup) {
+  if (replicates.contrasts < kEnoughReplicates && trend.empty() && !told_by_setup) {
     const NeighbourScatter scatter = neighbour_scatter(conditions, adjusted, model);
     if (is_uncontradicted(scatter, noise, adjusted)) {
       noise = told_by_neighbours(channel, scatter, adjusted.size());

@@ -10,6 +10,10 @@
 
 namespace regoplan {
 
+/// Degrees of freedom from which on replicates tell the noise, whatever neighbouring conditions
+/// scatter.
+inline constexpr int kEnoughReplicates = 6;
+
 enum class NoiseSource { kReplicates, kSetup, kNeighbours };
 
 /// Scatter of one channel: a run's variance is constant^2 + (proportional y)^2, and every day has

@@ -123,5 +123,47 @@ TEST(Course, IsFoundAndDoesNotWidenTheNoise) {
   EXPECT_LT(found.noise[0].constant, 1.25 * still);
 }
 
+/// Replicates each at a place of its own, as a wheel that rolls on has them.
+/// \param firmer_n by which drawbar pull is larger on the second half of the bed
+Recording along_a_bed(std::uint64_t seed, double firmer_n) {
+  Recording recording = recorded(seed, 0);
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> along_m(0, 2);
+  recording.columns.position = true;
+  for (WheelRun& run : recording.runs) {
+    run.conditions.position_m = along_m(random);
+    if (run.conditions.position_m > 1) run.measured[0] += firmer_n;
+  }
+  return recording;
+}
+
+TEST(Course, ReplicatesTellTheNoiseWhereverOnTheBedTheyLie) {
+  const CondensedRecording untold = condense(recorded(8, 0), simulant_setup());
+  const CondensedRecording found = condense(along_a_bed(8, 0), simulant_setup());
+  EXPECT_FALSE(found.course.has_value());
+  EXPECT_EQ(found.bed.conditions.size(), found.used.size()) << "conditions stay where they were";
+  for (std::size_t c = 0; c < found.noise.size(); ++c) {
+    EXPECT_EQ(found.noise[c].source, NoiseSource::kReplicates);
+    EXPECT_DOUBLE_EQ(found.noise[c].constant, untold.noise[c].constant);
+  }
+}
+
+TEST(Course, OtherSoilOnAStretchOfTheBedDoesNotWidenTheNoise) {
+  const double still = condense(along_a_bed(8, 0), simulant_setup()).noise[0].constant;
+  const CondensedRecording found = condense(along_a_bed(8, 6), simulant_setup());
+  ASSERT_TRUE(found.course.has_value());
+  EXPECT_TRUE(found.course->in_place());
+  EXPECT_NEAR(found.course->low, 1, 0.15);
+  EXPECT_LT(found.noise[0].constant, 1.25 * still);
+}
+
+TEST(Course, OfReplicatesAlongABedThatOnlyScatterIsNone) {
+  int followed = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    followed += condense(along_a_bed(seed, 0), simulant_setup()).course.has_value();
+  }
+  EXPECT_EQ(followed, 0);
+}
+
 }  // namespace
 }  // namespace regoplan

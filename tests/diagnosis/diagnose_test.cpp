@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <random>
 
 #include "diagnosis/diagnosis.h"
 #include "synthetic_bed.h"
@@ -88,6 +89,43 @@ TEST(Diagnose, AShareOfTheSideForceToOneSideIsASensorOrTheFlanksFriction) {
   plan.instruments = [](WheelRun& run) { run.measured[0] -= 0.25 * run.measured[1]; };
   const Diagnosis found = diagnosed({}, 21, plan);
   EXPECT_TRUE(names(found, "sensor_crosstalk") && names(found, "flank_friction")) << found.sentence;
+}
+
+TEST(Diagnose, AShareOfTheSideForceToBothSidesIsTheFlanksFriction) {
+  BedPlan plan;  // it opposes the travel whichever side is pushed aside: no instrument does that
+  plan.angles_deg = {-16, -8, 0, 8, 16};
+  plan.instruments = [](WheelRun& run) { run.measured[0] -= 0.25 * std::abs(run.measured[1]); };
+  const Diagnosis found = diagnosed({}, 21, plan);
+  EXPECT_TRUE(names(found, "flank_friction")) << found.sentence;
+  EXPECT_FALSE(names(found, "sensor_crosstalk")) << found.sentence;
+}
+
+TEST(Diagnose, ABiasIsNamedWhereverOnTheBedTheRunsBegan) {
+  BedPlan plan;
+  plan.instruments = [](WheelRun& run) { run.measured[0] += 5; };
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, plan, 5);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> along(0, 2);
+  recording.columns.position = true;
+  for (WheelRun& run : recording.runs) run.conditions.position_m = along(random);
+  const Diagnosis found = diagnose(recording, setup);
+  EXPECT_TRUE(names(found, "sensor_bias")) << found.sentence;
+}
+
+TEST(Diagnose, ABedThatKeepsWhatTheRunBeforeDidIsNoCleanBill) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, {.day = 0}, 6);
+  std::mt19937_64 random(6);
+  std::ranges::shuffle(recording.runs, random);
+  for (std::size_t i = 1; i < recording.runs.size(); ++i) {
+    recording.runs[i].measured[0] += 5 * (recording.runs[i - 1].slip_ratio - 0.24);
+  }
+  const Diagnosis found = diagnose(recording, setup);
+  EXPECT_EQ(found.verdict, Verdict::kUnexplained) << found.sentence;
+  EXPECT_NE(found.sentence.find("the run before"), std::string::npos) << found.sentence;
+  ASSERT_FALSE(found.where.empty());
+  EXPECT_TRUE(found.where.front().region.contains("after_slip_ratio"));
 }
 
 TEST(Diagnose, AnAmplifierOnAnotherRangeIsASensorHoweverFarOff) {
