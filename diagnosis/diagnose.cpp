@@ -349,6 +349,7 @@ class Diagnosing {
     found_.fit = correction.proof.fit;
     found_.held_out_by = correction.proof.families.by;
     found_.share_explained = correction.proof.share_explained;
+    found_.excess_is_clear = has_clear_excess(calibrated_.bed(), correction.proof);
     found_.corrected_model = std::move(correction.model);
     found_.corrected_soil = correction.soil;
     found_.soil = std::move(correction.soil_pulls);

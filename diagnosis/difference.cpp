@@ -279,6 +279,7 @@ class Differing {
     found_.fit = proof.fit;
     found_.held_out_by = proof.families.by;
     found_.share_explained = proof.share_explained;
+    found_.excess_is_clear = has_clear_excess(difference.bed(), proof);
     found_.differences = differences(difference, fit);
     CondensedRecording whole = difference.recording();
     restore(t, whole);

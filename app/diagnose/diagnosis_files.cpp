@@ -173,6 +173,7 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
           {"fit", fit_json(diagnosis)},
           {"held_out_by", diagnosis.held_out_by},
           {"share_explained", diagnosis.share_explained},
+          {"excess_is_clear", diagnosis.excess_is_clear},
           {"names_added", list_json(diagnosis.names_added, step_json)},
           {"remainder", {{"share", diagnosis.remainder_share}}},
           {"suspects", diagnosis.suspects},

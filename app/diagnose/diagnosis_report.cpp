@@ -156,10 +156,15 @@ std::string basis_sentence(const DiagnosisRun& run) {
       fmt::format("{} runs of {}; measured: {}.", recording.runs.size(),
                   std::filesystem::path(run.recording.file).filename().string(), names);
   if (!run.diagnosis.claims.empty() || run.diagnosis.verdict == Verdict::kUnexplained) {
-    text += fmt::format(
-        " On conditions held out of the fit (by {}) the correction explains {:.0f} "
-        "% of the excess misfit.",
-        run.diagnosis.held_out_by, 100 * std::min(run.diagnosis.share_explained, 1.0));
+    text += run.diagnosis.excess_is_clear
+                ? fmt::format(
+                      " On conditions held out of the fit (by {}) the correction explains {:.0f} "
+                      "% of the excess misfit.",
+                      run.diagnosis.held_out_by, 100 * std::min(run.diagnosis.share_explained, 1.0))
+                : fmt::format(
+                      " On conditions held out of the fit (by {}) the calibrated model's misfit is "
+                      "not clear of noise: no share of it can be told.",
+                      run.diagnosis.held_out_by);
   }
   return text;
 }

@@ -169,6 +169,7 @@ struct Diagnosis {
   std::vector<ChannelFit> fit;
   std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
   double share_explained = 0;
+  bool excess_is_clear = false;  ///< of noise, on held-out conditions: a share of it says something
   bool correction_refused = false;  ///< none proved its worth: what is handed on has no name's part
   /// All that is unexplained is that replicates follow what the run before left in the bed.
   bool only_bed_memory = false;

@@ -193,7 +193,7 @@ std::string named_words(const Diagnosis& diagnosis) {
     return text + " Named, but the corrected model leaves it out (see the notes).";
   }
   const double left = 1 - diagnosis.share_explained;
-  if (left > 0.1) {
+  if (diagnosis.excess_is_clear && left > 0.1) {
     text += fmt::format(" Named, but {:.0f} % of the excess misfit remains.",
                         100 * std::min(left, 1.0));
   }

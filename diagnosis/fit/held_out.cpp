@@ -342,14 +342,20 @@ std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof) 
                      proof.families.by, gain, Thresholds::kClear_errors);
 }
 
+bool has_clear_excess(const TestBed& bed, const HeldOut& held_out) {
+  return held_out.excess >
+         Thresholds::kClear_errors * std::sqrt(2.0 * static_cast<double>(bed.size()));
+}
+
 HeldOut best_hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
                       const CandidateFit& base, const CorrectedModel& corrected, int threads) {
+  const auto rank = [&](const HeldOut& out) {
+    return std::pair(has_clear_excess(recording.bed, out), out.share_explained);
+  };
   std::optional<HeldOut> best;
   for (const Families& families : all_families(recording.bed)) {
     HeldOut out = hold_out(recording, soil, base, corrected, families, threads);
-    if (!best || out.share_explained > best->share_explained) {
-      best = std::move(out);
-    }
+    if (!best || rank(out) > rank(*best)) best = std::move(out);
   }
   return *best;
 }

@@ -44,6 +44,10 @@ struct HeldOut {
   std::vector<double> remainder_share;  ///< per channel: of the remainder that proves itself
 };
 
+/// Whether what the calibrated model misses on held-out conditions is so clear of noise, by two
+/// standard deviations of chi squared, that a share of it says anything.
+bool has_clear_excess(const TestBed& bed, const HeldOut& held_out);
+
 /// \param base soil calibrated without any effect, its problem and settings without discrepancy
 HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoordinate>& soil,
                  const CandidateFit& base, const CorrectedModel& corrected,

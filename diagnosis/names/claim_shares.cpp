@@ -19,7 +19,7 @@ const CandidateFit* fit_of(const std::set<std::string>& ids, const std::vector<S
 
 void measure_shares(const CalibratedRecording& calibrated, const std::vector<ScoredId>& scored,
                     const CandidateFit& fit, int threads, std::vector<Claim>& claims) {
-  if (calibrated.held_out({.fit = &fit}, threads).excess <= 0) return;
+  if (!name_share(calibrated, fit, threads).is_told) return;
   const auto share = [&](const CandidateFit& with, const CandidateFit* without) {
     return without == nullptr ? name_share(calibrated, with, threads).share
                               : added_share(calibrated, with, *without, threads).share;

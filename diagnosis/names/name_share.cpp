@@ -23,13 +23,16 @@ NameShare compare(const CalibratedRecording& calibrated, const CandidateFit& wit
     if (without != nullptr) {
       before = calibrated.held_out({.fit = without}, families, threads).corrected;
     }
-    const double excess = std::max(held.excess, 1e-9);
-    const double share = (variances_off(bed, before) - variances_off(bed, held.corrected)) / excess;
-    result.share.low = std::min(result.share.low, share);
-    result.share.high = std::max(result.share.high, share);
-    if (families.by == first || result.held_out_by.empty()) {
-      result.share.explained = share;
-      result.held_out_by = families.by;
+    if (has_clear_excess(bed, held)) {
+      const double share =
+          (variances_off(bed, before) - variances_off(bed, held.corrected)) / held.excess;
+      result.share.low = std::min(result.share.low, share);
+      result.share.high = std::max(result.share.high, share);
+      if (families.by == first || !result.is_told) {
+        result.share.explained = share;
+        result.held_out_by = families.by;
+      }
+      result.is_told = true;
     }
     result.gain_in_errors =
         std::min(result.gain_in_errors, gain_in_errors(bed, held.corrected, before));
@@ -38,6 +41,7 @@ NameShare compare(const CalibratedRecording& calibrated, const CandidateFit& wit
           gain_in_errors(bed, c, held.corrected, before) / static_cast<double>(kinds.size());
     }
   }
+  if (!result.is_told) result.share = {};
   const auto worst = std::ranges::min_element(gains);
   if (*worst < -Thresholds::kClear_errors) {
     result.worsened = bed.channels[static_cast<std::size_t>(worst - gains.begin())].channel;

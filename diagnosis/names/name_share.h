@@ -8,9 +8,11 @@
 namespace regoplan {
 
 /// What a fitted candidate alone, no remainder added, explains of the excess misfit on held-out
-/// conditions: by the kind of families there are most of, and the range over all kinds.
+/// conditions: by the kind of families there are most of, and the range over all kinds that have a
+/// clear excess; nothing by none.
 struct NameShare {
   Share share;
+  bool is_told = false;  ///< whether any kind has a clear excess
   std::string held_out_by;
   double gain_in_errors = 0;  ///< least over the kinds of families
   /// Channel that it predicts worse than without it by more than two standard errors, in the mean

@@ -6,7 +6,7 @@ namespace regoplan {
 namespace {
 
 Diagnosis named() {
-  Diagnosis diagnosis{.verdict = Verdict::kNamed, .share_explained = 0.7};
+  Diagnosis diagnosis{.verdict = Verdict::kNamed, .share_explained = 0.7, .excess_is_clear = true};
   diagnosis.claims = {{.id = "slip_sinkage", .probability = 0.96}};
   diagnosis.where = {{.channel = Channel::kSinkage,
                       .region = {{"slip_ratio", {0.3, 0.8}}},
@@ -75,6 +75,19 @@ TEST(Sentence, IsNeverQuiteCertain) {
 
 TEST(Sentence, SaysWhatANameLeavesUnexplained) {
   expect_says(sentence_of(named()), {"30 % of the excess misfit remains"});
+}
+
+TEST(Sentence, TellsNoShareOfAnExcessThatNoiseMayBe) {
+  Diagnosis diagnosis = named();
+  diagnosis.excess_is_clear = false;
+  const std::string sentence = sentence_of(diagnosis);
+  EXPECT_EQ(sentence.find("excess misfit"), std::string::npos) << sentence;
+}
+
+TEST(Sentence, CountsRunsAsTheRowsOfARecordingDo) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.front().region = {{"run_order", {31.3, 47}}};
+  expect_says(sentence_of(diagnosis), {"at run 33 to 48"});
 }
 
 TEST(Sentence, DoesNotChargeANameWithWhatARefusedCorrectionLeaves) {

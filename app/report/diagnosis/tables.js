@@ -234,8 +234,10 @@ function fitTable(host) {
   if (HAS_CORRECTION)
     host.append(element(
         'p', {class: 'note'},
-        `Share of the excess misfit that the correction explains: ${
-            percent(Math.min(1, DIAGNOSIS.share_explained))}.`));
+        DIAGNOSIS.excess_is_clear ?
+            `Share of the excess misfit that the correction explains: ${
+                percent(Math.min(1, DIAGNOSIS.share_explained))}.` :
+            'On held-out conditions the misfit is not clear of noise: no share of it can be told.'));
 }
 
 /// What comparing recordings would decide, where something was found that it may.
