@@ -217,7 +217,9 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
                              {.uncertain = setup.uncertain,
                               .seed = options.seed,
                               .threads = options.threads,
-                              .stop = options.stop});
+                              .stop = options.stop,
+                              .progress = options.progress,
+                              .news = options.news});
     result.windows_used = comparison.windows;
     result.effects = std::move(comparison.effects);
   }

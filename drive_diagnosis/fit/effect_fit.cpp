@@ -141,18 +141,34 @@ Eigen::MatrixXd EffectFit::predicted() const {
 
 /// Brings data and columns of the contest to the present fit.
 EffectFit::Linearised EffectFit::linearise() {
-  LinearisedWindows here = linearisation_.about(fit_, zones(), shifts_);
-  const Eigen::MatrixXd left = here.data - here.changed_by(fit_);
-  // Where a zone's soil carries the vehicle nowhere in it nothing is predicted there but what the
-  // map says, and no soil is likelier than another.
-  const bool is_carried = std::ranges::all_of(here.zones, [](const auto& numbers) {
-    return !std::ranges::all_of(numbers,
-                                [](const Eigen::MatrixXd& number) { return number.isZero(0); });
-  });
+  Linearised here = linearise(linearisation_.predicted(fit_, zones(), shifts_));
+  shifts_ = here.noise.inputs_given(here.windows.data - here.windows.changed_by(fit_));
+  return here;
+}
+
+EffectFit::Linearised EffectFit::linearise(PredictedWindows predicted) {
+  LinearisedWindows here = linearisation_.linearised(std::move(predicted), fit_, zones());
   ResidualNoise noise = whiten(here);
-  shifts_ = noise.inputs_given(left);
-  const double nats = is_carried ? noise.nats(left) : std::numeric_limits<double>::infinity();
-  return {.windows = std::move(here), .noise = std::move(noise), .nats = nats};
+  return {.windows = std::move(here), .noise = std::move(noise)};
+}
+
+/// What the present fit leaves, under the scatter that fits are compared by.
+EffectFit::Weighed EffectFit::weigh() {
+  PredictedWindows here = linearisation_.predicted(fit_, zones(), shifts_);
+  ResidualNoise noise =
+      scatter_ ? ResidualNoise(residual_parts(here.windows), *scatter_) : linearise(here).noise;
+  shifts_ = noise.inputs_given(here.left);
+  return {.windows = std::move(here), .noise = std::move(noise), .is_linearised = !scatter_};
+}
+
+/// By how many nats what the present fit leaves is unlikely. Where a zone's soil carries the
+/// vehicle nowhere in it nothing is predicted there but what the map says, and no soil is likelier
+/// than another: infinite.
+double EffectFit::nats(const PredictedWindows& here, const ResidualNoise& noise) const {
+  if (!linearisation_.is_carried(here, fit_, zones())) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return noise.nats(here.left);
 }
 
 ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
@@ -333,14 +349,14 @@ void EffectFit::take_edges(const EffectFound& zone) {
 /// \returns whether they moved
 bool EffectFit::place_edges(EffectFound& zone) {
   const Eigen::MatrixXd shifts = shifts_;
-  const Linearised here = linearise();
+  const Weighed here = weigh();
   // What the inputs' scatter explains stays what it is.
-  const Eigen::MatrixXd measured = comparison_.measured() + here.windows.shifted_by(shifts);
+  const Eigen::MatrixXd measured = comparison_.measured() + here.windows.windows.shifted_by(shifts);
   const VehicleDeviation vehicle = deviation();
   const LikelyEdges edges = likely_edges({.comparison = comparison_,
                                           .deviation = vehicle,
                                           .measured = measured,
-                                          .predicted = here.windows.base,
+                                          .predicted = here.windows.windows.base,
                                           .noise = here.noise},
                                          zones(), stop_);
   zone.begins = edges.begins;
@@ -362,10 +378,12 @@ EffectFit::Settled EffectFit::settled_from_here(int steps_most) {
   double share = 1;
   for (int round = 0; round < steps_most && share > kSmallest; ++round) {
     const Settled here{.fit = fit_, .shifts = shifts_};
-    const double nats = linearise().nats + prior_nats(contest_, fit_);
-    const bool is_same = round > 0 && std::abs(nats - best.nats) < kSame_nats;
-    if (round == 0 || nats < best.nats) {
-      best = {.fit = here.fit, .shifts = here.shifts, .nats = nats};
+    Weighed weighed = weigh();
+    const double all_nats = nats(weighed.windows, weighed.noise) + prior_nats(contest_, fit_);
+    const bool is_same = round > 0 && std::abs(all_nats - best.nats) < kSame_nats;
+    if (round == 0 || all_nats < best.nats) {
+      best = {.fit = here.fit, .shifts = here.shifts, .nats = all_nats};
+      if (!weighed.is_linearised) linearise(std::move(weighed.windows));
       step();
       towards = fit_;
       best.fit.parameters_std = towards.parameters_std;

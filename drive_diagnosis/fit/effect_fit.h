@@ -62,8 +62,12 @@ class EffectFit {
   struct Linearised {
     LinearisedWindows windows;
     ResidualNoise noise;  ///< that the contest was made white by
-    /// By which what the fit leaves is unlikely; infinite where a zone carries nowhere.
-    double nats = 0;
+  };
+  /// The same before it is asked what changes them, where their scatter is known without.
+  struct Weighed {
+    PredictedWindows windows;
+    ResidualNoise noise;
+    bool is_linearised = false;  ///< the contest is at the present fit
   };
 
   /// A fit, and by how many nats what it leaves is unlikely.
@@ -76,6 +80,9 @@ class EffectFit {
   std::vector<Eigen::VectorXd> differences_among_soils_driven() const;
   std::vector<WindowZone> zones() const;
   Linearised linearise();
+  Linearised linearise(PredictedWindows here);
+  Weighed weigh();
+  double nats(const PredictedWindows& here, const ResidualNoise& noise) const;
   ResidualParts residual_parts(const LinearisedWindows& here) const;
   ResidualNoise whiten(const LinearisedWindows& here);
   std::vector<Eigen::MatrixXd> soil_columns(const Eigen::MatrixXd& base) const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/drive_diagnosis/simulated_drive.h"
@@ -13,14 +14,20 @@ struct Diagnosed {
   std::vector<DriveRecording> drives;
   std::vector<DriveWindow> windows;
   std::optional<VehicleEffects> effects;
+  std::vector<std::string> told;  ///< news and stages, in their order
 };
 
 Diagnosed diagnosed(const SimulatedDrive& drive) {
   static const TerrainMap kMap = rolling_map();
-  Diagnosed result{.drives = {record(drive, kMap)}, .windows = {}, .effects = {}};
+  Diagnosed result{.drives = {record(drive, kMap)}, .windows = {}, .effects = {}, .told = {}};
   result.windows = drive_windows(result.drives[0], 0, 5, 0.3);
+  const EffectSearchSettings settings{
+      .seed = 7,
+      .progress = [&](std::string_view stage,
+                      double) { result.told.push_back("stage: " + std::string(stage)); },
+      .news = [&](const std::string& text) { result.told.push_back("news: " + text); }};
   result.effects = find_vehicle_effects(result.drives, result.windows, kMap, preset_vehicle("lrv"),
-                                        1.62, {.seed = 7})
+                                        1.62, settings)
                        .effects;
   return result;
 }
@@ -70,6 +77,22 @@ TEST(VehicleEffects, AWeakZoneOfThirtyMetresIsFoundWhereItLies) {
     EXPECT_NEAR(weak.windows[zone.last].x_m, 170, window_m) << said(*weak.effects);
     EXPECT_GT(zone.resistance.value, 0);
   }
+}
+
+TEST(VehicleEffects, TellWhatIsKnownBeforeAZoneIsFitted) {
+  const Diagnosed weak = diagnosed(
+      {.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? 4.0 : 0.0; }, .seed = 11});
+  const auto first = [&](std::string_view part) {
+    return std::ranges::find_if(
+               weak.told,
+               [part](const std::string& told) { return told.find(part) != std::string::npos; }) -
+           weak.told.begin();
+  };
+  const auto end = static_cast<std::ptrdiff_t>(weak.told.size());
+  EXPECT_EQ(first("windows are compared"), 0);
+  EXPECT_LT(first("stage: looking for zones"), first("news: soil_zone from about"));
+  EXPECT_LT(first("news: soil_zone from about"), first("stage: fitting what stands out"));
+  EXPECT_LT(first("stage: fitting what stands out"), end);
 }
 
 TEST(VehicleEffects, ASoilFarWeakerThanTheMapSaysIsEstimatedToBearAndToHoldLess) {
