@@ -89,12 +89,13 @@ class EffectSearch {
       result.found.push_back(std::move(finding));
     }
     result.noise = fit_.noise();
-    result.vehicle =
-        estimated_vehicle(uncertain_, trials_, fit_.fit().parameters, fit_.fit().parameters_std);
-    result.soils = soils_left();
     const Eigen::MatrixXd corrected = fit_.predicted();
     result.rms_after = rms(comparison_.measured() - corrected);
     result.compared = compared(as_said, corrected);
+    const ContestFit outside = fit_.fit_outside_zones();
+    result.vehicle =
+        estimated_vehicle(uncertain_, trials_, outside.parameters, outside.parameters_std);
+    result.soils = soils_left(outside);
     return result;
   }
 
@@ -227,10 +228,10 @@ class EffectSearch {
     }
   }
 
-  /// The map's soils as the fit has them.
-  std::vector<MapSoil> soils_left() const {
-    return estimated_soils(map_.soils(), fit_.deviation().soils,
-                           soil_stds(trials_, fit_.fit().parameters_std, map_.soils().size()),
+  /// The map's soils as a fit has them.
+  std::vector<MapSoil> soils_left(const ContestFit& fit) const {
+    return estimated_soils(map_.soils(), fit_.deviation(fit).soils,
+                           soil_stds(trials_, fit.parameters_std, map_.soils().size()),
                            comparison_.soils_driven());
   }
 

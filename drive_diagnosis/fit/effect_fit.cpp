@@ -12,6 +12,8 @@ namespace regoplan {
 namespace {
 
 constexpr double kSettled = 0.05;  ///< deviations
+/// Windows that no zone touches, by which they can be compared with each other.
+constexpr std::size_t kFewestOutside = 10;
 
 std::vector<std::size_t> numbers_that_vary(const TerrainMap& map) {
   std::vector<std::size_t> numbers;
@@ -34,7 +36,7 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
       stop_(stop),
       numbers_(numbers_that_vary(map)),
       linearisation_(comparison, trials, numbers_, stop),
-      fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials.size()))} {
+      fit_(nothing_known()) {
   shifts_ = Eigen::MatrixXd::Zero(comparison.measured().rows(),
                                   static_cast<Eigen::Index>(comparison.inputs()));
   for (std::size_t i = 0; i < comparison.size(); ++i) {
@@ -85,10 +87,6 @@ void EffectFit::add(const EffectFound& effect) {
   } else {
     contest_.faults_known.push_back(effect.parameter);
   }
-}
-
-VehicleDeviation EffectFit::deviation() const {
-  return linearisation_.deviation_of(fit_);
 }
 
 SoilNumbers EffectFit::numbers_of(const Eigen::VectorXd& values) const {
@@ -184,6 +182,11 @@ ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
   for (std::size_t k = 0; k < here.inputs.size(); ++k) {
     unknown.push_back(k >= comparison_.slope_along());
   }
+  Eigen::MatrixXd more_std = comparison_.more_std();
+  constexpr double kAnything = 1e4;  // in any channel's unit
+  for (const std::size_t w : silent_) {
+    more_std.row(static_cast<Eigen::Index>(w)).setConstant(kAnything);
+  }
   return {.residuals = here.data,
           .columns = std::move(global),
           .may_be_wrong = std::move(may_be_wrong),
@@ -192,19 +195,18 @@ ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
           .follows = contest_.follows,
           .sizes = comparison_.sizes(),
           .sampled_std = comparison_.sampled_std(),
-          .more_std = comparison_.more_std()};
+          .more_std = std::move(more_std)};
 }
 
 /// How far residuals scatter in the windows that do not touch a zone; nothing where those are too
 /// few to tell.
 std::optional<ScatterSources> EffectFit::scatter_outside(const LinearisedWindows& here,
                                                          const Eigen::VectorXd& zone) const {
-  constexpr std::size_t kFewest = 10;
   std::vector<Eigen::Index> outside;
   for (Eigen::Index w = 0; w < zone.size(); ++w) {
     if (zone[w] == 0) outside.push_back(w);
   }
-  if (outside.size() < kFewest) return std::nullopt;
+  if (outside.size() < kFewestOutside) return std::nullopt;
   return ResidualNoise(parts_of(residual_parts(here), outside)).sources();
 }
 
@@ -263,6 +265,33 @@ void EffectFit::settle() {
     linearise();
     if (step() < kSettled) break;
   }
+}
+
+/// All parameters where they are said to be, as well known as they are said to be.
+ContestFit EffectFit::nothing_known() const {
+  const auto count = static_cast<Eigen::Index>(trials_.size());
+  return {.parameters = Eigen::VectorXd::Zero(count),
+          .parameters_std = Eigen::VectorXd::Ones(count),
+          .zones = {},
+          .zones_covariance = {}};
+}
+
+ContestFit EffectFit::fit_outside_zones() {
+  WindowSet in_zones;
+  for (const WindowZone& zone : zones()) {
+    WindowSet both;
+    std::ranges::set_union(in_zones, comparison_.touching(zone), std::back_inserter(both));
+    in_zones = std::move(both);
+  }
+  if (in_zones.empty()) return fit_;
+  if (comparison_.size() - in_zones.size() < kFewestOutside) return nothing_known();
+  const Settled here{.fit = fit_, .shifts = shifts_};
+  silent_ = std::move(in_zones);
+  settle();
+  ContestFit outside = fit_;
+  silent_.clear();
+  go_on_from(here);
+  return outside;
 }
 
 void EffectFit::settle_with(EffectFound& effect) {

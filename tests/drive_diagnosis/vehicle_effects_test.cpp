@@ -115,6 +115,27 @@ TEST(VehicleEffects, ASoilFarWeakerThanTheMapSaysIsEstimatedToBearAndToHoldLess)
               3 * zone.estimate.standard_deviation.friction_angle_rad);
 }
 
+TEST(VehicleEffects, SoilsBesideAZoneAreToldAsSurelyAsTheyAreKnown) {
+  // A zone whose wheels sink deep pulled them by 2.5 in all.
+  const Diagnosed weak = diagnosed(
+      {.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? 6.0 : 0.0; }, .seed = 15});
+  ASSERT_TRUE(weak.effects);
+  ASSERT_EQ(weak.effects->found.size(), 1u) << said(*weak.effects);
+  ASSERT_TRUE(weak.effects->found[0].zone) << said(*weak.effects);
+  const UncertainSoil there = rolling_map().soils()[0].soil, told = weak.effects->soils[0].soil;
+  double squares = 0;
+  int count = 0;
+  for (const SoilParameter& number : soil_parameters()) {
+    const double std = told.standard_deviation.*number.member;
+    if (!(std > 0)) continue;
+    const double pull = (told.mean.*number.member - there.mean.*number.member) / std;
+    squares += pull * pull;
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+  EXPECT_LT(squares, 1);
+}
+
 TEST(VehicleEffects, AWheelThatDragsIsNamed) {
   SimulatedDrive drive{.seed = 21};
   drive.deviation.wheel_drag_nm[1] = 5;
