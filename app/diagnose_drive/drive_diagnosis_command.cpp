@@ -94,7 +94,8 @@ DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
            }});
   if (has_corrected_map(run)) {
     line.show("judging the drives again", 1);
-    run.verdicts = verdict_flips(run.setup.setup, run.setup.limits, run.diagnosis, run.seed);
+    run.verdicts =
+        verdict_flips(run.setup.setup, run.setup.limits, run.diagnosis, run.seed, command.threads);
   }
   line.show("writing", 1);
   for (const DriveFinding& finding : run.diagnosis.findings) {

@@ -12,6 +12,7 @@
 #include "planner/problem/world.h"
 #include "planner/soils/soil_uncertainty.h"
 #include "planner/verdict/ranking.h"
+#include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {
@@ -65,45 +66,57 @@ std::vector<VehicleState> states_of(const DriveWindow& window, const Vehicle& ve
   return states;
 }
 
+/// Why a window may not be driven at the soils' means, and else its state of the smallest margin.
+struct WindowJudged {
+  std::string why;  ///< empty: it may
+  VehicleState tightest;
+};
+
+WindowJudged judged_at_means(const World& world, const std::vector<VehicleState>& states) {
+  WindowJudged judged;
+  double least = std::numeric_limits<double>::infinity();
+  for (const VehicleState& state : states) {
+    const Judgement judgement = world.judge(state, {}, 0);
+    if (judgement.rejected) {
+      judged.why = rejection_text(judgement.rejected->reason, judgement.rejected->exceeded);
+      return judged;
+    }
+    if (judgement.point.margin >= least) continue;
+    least = judgement.point.margin;
+    judged.tightest = state;
+  }
+  return judged;
+}
+
 /// Why each window may not be driven, without its place; empty where it may.
 std::vector<std::string> reasons(const PlanningProblem& problem,
                                  const std::vector<std::vector<VehicleState>>& windows,
-                                 std::uint64_t seed) {
+                                 std::uint64_t seed, int threads) {
   constexpr int kDraws = 40;
-  const World world(problem, WorldUse::kVerdict, 1);
+  const World world(problem, WorldUse::kVerdict, threads);
+  std::vector<WindowJudged> judged(windows.size());
+  parallel_for(windows.size(), threads,
+               [&](std::size_t i) { judged[i] = judged_at_means(world, windows[i]); });
   std::vector<std::string> why;
   std::vector<VehicleState> tightest;  // of windows that may be driven at the soils' means
   std::vector<std::size_t> index;
-  for (const std::vector<VehicleState>& states : windows) {
-    std::string& reason = why.emplace_back();
-    double least = std::numeric_limits<double>::infinity();
-    const VehicleState* at = nullptr;
-    for (const VehicleState& state : states) {
-      const Judgement judgement = world.judge(state, {}, 0);
-      if (judgement.rejected) {
-        reason = rejection_text(judgement.rejected->reason, judgement.rejected->exceeded);
-        break;
-      }
-      if (judgement.point.margin >= least) continue;
-      least = judgement.point.margin;
-      at = &state;
-    }
-    if (!reason.empty() || at == nullptr) continue;
-    tightest.push_back(*at);
+  for (const WindowJudged& window : judged) {
+    why.push_back(window.why);
+    if (!window.why.empty()) continue;
+    tightest.push_back(window.tightest);
     index.push_back(why.size() - 1);
   }
-  std::vector<int> kept(tightest.size());
-  for (int draw = 0; draw < kDraws; ++draw) {
-    const std::vector<PathMargins> margins =
-        margins_on(problem, tightest, soil_draw(problem, seed, draw));
-    for (std::size_t i = 0; i < tightest.size(); ++i) {
-      kept[i] += margins[i].smallest() >= problem.limits.margin_min;
-    }
-  }
+  std::vector<std::vector<PathMargins>> margins(kDraws);
+  parallel_for(margins.size(), threads, [&](std::size_t draw) {
+    margins[draw] = margins_on(problem, tightest, soil_draw(problem, seed, static_cast<int>(draw)));
+  });
   for (std::size_t i = 0; i < tightest.size(); ++i) {
-    if (kept[i] >= share_counted_on(problem.limits) * kDraws) continue;
-    why[index[i]] =
-        fmt::format("margins kept in {:.0f} % of the draws of the soils", 100.0 * kept[i] / kDraws);
+    const auto kept = std::ranges::count_if(margins, [&](const std::vector<PathMargins>& of) {
+      return of[i].smallest() >= problem.limits.margin_min;
+    });
+    if (static_cast<double>(kept) >= share_counted_on(problem.limits) * kDraws) continue;
+    why[index[i]] = fmt::format("margins kept in {:.0f} % of the draws of the soils",
+                                100.0 * static_cast<double>(kept) / kDraws);
   }
   return why;
 }
@@ -111,7 +124,8 @@ std::vector<std::string> reasons(const PlanningProblem& problem,
 }  // namespace
 
 std::vector<VerdictFlip> verdict_flips(const DriveSetup& setup, const Limits& limits,
-                                       const DriveDiagnosis& diagnosis, std::uint64_t seed) {
+                                       const DriveDiagnosis& diagnosis, std::uint64_t seed,
+                                       int threads) {
   const VehicleEffects& effects = *diagnosis.effects;
   std::vector<std::size_t> judged;
   std::vector<std::vector<VehicleState>> states;
@@ -124,11 +138,11 @@ std::vector<VerdictFlip> verdict_flips(const DriveSetup& setup, const Limits& li
     states.push_back(states_of(window, *setup.vehicle));
   }
   const std::vector<std::string> before =
-      reasons(problem_of(setup.map, *setup.vehicle, setup, limits), states, seed);
+      reasons(problem_of(setup.map, *setup.vehicle, setup, limits), states, seed, threads);
   const std::vector<std::string> after =
       reasons(problem_of(corrected_map(setup.map, effects, diagnosis.windows),
                          corrected_vehicle(*setup.vehicle, effects), setup, limits),
-              states, seed);
+              states, seed, threads);
   std::vector<VerdictFlip> flips;
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < judged.size(); ++i) {

@@ -23,8 +23,10 @@ struct VerdictFlip {
 /// station keeps the limits at the soils' means, and the one with the smallest margin keeps the
 /// margins in as many of 40 draws of the soils as are counted on (95 %, or the limits'
 /// probability). Windows that follow each other and flip alike are one stretch. Standing windows
-/// and those off the map are left out. \pre the setup has a vehicle, the diagnosis its effects
+/// and those off the map are left out. Threads change no result. \pre the setup has a vehicle, the
+/// diagnosis its effects
 std::vector<VerdictFlip> verdict_flips(const DriveSetup& setup, const Limits& limits,
-                                       const DriveDiagnosis& diagnosis, std::uint64_t seed);
+                                       const DriveDiagnosis& diagnosis, std::uint64_t seed,
+                                       int threads);
 
 }  // namespace regoplan

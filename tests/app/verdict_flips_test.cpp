@@ -32,7 +32,7 @@ struct Driven {
   }
 
   std::vector<VerdictFlip> flips() const {
-    return verdict_flips(setup, default_limits(*setup.vehicle), diagnosis, 1);
+    return verdict_flips(setup, default_limits(*setup.vehicle), diagnosis, 1, 2);
   }
 
   DriveSetup setup{.map = flat_firm_map(), .vehicle = {}};
