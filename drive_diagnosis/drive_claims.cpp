@@ -12,6 +12,12 @@ namespace {
 
 constexpr double kTwoSided95 = 1.96;  ///< standard deviations of a normal number
 
+/// In what share of drives of a sound vehicle over the map's soils chance alone shows as much.
+double chance_of(const VehicleFinding& finding) {
+  // Beyond what one contest in a thousand gains, gains fall off as exp(-gain / 2).
+  return 1e-3 * std::exp((finding.chance - finding.gain) / 2);
+}
+
 /// Where on the map a zone lies that a drive went through.
 DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveRecording>& drives,
                           const VehicleFinding& finding) {
@@ -34,8 +40,16 @@ DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveR
                  {"end_s", zone.end_s}},
       .effect = finding.size,
       .ci95 = {finding.size - kTwoSided95 * finding.std, finding.size + kTwoSided95 * finding.std},
-      // Beyond what one contest in a thousand gains, gains fall off as exp(-gain / 2).
-      .p_value = 1e-3 * std::exp((finding.chance - finding.gain) / 2)};
+      .p_value = chance_of(finding)};
+}
+
+/// How rare drives are in which chance alone shows as much.
+std::string chance_text(const VehicleFinding& finding) {
+  constexpr double kRarest = 1e-6;
+  const double chance = chance_of(finding);
+  if (chance < kRarest) return "fewer than one of a million drives";
+  const double digit = std::pow(10, std::floor(-std::log10(chance)));
+  return fmt::format("one of {:.0f} drives", digit * std::floor(1 / chance / digit));
 }
 
 std::string resistance_text(const VehicleFinding& finding) {
@@ -57,8 +71,10 @@ std::string zone_text(const VehicleFinding& finding, const TerrainMap& map,
   const std::string what =
       zone.like ? fmt::format("{} in place of", soils[static_cast<std::size_t>(*zone.like)].name)
                 : "other soil than";
-  return fmt::format("{} {} in {}, {:.1f} standard deviations from nothing; {}", what, said, where,
-                     finding.sigmas, resistance_text(finding));
+  // Whether it is there is told by all channels together, how far by one number of its soil.
+  return fmt::format(
+      "{} {} in {}: by chance alone {} would show as much; of the soil that is there, {}", what,
+      said, where, chance_text(finding), resistance_text(finding));
 }
 
 }  // namespace

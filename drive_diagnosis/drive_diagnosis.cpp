@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "drive_diagnosis/comparison/swapped_sides.h"
+#include "drive_diagnosis/comparison/torque_sign.h"
 #include "drive_diagnosis/drive_claims.h"
 #include "drive_diagnosis/instruments/torque_unit.h"
+#include "drive_diagnosis/instruments/yaw_unit.h"
 #include "drive_diagnosis/recording/position_lag.h"
 #include "drive_diagnosis/recording/time_checks.h"
 #include "drive_diagnosis/silent_effects.h"
@@ -114,6 +116,35 @@ void mend_yaw(const SensorChecks& checks, const DriveSetup& setup,
   windows = windows_of(drives, setup);
 }
 
+/// Takes yaws in radians for what they are: what smooths them must know.
+void mend_yaw_units(const DriveSetup& setup, std::vector<DriveRecording>& drives,
+                    DriveDiagnosis& result) {
+  std::vector<DriveFinding> mended = mend_yaw_in_radians(drives, result.windows);
+  if (mended.empty()) return;
+  result.windows = windows_of(drives, setup);
+  std::ranges::move(mended, std::back_inserter(result.findings));
+}
+
+/// Takes torques of wheels that are told with the other sign for what they are: of them a payload
+/// would be made.
+void mend_torque_signs(const DriveSetup& setup, const DriveDiagnosisOptions& options,
+                       std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
+  if (!setup.vehicle || !any_has(drives, "torque_")) return;
+  const std::vector<std::string> reversed =
+      wheels_with_torque_reversed(drives, result.windows, setup.map, *setup.vehicle,
+                                  setup.gravity_mps2, options.threads, options.stop);
+  for (const std::string& wheel : reversed) {
+    reverse_torque(wheel, drives, result.windows);
+    result.findings.push_back(
+        {.id = "sign",
+         .drive = "",
+         .text = fmt::format("torque_{}_nm: the vehicle's model comes far nearer to it with the "
+                             "other sign: taken so",
+                             wheel),
+         .mended = true});
+  }
+}
+
 /// Torques that no soil takes say nothing: a payload would be made of them.
 void leave_doubtful_torques_out(const DriveSetup& setup, std::vector<DriveRecording>& drives,
                                 DriveDiagnosis& result) {
@@ -198,6 +229,7 @@ void mend_sides(const DriveSetup& setup, const DriveDiagnosisOptions& options,
 void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
              const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
   leave_doubtful_torques_out(setup, drives, result);
+  mend_yaw_units(setup, drives, result);
   SensorChecks checks = check_sensors(drives, result.windows, sides_of(setup.vehicle));
   mend_yaw(checks, setup, drives, result.windows);
   for (DriveWindow& window : result.windows) window.sensed_speed_mps /= checks.sensed_speed_per_mps;
@@ -205,6 +237,7 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   throw_if_stopped(options.stop);
   check_place(setup, drives, result);
   if (checks.wheel_sides_swapped) mend_sides(setup, options, drives, result);
+  mend_torque_signs(setup, options, drives, result);
   result.mountings = find_mountings(drives, result.windows, setup.map);
   throw_if_stopped(options.stop);
   judge_mounting(setup, result);
@@ -217,7 +250,9 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
                              {.uncertain = setup.uncertain,
                               .seed = options.seed,
                               .threads = options.threads,
-                              .stop = options.stop});
+                              .stop = options.stop,
+                              .progress = options.progress,
+                              .news = options.news});
     result.windows_used = comparison.windows;
     result.effects = std::move(comparison.effects);
   }

@@ -88,6 +88,8 @@ struct DriveDiagnosisOptions {
   /// A request ends the diagnosis within a second with what was found by then, marked interrupted.
   std::stop_token stop = {};
   std::function<void(std::string_view stage, double share)> progress = {};
+  /// What is known already, in a sentence, while the rest is sought.
+  std::function<void(const std::string& text)> news = {};
 };
 
 /// Compares drives with what model and map say of them, window by window. Deterministic for a seed.

@@ -1,5 +1,7 @@
 #include "drive_diagnosis/vehicle_effects.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -42,6 +44,7 @@ class EffectSearch {
         uncertain_(settings.uncertain),
         trials_(vehicle_trials(vehicle, settings.uncertain, map, comparison.soils_driven())),
         likely_(likely_soils(map, comparison.soils_driven())),
+        settings_(settings),
         seed_(settings.seed),
         stop_(settings.stop),
         fit_(comparison, map, trials_, likely_, stop_) {}
@@ -52,15 +55,21 @@ class EffectSearch {
                           .has_torque = comparison_.has_torque()};
     const Eigen::MatrixXd as_said = comparison_.predicted_as_said(stop_);
     result.rms = rms(comparison_.measured() - as_said);
+    tell(off_text(result.channels, result.rms));
     constexpr int kEffectsMost = 3;
+    show("looking for zones and faults", 0);
     fit_.settle();  // soils and sensors as they are, before anything is judged
     std::vector<EffectFound> found;
     while (true) {
+      const double share = static_cast<double>(found.size()) / (kEffectsMost + 1);
+      show("looking for zones and faults", share);
       EffectFound strongest = fit_.strongest(seed_);
       if (!strongest.stands_out || static_cast<int>(found.size()) == kEffectsMost) {
         result.strongest_left = told(strongest);
         break;
       }
+      tell(stands_out_text(strongest));
+      show("fitting what stands out", share);
       fit_.add(strongest);
       fit_.settle_with(strongest);
       found.push_back(std::move(strongest));
@@ -80,16 +89,45 @@ class EffectSearch {
       result.found.push_back(std::move(finding));
     }
     result.noise = fit_.noise();
-    result.vehicle =
-        estimated_vehicle(uncertain_, trials_, fit_.fit().parameters, fit_.fit().parameters_std);
-    result.soils = soils_left();
     const Eigen::MatrixXd corrected = fit_.predicted();
     result.rms_after = rms(comparison_.measured() - corrected);
     result.compared = compared(as_said, corrected);
+    const ContestFit outside = fit_.fit_outside_zones();
+    result.vehicle =
+        estimated_vehicle(uncertain_, trials_, outside.parameters, outside.parameters_std);
+    result.soils = soils_left(outside);
     return result;
   }
 
  private:
+  void tell(const std::string& text) const {
+    if (settings_.news) settings_.news(text);
+  }
+  void show(std::string_view stage, double share) const {
+    if (settings_.progress) settings_.progress(stage, share);
+  }
+
+  std::string off_text(const std::vector<std::string>& channels,
+                       const std::vector<double>& rms) const {
+    std::string off;
+    for (std::size_t k = 0; k < channels.size(); ++k) {
+      off += fmt::format("{}{} {:.2g}", off.empty() ? "" : ", ", channels[k], rms[k]);
+    }
+    return fmt::format("{} windows are compared; root mean square off what map and vehicle say: {}",
+                       comparison_.size(), off);
+  }
+
+  std::string stands_out_text(const EffectFound& effect) const {
+    const std::string id = effect.is_zone ? "soil_zone" : trials_[effect.parameter].id;
+    const std::string where =
+        effect.is_zone
+            ? fmt::format(" from about {:.0f} to {:.0f} s", comparison_.time_s(effect.begins),
+                          comparison_.time_s(std::nextafter(effect.ends, 0)))
+            : "";
+    return fmt::format("{}{} stands out and is fitted, then what else there is is sought", id,
+                       where);
+  }
+
   std::vector<double> rms(const Eigen::MatrixXd& residuals) const {
     std::vector<double> result;
     for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
@@ -190,10 +228,10 @@ class EffectSearch {
     }
   }
 
-  /// The map's soils as the fit has them.
-  std::vector<MapSoil> soils_left() const {
-    return estimated_soils(map_.soils(), fit_.deviation().soils,
-                           soil_stds(trials_, fit_.fit().parameters_std, map_.soils().size()),
+  /// The map's soils as a fit has them.
+  std::vector<MapSoil> soils_left(const ContestFit& fit) const {
+    return estimated_soils(map_.soils(), fit_.deviation(fit).soils,
+                           soil_stds(trials_, fit.parameters_std, map_.soils().size()),
                            comparison_.soils_driven());
   }
 
@@ -241,6 +279,7 @@ class EffectSearch {
   const UncertainVehicle& uncertain_;
   std::vector<VehicleTrial> trials_;
   std::vector<LikelySoil> likely_;  ///< what the contest's likely soils are
+  const EffectSearchSettings& settings_;
   std::uint64_t seed_;
   const std::stop_token& stop_;
   EffectFit fit_;

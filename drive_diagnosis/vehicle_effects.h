@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drive_diagnosis/comparison/compared_channel.h"
@@ -67,6 +69,9 @@ struct EffectSearchSettings {
   std::uint64_t seed = 1;
   int threads = 2;  ///< changes no result
   std::stop_token stop = {};
+  std::function<void(std::string_view stage, double share)> progress = {};
+  /// What is known already, in a sentence, while the rest is sought.
+  std::function<void(const std::string& text)> news = {};
 };
 
 /// Compares windows with the vehicle's model on the map: speed along and across, yaw rate,

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "app/command/progress_line.h"
@@ -49,6 +50,7 @@ void require_different(const std::vector<DriveRecording>& drives) {
 }  // namespace
 
 DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
+  const auto started = std::chrono::steady_clock::now();
   DriveDiagnosisRun run{.scenario_file = command.scenario,
                         .setup = read_drive_setup(command.scenario, command.setup),
                         .seed = command.seed,
@@ -83,10 +85,17 @@ DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
       {.seed = command.seed,
        .threads = command.threads,
        .stop = stop,
-       .progress = [&line](std::string_view stage, double share) { line.show(stage, share); }});
+       .progress = [&line](std::string_view stage, double share) { line.show(stage, share); },
+       .news =
+           [&](const std::string& text) {
+             const std::chrono::duration<double> since = std::chrono::steady_clock::now() - started;
+             line.wipe();
+             notify(fmt::format("after {:.1f} s: {}", since.count(), text), command.quiet);
+           }});
   if (has_corrected_map(run)) {
     line.show("judging the drives again", 1);
-    run.verdicts = verdict_flips(run.setup.setup, run.setup.limits, run.diagnosis, run.seed);
+    run.verdicts =
+        verdict_flips(run.setup.setup, run.setup.limits, run.diagnosis, run.seed, command.threads);
   }
   line.show("writing", 1);
   for (const DriveFinding& finding : run.diagnosis.findings) {

@@ -305,21 +305,71 @@ Eigen::MatrixXd WindowComparison::predicted(const WindowSet& windows,
                                             const std::vector<WindowZone>& zones,
                                             const Eigen::MatrixXd& otherwise,
                                             const std::stop_token& stop) const {
-  Eigen::MatrixXd result = otherwise;
+  return predicted(windows, {{deviation, zones}}, otherwise, MotionsByWindow(size()), stop).front();
+}
+
+std::vector<Eigen::MatrixXd> WindowComparison::predicted(
+    const WindowSet& windows, const std::vector<WindowQuestion>& questions,
+    const Eigen::MatrixXd& otherwise, const MotionsByWindow& known,
+    const std::stop_token& stop) const {
+  std::vector<Eigen::MatrixXd> result(questions.size(), otherwise);
+  parallel_for(questions.size() * windows.size(), threads_, [&](std::size_t n) {
+    throw_if_stopped(stop);
+    const std::size_t question = n / windows.size(), window = windows[n % windows.size()];
+    const WindowMotions* here = known[window] ? &*known[window] : nullptr;
+    const auto values = predicted_in(window, questions[question], here);
+    if (values) result[question].row(static_cast<Eigen::Index>(window)) = *values;
+  });
+  return result;
+}
+
+std::vector<std::optional<Eigen::VectorXd>> WindowComparison::predicted_each(
+    const std::vector<std::pair<std::size_t, WindowQuestion>>& windows,
+    const std::stop_token& stop) const {
+  std::vector<std::optional<Eigen::VectorXd>> result(windows.size());
   parallel_for(windows.size(), threads_, [&](std::size_t n) {
     throw_if_stopped(stop);
-    const auto values = predicted_in(windows[n], deviation, zones);
-    if (values) result.row(static_cast<Eigen::Index>(windows[n])) = *values;
+    result[n] = predicted_in(windows[n].first, windows[n].second, nullptr);
+  });
+  return result;
+}
+
+MotionsByWindow WindowComparison::motions(const WindowSet& windows, const WindowQuestion& question,
+                                          const std::stop_token& stop) const {
+  MotionsByWindow result(size());
+  parallel_for(windows.size(), threads_, [&](std::size_t n) {
+    throw_if_stopped(stop);
+    const std::size_t i = windows[n];
+    result[i] = model_.motions(shifted(i), question.deviation, stretches_in(i, question.zones));
   });
   return result;
 }
 
 /// Nothing where a window's motion does not balance.
-std::optional<Eigen::VectorXd> WindowComparison::predicted_in(
-    std::size_t i, const VehicleDeviation& deviation, const std::vector<WindowZone>& zones) const {
-  const auto prediction = model_.predict(shifted(i), deviation, stretches_in(i, zones));
+std::optional<Eigen::VectorXd> WindowComparison::predicted_in(std::size_t i,
+                                                              const WindowQuestion& question,
+                                                              const WindowMotions* known) const {
+  const auto prediction =
+      model_.predict(shifted(i), question.deviation, stretches_in(i, question.zones), known);
   if (!prediction) return {};
   return vector_of(*prediction);
+}
+
+std::vector<int> WindowComparison::zones_under_wheels(std::size_t i,
+                                                      const WindowQuestion& question) const {
+  const WindowInput& input = inputs_[i];
+  std::vector<int> under;
+  for (const WindowInput::Place& place : input.places) {
+    for (const double at_s : model_.wheel_times_s(input, place, question.deviation)) {
+      int in = -1;
+      for (std::size_t z = 0; z < question.zones.size() && in < 0; ++z) {
+        if (!touches(i, question.zones[z])) continue;
+        if (stretch_of(question.zones[z]).holds(at_s)) in = static_cast<int>(z);
+      }
+      under.push_back(in);
+    }
+  }
+  return under;
 }
 
 double WindowComparison::time_s(double at) const {
@@ -404,25 +454,22 @@ void WindowComparison::start_at(const WindowSet& windows, const VehicleDeviation
 }
 
 std::vector<Eigen::MatrixXd> WindowComparison::of_inputs(const WindowSet& windows,
-                                                         const VehicleDeviation& deviation,
-                                                         const std::vector<WindowZone>& zones,
+                                                         const MotionsByWindow& here,
                                                          const std::stop_token& stop) const {
   std::vector<Eigen::MatrixXd> result(inputs(),
                                       Eigen::MatrixXd::Zero(measured_.rows(), measured_.cols()));
-  parallel_for(windows.size(), threads_, [&](std::size_t n) {
+  parallel_for(inputs() * windows.size(), threads_, [&](std::size_t n) {
     throw_if_stopped(stop);
-    const std::size_t i = windows[n];
+    const std::size_t k = n / windows.size(), i = windows[n % windows.size()];
+    const WindowMotions& motions = *here[i];
     const WindowInput input = shifted(i);
-    const std::vector<SoilStretch> stretches = stretches_in(i, zones);
-    const auto here = model_.predict(input, deviation, stretches);
-    if (!here) return;
-    for (std::size_t k = 0; k < inputs(); ++k) {
-      WindowInput further = input;
-      shift(further, i, k, 1);
-      const auto there = model_.predict(further, deviation, stretches);
-      if (!there) continue;
-      result[k].row(static_cast<Eigen::Index>(i)) = vector_of(*there) - vector_of(*here);
-    }
+    const auto before = model_.predict(input, motions.deviation, motions.stretches, &motions);
+    if (!before) return;
+    WindowInput further = input;
+    shift(further, i, k, 1);
+    const auto there = model_.predict(further, motions.deviation, motions.stretches);
+    if (!there) return;
+    result[k].row(static_cast<Eigen::Index>(i)) = vector_of(*there) - vector_of(*before);
   });
   return result;
 }

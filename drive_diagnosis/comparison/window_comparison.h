@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "drive_diagnosis/comparison/window_prediction.h"
@@ -42,6 +43,15 @@ struct WindowZone {
 
 /// Compared windows, by index.
 using WindowSet = std::vector<std::size_t>;
+
+/// What windows are asked about.
+struct WindowQuestion {
+  VehicleDeviation deviation;
+  std::vector<WindowZone> zones;
+};
+
+/// Motions of each compared window, about one question; nothing of those that were not asked.
+using MotionsByWindow = std::vector<std::optional<WindowMotions>>;
 
 /// Windows that the model can be asked of, with what was measured in them.
 class WindowComparison {
@@ -89,6 +99,26 @@ class WindowComparison {
   Eigen::MatrixXd predicted(const WindowSet& windows, const VehicleDeviation& deviation,
                             const std::vector<WindowZone>& zones, const Eigen::MatrixXd& otherwise,
                             const std::stop_token& stop) const;
+  /// The motions of some windows. \throws Interrupted
+  MotionsByWindow motions(const WindowSet& windows, const WindowQuestion& question,
+                          const std::stop_token& stop) const;
+  /// What the model says of some windows under each of many questions; of all others, and where no
+  /// motion balances, `otherwise`.
+  /// \param known motions of these windows: what moves no vehicle otherwise is not sought again
+  /// \throws Interrupted
+  std::vector<Eigen::MatrixXd> predicted(const WindowSet& windows,
+                                         const std::vector<WindowQuestion>& questions,
+                                         const Eigen::MatrixXd& otherwise,
+                                         const MotionsByWindow& known,
+                                         const std::stop_token& stop) const;
+  /// In which of the zones each wheel is at each place of a window, wheel by wheel; -1: in none.
+  /// With the same soils, windows alike in that are predicted alike.
+  std::vector<int> zones_under_wheels(std::size_t i, const WindowQuestion& question) const;
+  /// What the model says of single windows, each under its own question; nothing where no motion
+  /// balances. \throws Interrupted
+  std::vector<std::optional<Eigen::VectorXd>> predicted_each(
+      const std::vector<std::pair<std::size_t, WindowQuestion>>& windows,
+      const std::stop_token& stop) const;
   /// When the vehicle was so far along the windows.
   double time_s(double at) const;
   /// From now on the search for the motion of these windows starts from what it is with these:
@@ -97,9 +127,8 @@ class WindowComparison {
                 const std::vector<WindowZone>& zones, const std::stop_token& stop);
   /// What the scatter of each wheel's measured turning changes in these windows, and that of the
   /// accelerations and slopes, by one standard deviation; 0 in all others.
-  std::vector<Eigen::MatrixXd> of_inputs(const WindowSet& windows,
-                                         const VehicleDeviation& deviation,
-                                         const std::vector<WindowZone>& zones,
+  /// \param here the motions of these windows that it is told about
+  std::vector<Eigen::MatrixXd> of_inputs(const WindowSet& windows, const MotionsByWindow& here,
                                          const std::stop_token& stop) const;
   /// By window, the root mean square of the samples of each channel whose scatter goes with it.
   const Eigen::MatrixXd& sizes() const { return sizes_; }
@@ -115,8 +144,8 @@ class WindowComparison {
   std::optional<LeftOut> add(std::size_t window, std::vector<Eigen::VectorXd>& rows);
   WindowInput shifted(std::size_t i) const;
   bool touches(std::size_t i, const WindowZone& zone) const;
-  std::optional<Eigen::VectorXd> predicted_in(std::size_t i, const VehicleDeviation& deviation,
-                                              const std::vector<WindowZone>& zones) const;
+  std::optional<Eigen::VectorXd> predicted_in(std::size_t i, const WindowQuestion& question,
+                                              const WindowMotions* known) const;
   std::vector<SoilStretch> stretches_in(std::size_t i, const std::vector<WindowZone>& zones) const;
   SoilStretch stretch_of(const WindowZone& zone) const;
   void shift(WindowInput& input, std::size_t window, std::size_t which, double deviations) const;

@@ -177,39 +177,55 @@ std::optional<MotionStart> balanced(const Scene& scene, const MotionStart& start
   return {};
 }
 
-/// What the model finds at a place.
-struct PlaceFound {
-  const Scene& scene;
-  const GroundPatch& patch;
-  double window_yaw_rad = 0;
-  const VehicleDeviation& deviation;
-  const Vector& v;
-  const Sums& sums;
-};
-
 /// Adds a place to what is said of its window, by its shares.
-void add_place(const PlaceFound& found, WindowPrediction& prediction) {
-  const auto& [scene, patch, window_yaw_rad, deviation, v, sums] = found;
-  const WindowPart& part = scene.input.part;
+void add_place(const WindowPart& part, const WindowMotions::Place& found, double window_yaw_rad,
+               const VehicleDeviation& deviation, std::size_t wheels,
+               WindowPrediction& prediction) {
+  const BodyMotion& motion = found.found.motion;
   // Told at the point that is taken to be below the centre of gravity.
-  const double vx = v[0] + v[2] * deviation.cg_left_m;
-  const double vy = v[1] - v[2] * deviation.cg_forward_m;
-  const PatchAxes& axes = scene.axes;
+  const double vx = motion.vx_mps + motion.yaw_rate_rad_s * deviation.cg_left_m;
+  const double vy = motion.vy_mps - motion.yaw_rate_rad_s * deviation.cg_forward_m;
+  const PatchAxes& axes = found.axes;
   const double forward = axes.forward_per_vx * vx + axes.forward_per_vy * vy;
   const double left = axes.left_per_vy * vy;
   const double turned = part.yaw_rad - window_yaw_rad;
   const double c = std::cos(turned), s = std::sin(turned);
   prediction.forward_mps += part.track_share * (c * forward - s * left);
   prediction.left_mps += part.track_share * (s * forward + c * left);
-  prediction.yaw_rate_rad_s += part.turn_share * axes.yaw_per_turn * v[2];
-  prediction.pitch_rad += part.mean_share * std::atan(patch.slope_forward);
+  prediction.yaw_rate_rad_s += part.turn_share * axes.yaw_per_turn * motion.yaw_rate_rad_s;
+  prediction.pitch_rad += part.mean_share * std::atan(found.slope_forward);
   prediction.roll_rad +=
-      part.mean_share * std::atan(patch.slope_left / std::hypot(1, patch.slope_forward));
-  for (std::size_t i = 0; i < scene.vehicle.wheels.size(); ++i) {
+      part.mean_share * std::atan(found.slope_left / std::hypot(1, found.slope_forward));
+  for (std::size_t i = 0; i < wheels; ++i) {
     prediction.torque_nm.at(i) += part.mean_share *
-                                  (sums.torque_nm.at(i) + deviation.wheel_drag_nm.at(i)) *
+                                  (found.torque_nm.at(i) + deviation.wheel_drag_nm.at(i)) *
                                   (1 + deviation.motor_share.at(i));
   }
+}
+
+/// When the middle of the body is, was or will be where a wheel is at a place.
+double wheel_time_s(const WindowInput& input, const WindowInput::Place& place,
+                    const WheelMount& wheel) {
+  const double ahead_s = input.forward_mps == 0 ? 0 : wheel.x_m / input.forward_mps;
+  return (place.part.start_s + place.part.end_s) / 2 + ahead_s;
+}
+
+/// Whether two deviations move the vehicle alike: what they differ in is told by sensors alone, or
+/// is of soils that no wheel is on.
+bool move_alike(const VehicleDeviation& a, VehicleDeviation b, const std::vector<bool>& on_soil) {
+  b.wheel_drag_nm = a.wheel_drag_nm;
+  b.motor_share = a.motor_share;
+  b.mounting_pitch_rad = a.mounting_pitch_rad;
+  b.mounting_roll_rad = a.mounting_roll_rad;
+  std::vector<SoilNumbers> soils = a.soils;
+  soils.resize(on_soil.size());
+  b.soils.resize(on_soil.size());
+  for (std::size_t i = 0; i < on_soil.size(); ++i) {
+    if (!on_soil[i]) b.soils[i] = soils[i];
+  }
+  VehicleDeviation same = a;
+  same.soils = std::move(soils);
+  return same == b;
 }
 
 /// The same by a sensor of heading that does not look along the vehicle.
@@ -360,16 +376,30 @@ BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxW
   return motion_of(normal.ldlt().solve(sum));
 }
 
-std::optional<WindowPrediction> WindowModel::predict(
-    const WindowInput& input, const VehicleDeviation& deviation,
-    const std::vector<SoilStretch>& stretches) const {
+std::vector<double> WindowModel::wheel_times_s(const WindowInput& input,
+                                               const WindowInput::Place& place,
+                                               const VehicleDeviation& deviation) const {
+  std::vector<double> times_s;
+  for (const WheelMount& wheel : deviating(vehicle_, deviation).wheels) {
+    times_s.push_back(wheel_time_s(input, place, wheel));
+  }
+  return times_s;
+}
+
+WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviation& deviation,
+                                   const std::vector<SoilStretch>& stretches) const {
   const Vehicle changed = deviating(vehicle_, deviation);
   const LoadSharing sharing(changed);
   // Of the map's soils, then of the stretches.
   const std::size_t soils = map_.soils().size();
+  WindowMotions motions{.deviation = deviation,
+                        .stretches = stretches,
+                        .places = {},
+                        .on_soil = std::vector<bool>(soils, false)};
   std::vector<std::optional<WheelModel>> models(soils + stretches.size());
   const auto model_of = [&](std::size_t model, std::size_t soil, const SoilNumbers& numbers) {
     if (!models[model]) {
+      motions.on_soil[soil] = true;
       models[model].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
                                            .soil = deviating(map_.soils()[soil].soil,
                                                              numbers_at(deviation, soil, numbers)),
@@ -379,27 +409,25 @@ std::optional<WindowPrediction> WindowModel::predict(
     return &*models[model];
   };
   const auto model_at = [&](double time_s, std::size_t soil) {
-    const auto on = std::ranges::find_if(stretches, [time_s](const SoilStretch& stretch) {
-      return time_s >= stretch.starts_s && time_s < stretch.ends_s;
-    });
+    const auto on = std::ranges::find_if(
+        stretches, [time_s](const SoilStretch& stretch) { return stretch.holds(time_s); });
     if (on == stretches.end()) return model_of(soil, soil, {});
     return model_of(soils + static_cast<std::size_t>(on - stretches.begin()),
                     static_cast<std::size_t>(on->soil), on->numbers);
   };
-  WindowPrediction prediction{.pitch_rad = deviation.mounting_pitch_rad,
-                              .roll_rad = deviation.mounting_roll_rad,
-                              .found = std::vector<MotionStart>(input.places.size())};
+  std::vector<WindowMotions::Place> places;
+  places.reserve(input.places.size());
   for (std::size_t j = 0; j < input.places.size(); ++j) {
     const WindowInput::Place& place = input.places[j];
     GroundPatch patch = ground_of(ground_, map_, vehicle_, place.part, deviation);
-    if (!patch.known) return {};
+    if (!patch.known) return motions;
     patch.slope_forward += place.more_slope_forward;
     patch.slope_left += place.more_slope_left;
     Scene scene{.vehicle = changed,
                 .sharing = sharing,
                 .input = place,
-                .before = j > 0 ? &prediction.found[j - 1].motion : nullptr,
-                .long_before = j > 1 ? &prediction.found[j - 2].motion : nullptr,
+                .before = j > 0 ? &places[j - 1].found.motion : nullptr,
+                .long_before = j > 1 ? &places[j - 2].found.motion : nullptr,
                 .step_s = place.part.end_s - place.part.start_s,
                 .tow_drag_n = deviation.tow_drag_n,
                 .axes = PatchAxes(patch, gravity_mps2_),
@@ -409,19 +437,40 @@ std::optional<WindowPrediction> WindowModel::predict(
       scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
       scene.rim_mps.at(i) =
           place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
-      const double ahead_s = input.forward_mps == 0 ? 0 : changed.wheels[i].x_m / input.forward_mps;
-      scene.models.at(i) = model_at((place.part.start_s + place.part.end_s) / 2 + ahead_s,
+      scene.models.at(i) = model_at(wheel_time_s(input, place, changed.wheels[i]),
                                     static_cast<std::size_t>(patch.soil.at(i)));
     }
     auto found = balanced(scene, place.near);
     if (!found) found = balanced(scene, place.start);
-    if (!found) return {};
-    const BodyMotion& motion = found->motion;
-    const Vector v = vector_of(motion);
-    const Sums sums = sums_at(scene, motion, reaction_at(scene, v));
-    if (!sums.carried) return {};
-    prediction.found[j] = *found;
-    add_place({scene, patch, input.yaw_rad, deviation, v, sums}, prediction);
+    if (!found) return motions;
+    const Sums sums = sums_at(scene, found->motion, reaction_at(scene, vector_of(found->motion)));
+    if (!sums.carried) return motions;
+    places.push_back({.found = *found,
+                      .axes = scene.axes,
+                      .slope_forward = patch.slope_forward,
+                      .slope_left = patch.slope_left,
+                      .torque_nm = sums.torque_nm});
+  }
+  motions.places = std::move(places);
+  return motions;
+}
+
+std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
+                                                     const VehicleDeviation& deviation,
+                                                     const std::vector<SoilStretch>& stretches,
+                                                     const WindowMotions* known) const {
+  const bool is_known = known != nullptr && known->stretches == stretches &&
+                        move_alike(known->deviation, deviation, known->on_soil);
+  std::optional<WindowMotions> anew;
+  if (!is_known) known = &anew.emplace(motions(input, deviation, stretches));
+  if (!known->places) return {};
+  WindowPrediction prediction{.pitch_rad = deviation.mounting_pitch_rad,
+                              .roll_rad = deviation.mounting_roll_rad};
+  for (std::size_t j = 0; j < input.places.size(); ++j) {
+    const WindowMotions::Place& place = (*known->places)[j];
+    add_place(input.places[j].part, place, input.yaw_rad, deviation, vehicle_.wheels.size(),
+              prediction);
+    prediction.found.push_back(place.found);
   }
   return told_by_sensors(prediction, deviation);
 }

@@ -8,6 +8,7 @@
 #include "drive_diagnosis/recording/drive_windows.h"
 #include "maps/ground_finder.h"
 #include "maps/terrain_map.h"
+#include "terramech/parameters/ground_patch.h"
 #include "terramech/parameters/vehicle.h"
 #include "terramech/vehicle/steered_wheel.h"
 
@@ -91,6 +92,7 @@ struct VehicleDeviation {
   double mounting_pitch_rad = 0, mounting_roll_rad = 0, mounting_yaw_rad = 0;  ///< of the sensors
   std::vector<SoilNumbers> soils;  ///< of each soil of the map; empty: none
 
+  bool operator==(const VehicleDeviation&) const = default;
   /// Adds so many times another.
   void add(const VehicleDeviation& other, double times);
 };
@@ -101,6 +103,25 @@ struct SoilStretch {
   double starts_s = 0, ends_s = 0;
   int soil = 0;           ///< of the map, that its numbers are told from
   SoilNumbers numbers{};  ///< on top of the deviations of that soil
+
+  bool holds(double time_s) const { return time_s >= starts_s && time_s < ends_s; }
+  bool operator==(const SoilStretch&) const = default;
+};
+
+/// What the model finds at the places of a window, and what it was asked of.
+struct WindowMotions {
+  struct Place {
+    MotionStart found;
+    PatchAxes axes;
+    double slope_forward = 0, slope_left = 0;
+    std::array<double, kMaxWheels> torque_nm{};  ///< of the soil alone
+  };
+  VehicleDeviation deviation;
+  std::vector<SoilStretch> stretches;
+  /// Nothing where the ground is not known or no motion balances.
+  std::optional<std::vector<Place>> places;
+  std::vector<bool>
+      on_soil;  ///< of each soil of the map: whether some wheel's numbers come from it
 };
 
 /// The motion of a vehicle whose wheels rolled without slip, as nearly as they can (least squares).
@@ -119,11 +140,20 @@ class WindowModel {
 
   /// Whether the ground is known at each of its places.
   bool knows_ground(const WindowInput& input) const;
-  /// Nothing where the ground is not known or no motion balances.
+  /// When the middle of the body is, was or will be where each wheel is at a place of a window.
+  std::vector<double> wheel_times_s(const WindowInput& input, const WindowInput::Place& place,
+                                    const VehicleDeviation& deviation) const;
+  /// The motions in a window.
   /// \param stretches the first that a wheel is on counts
+  WindowMotions motions(const WindowInput& input, const VehicleDeviation& deviation,
+                        const std::vector<SoilStretch>& stretches = {}) const;
+  /// Nothing where the ground is not known or no motion balances.
+  /// \param known motions at the same input: where nothing that moves the vehicle there is
+  /// otherwise they are not sought again, to the same bits
   std::optional<WindowPrediction> predict(const WindowInput& input,
                                           const VehicleDeviation& deviation,
-                                          const std::vector<SoilStretch>& stretches = {}) const;
+                                          const std::vector<SoilStretch>& stretches = {},
+                                          const WindowMotions* known = nullptr) const;
 
  private:
   const TerrainMap& map_;

@@ -12,6 +12,8 @@ namespace regoplan {
 namespace {
 
 constexpr double kSettled = 0.05;  ///< deviations
+/// Windows that no zone touches, by which they can be compared with each other.
+constexpr std::size_t kFewestOutside = 10;
 
 std::vector<std::size_t> numbers_that_vary(const TerrainMap& map) {
   std::vector<std::size_t> numbers;
@@ -34,7 +36,7 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
       stop_(stop),
       numbers_(numbers_that_vary(map)),
       linearisation_(comparison, trials, numbers_, stop),
-      fit_{.parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(trials.size()))} {
+      fit_(nothing_known()) {
   shifts_ = Eigen::MatrixXd::Zero(comparison.measured().rows(),
                                   static_cast<Eigen::Index>(comparison.inputs()));
   for (std::size_t i = 0; i < comparison.size(); ++i) {
@@ -87,10 +89,6 @@ void EffectFit::add(const EffectFound& effect) {
   }
 }
 
-VehicleDeviation EffectFit::deviation() const {
-  return linearisation_.deviation_of(fit_);
-}
-
 SoilNumbers EffectFit::numbers_of(const Eigen::VectorXd& values) const {
   SoilNumbers numbers{};
   for (std::size_t k = 0; k < numbers_.size(); ++k) {
@@ -141,18 +139,34 @@ Eigen::MatrixXd EffectFit::predicted() const {
 
 /// Brings data and columns of the contest to the present fit.
 EffectFit::Linearised EffectFit::linearise() {
-  LinearisedWindows here = linearisation_.about(fit_, zones(), shifts_);
-  const Eigen::MatrixXd left = here.data - here.changed_by(fit_);
-  // Where a zone's soil carries the vehicle nowhere in it nothing is predicted there but what the
-  // map says, and no soil is likelier than another.
-  const bool is_carried = std::ranges::all_of(here.zones, [](const auto& numbers) {
-    return !std::ranges::all_of(numbers,
-                                [](const Eigen::MatrixXd& number) { return number.isZero(0); });
-  });
+  Linearised here = linearise(linearisation_.predicted(fit_, zones(), shifts_));
+  shifts_ = here.noise.inputs_given(here.windows.data - here.windows.changed_by(fit_));
+  return here;
+}
+
+EffectFit::Linearised EffectFit::linearise(PredictedWindows predicted) {
+  LinearisedWindows here = linearisation_.linearised(std::move(predicted), fit_, zones());
   ResidualNoise noise = whiten(here);
-  shifts_ = noise.inputs_given(left);
-  const double nats = is_carried ? noise.nats(left) : std::numeric_limits<double>::infinity();
-  return {.windows = std::move(here), .noise = std::move(noise), .nats = nats};
+  return {.windows = std::move(here), .noise = std::move(noise)};
+}
+
+/// What the present fit leaves, under the scatter that fits are compared by.
+EffectFit::Weighed EffectFit::weigh() {
+  PredictedWindows here = linearisation_.predicted(fit_, zones(), shifts_);
+  ResidualNoise noise =
+      scatter_ ? ResidualNoise(residual_parts(here.windows), *scatter_) : linearise(here).noise;
+  shifts_ = noise.inputs_given(here.left);
+  return {.windows = std::move(here), .noise = std::move(noise), .is_linearised = !scatter_};
+}
+
+/// By how many nats what the present fit leaves is unlikely. Where a zone's soil carries the
+/// vehicle nowhere in it nothing is predicted there but what the map says, and no soil is likelier
+/// than another: infinite.
+double EffectFit::nats(const PredictedWindows& here, const ResidualNoise& noise) const {
+  if (!linearisation_.is_carried(here, fit_, zones())) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return noise.nats(here.left);
 }
 
 ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
@@ -168,6 +182,11 @@ ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
   for (std::size_t k = 0; k < here.inputs.size(); ++k) {
     unknown.push_back(k >= comparison_.slope_along());
   }
+  Eigen::MatrixXd more_std = comparison_.more_std();
+  constexpr double kAnything = 1e4;  // in any channel's unit
+  for (const std::size_t w : silent_) {
+    more_std.row(static_cast<Eigen::Index>(w)).setConstant(kAnything);
+  }
   return {.residuals = here.data,
           .columns = std::move(global),
           .may_be_wrong = std::move(may_be_wrong),
@@ -176,19 +195,18 @@ ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
           .follows = contest_.follows,
           .sizes = comparison_.sizes(),
           .sampled_std = comparison_.sampled_std(),
-          .more_std = comparison_.more_std()};
+          .more_std = std::move(more_std)};
 }
 
 /// How far residuals scatter in the windows that do not touch a zone; nothing where those are too
 /// few to tell.
 std::optional<ScatterSources> EffectFit::scatter_outside(const LinearisedWindows& here,
                                                          const Eigen::VectorXd& zone) const {
-  constexpr std::size_t kFewest = 10;
   std::vector<Eigen::Index> outside;
   for (Eigen::Index w = 0; w < zone.size(); ++w) {
     if (zone[w] == 0) outside.push_back(w);
   }
-  if (outside.size() < kFewest) return std::nullopt;
+  if (outside.size() < kFewestOutside) return std::nullopt;
   return ResidualNoise(parts_of(residual_parts(here), outside)).sources();
 }
 
@@ -247,6 +265,33 @@ void EffectFit::settle() {
     linearise();
     if (step() < kSettled) break;
   }
+}
+
+/// All parameters where they are said to be, as well known as they are said to be.
+ContestFit EffectFit::nothing_known() const {
+  const auto count = static_cast<Eigen::Index>(trials_.size());
+  return {.parameters = Eigen::VectorXd::Zero(count),
+          .parameters_std = Eigen::VectorXd::Ones(count),
+          .zones = {},
+          .zones_covariance = {}};
+}
+
+ContestFit EffectFit::fit_outside_zones() {
+  WindowSet in_zones;
+  for (const WindowZone& zone : zones()) {
+    WindowSet both;
+    std::ranges::set_union(in_zones, comparison_.touching(zone), std::back_inserter(both));
+    in_zones = std::move(both);
+  }
+  if (in_zones.empty()) return fit_;
+  if (comparison_.size() - in_zones.size() < kFewestOutside) return nothing_known();
+  const Settled here{.fit = fit_, .shifts = shifts_};
+  silent_ = std::move(in_zones);
+  settle();
+  ContestFit outside = fit_;
+  silent_.clear();
+  go_on_from(here);
+  return outside;
 }
 
 void EffectFit::settle_with(EffectFound& effect) {
@@ -333,14 +378,14 @@ void EffectFit::take_edges(const EffectFound& zone) {
 /// \returns whether they moved
 bool EffectFit::place_edges(EffectFound& zone) {
   const Eigen::MatrixXd shifts = shifts_;
-  const Linearised here = linearise();
+  const Weighed here = weigh();
   // What the inputs' scatter explains stays what it is.
-  const Eigen::MatrixXd measured = comparison_.measured() + here.windows.shifted_by(shifts);
+  const Eigen::MatrixXd measured = comparison_.measured() + here.windows.windows.shifted_by(shifts);
   const VehicleDeviation vehicle = deviation();
   const LikelyEdges edges = likely_edges({.comparison = comparison_,
                                           .deviation = vehicle,
                                           .measured = measured,
-                                          .predicted = here.windows.base,
+                                          .predicted = here.windows.windows.base,
                                           .noise = here.noise},
                                          zones(), stop_);
   zone.begins = edges.begins;
@@ -362,10 +407,12 @@ EffectFit::Settled EffectFit::settled_from_here(int steps_most) {
   double share = 1;
   for (int round = 0; round < steps_most && share > kSmallest; ++round) {
     const Settled here{.fit = fit_, .shifts = shifts_};
-    const double nats = linearise().nats + prior_nats(contest_, fit_);
-    const bool is_same = round > 0 && std::abs(nats - best.nats) < kSame_nats;
-    if (round == 0 || nats < best.nats) {
-      best = {.fit = here.fit, .shifts = here.shifts, .nats = nats};
+    Weighed weighed = weigh();
+    const double all_nats = nats(weighed.windows, weighed.noise) + prior_nats(contest_, fit_);
+    const bool is_same = round > 0 && std::abs(all_nats - best.nats) < kSame_nats;
+    if (round == 0 || all_nats < best.nats) {
+      best = {.fit = here.fit, .shifts = here.shifts, .nats = all_nats};
+      if (!weighed.is_linearised) linearise(std::move(weighed.windows));
       step();
       towards = fit_;
       best.fit.parameters_std = towards.parameters_std;

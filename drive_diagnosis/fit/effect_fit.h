@@ -43,13 +43,21 @@ class EffectFit {
   void settle_with(EffectFound& effect);
 
   const ContestFit& fit() const { return fit_; }
+  /// The parameters that the windows that no zone touches make likeliest; where these are too few,
+  /// as they are said to be. In a zone the ground is far from what the model is good at (wheels
+  /// sink deep, its borders are not as sharp as a window is short), and what misfits there would be
+  /// taken up by soils and numbers that all other windows share.
+  ContestFit fit_outside_zones();
   /// How far each channel scatters.
   const std::vector<double>& noise() const { return noise_; }
   /// Indices of soils' numbers that vary.
   const std::vector<std::size_t>& numbers() const { return numbers_; }
   SoilNumbers numbers_of(const Eigen::VectorXd& values) const;
   /// The parameters as they are fitted.
-  VehicleDeviation deviation() const;
+  VehicleDeviation deviation() const { return deviation(fit_); }
+  VehicleDeviation deviation(const ContestFit& fit) const {
+    return linearisation_.deviation_of(fit);
+  }
   /// What the model says of each window with them and the known zones.
   Eigen::MatrixXd predicted() const;
   /// The soil of the map that most of a zone is said to be. \param zone index of those added
@@ -62,8 +70,12 @@ class EffectFit {
   struct Linearised {
     LinearisedWindows windows;
     ResidualNoise noise;  ///< that the contest was made white by
-    /// By which what the fit leaves is unlikely; infinite where a zone carries nowhere.
-    double nats = 0;
+  };
+  /// The same before it is asked what changes them, where their scatter is known without.
+  struct Weighed {
+    PredictedWindows windows;
+    ResidualNoise noise;
+    bool is_linearised = false;  ///< the contest is at the present fit
   };
 
   /// A fit, and by how many nats what it leaves is unlikely.
@@ -72,10 +84,14 @@ class EffectFit {
     Eigen::MatrixXd shifts;
     double nats = std::numeric_limits<double>::infinity();
   };
+  ContestFit nothing_known() const;
   Eigen::VectorXd values_of(const SoilNumbers& numbers) const;
   std::vector<Eigen::VectorXd> differences_among_soils_driven() const;
   std::vector<WindowZone> zones() const;
   Linearised linearise();
+  Linearised linearise(PredictedWindows here);
+  Weighed weigh();
+  double nats(const PredictedWindows& here, const ResidualNoise& noise) const;
   ResidualParts residual_parts(const LinearisedWindows& here) const;
   ResidualNoise whiten(const LinearisedWindows& here);
   std::vector<Eigen::MatrixXd> soil_columns(const Eigen::MatrixXd& base) const;
@@ -105,6 +121,7 @@ class EffectFit {
   std::vector<std::array<double, 2>> edges_;  ///< where each zone begins and ends, in windows
   /// How far residuals scatter, where fits are compared by it; else as each fit leaves it.
   std::optional<ScatterSources> scatter_;
+  WindowSet silent_;  ///< windows that say nothing
   std::vector<double> noise_;
 };
 

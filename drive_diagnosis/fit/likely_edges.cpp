@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
 
 namespace regoplan {
 namespace {
@@ -18,6 +22,10 @@ constexpr double kErr = 0.4;
 struct Tried {
   double begins, ends, nats;
 };
+
+/// A window, and which zone each of its wheels is in all along: edges that leave those where they
+/// are leave the window as it is.
+using WindowOverZones = std::pair<std::size_t, std::vector<int>>;
 
 class EdgeSearch {
  public:
@@ -40,11 +48,17 @@ class EdgeSearch {
   /// All about the present edges.
   void try_about(double step, double reach) {
     const WindowZone middle = zones_.back();
+    std::vector<WindowZone> places;
     for (double from = -reach; from <= reach; from += step) {
       for (double to = -reach; to <= reach; to += step) {
-        try_at(middle.begins + from, middle.ends + to);
+        WindowZone& place = places.emplace_back(middle);
+        place.begins += from;
+        place.ends += to;
+        if (!is_possible(place)) places.pop_back();
       }
     }
+    predict_in(places);
+    for (const WindowZone& place : places) weigh(place);
     if (tried_.empty()) return;
     const Tried& most = *std::ranges::min_element(tried_, {}, &Tried::nats);
     zones_.back().begins = most.begins;
@@ -81,18 +95,45 @@ class EdgeSearch {
                                          stop_);
   }
 
-  void try_at(double begins, double ends) {
-    constexpr double kLeast = 1;
-    if (ends - begins < kLeast || !is_free(begins, ends)) return;
-    WindowZone& zone = zones_.back();
-    const WindowZone middle = zone;
-    zone.begins = begins;
-    zone.ends = ends;
-    const Eigen::MatrixXd there = predicted(otherwise_);
-    if (there.allFinite()) {
-      tried_.push_back({begins, ends, windows_.noise.nats(windows_.measured - there)});
+  WindowQuestion with(const WindowZone& place) const {
+    WindowQuestion question{windows_.deviation, zones_};
+    question.zones.back() = place;
+    return question;
+  }
+
+  /// Predicts what windows are with the zone at any of these places, each window once.
+  void predict_in(const std::vector<WindowZone>& places) {
+    std::vector<std::pair<std::size_t, WindowQuestion>> asked;
+    std::vector<WindowOverZones> as;
+    std::set<WindowOverZones> is_asked;
+    for (const WindowZone& place : places) {
+      const WindowQuestion question = with(place);
+      for (const std::size_t w : within_reach_) {
+        const WindowOverZones over{w, windows_.comparison.zones_under_wheels(w, question)};
+        if (known_.contains(over) || !is_asked.insert(over).second) continue;
+        asked.emplace_back(w, question);
+        as.push_back(over);
+      }
     }
-    zone = middle;
+    std::vector<std::optional<Eigen::VectorXd>> values =
+        windows_.comparison.predicted_each(asked, stop_);
+    for (std::size_t i = 0; i < as.size(); ++i) known_[as[i]] = std::move(values[i]);
+  }
+
+  void weigh(const WindowZone& place) {
+    const WindowQuestion question = with(place);
+    Eigen::MatrixXd there = otherwise_;
+    for (const std::size_t w : within_reach_) {
+      const auto& values = known_.at({w, windows_.comparison.zones_under_wheels(w, question)});
+      if (values) there.row(static_cast<Eigen::Index>(w)) = *values;
+    }
+    if (!there.allFinite()) return;
+    tried_.push_back({place.begins, place.ends, windows_.noise.nats(windows_.measured - there)});
+  }
+
+  bool is_possible(const WindowZone& place) const {
+    constexpr double kLeast = 1;
+    return place.ends - place.begins >= kLeast && is_free(place.begins, place.ends);
   }
 
   /// Whether windows follow each other there and lie in no other zone.
@@ -111,6 +152,7 @@ class EdgeSearch {
   const std::stop_token& stop_;
   WindowSet within_reach_;
   Eigen::MatrixXd otherwise_;  ///< of windows that do not balance, and that are not predicted anew
+  std::map<WindowOverZones, std::optional<Eigen::VectorXd>> known_;  ///< nothing: no balance
   std::vector<Tried> tried_;
 };
 

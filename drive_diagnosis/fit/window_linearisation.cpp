@@ -1,8 +1,5 @@
 #include "drive_diagnosis/fit/window_linearisation.h"
 
-#include <algorithm>
-#include <iterator>
-#include <limits>
 #include <utility>
 
 namespace regoplan {
@@ -29,32 +26,70 @@ VehicleDeviation WindowLinearisation::deviation_of(const ContestFit& fit) const 
 LinearisedWindows WindowLinearisation::about(const ContestFit& fit,
                                              const std::vector<WindowZone>& zones,
                                              const Eigen::MatrixXd& shifts) {
-  const VehicleDeviation here = deviation_of(fit);
+  return linearised(predicted(fit, zones, shifts), fit, zones);
+}
+
+PredictedWindows WindowLinearisation::predicted(const ContestFit& fit,
+                                                const std::vector<WindowZone>& zones,
+                                                const Eigen::MatrixXd& shifts) {
+  const WindowQuestion here{deviation_of(fit), zones};
   comparison_.shift_inputs(shifts);
-  comparison_.start_at(anew_, here, zones, stop_);
-  LinearisedWindows result = kept(fit, shifts);
-  predict(here, zones, result);
-  const Eigen::MatrixXd& base = result.base;
-  const std::vector<Eigen::MatrixXd> inputs = comparison_.of_inputs(anew_, here, zones, stop_);
-  for (std::size_t k = 0; k < inputs.size(); ++k) result.inputs[k] += inputs[k];
-  for (std::size_t k = 0; k < trials_.size(); ++k) {
-    VehicleDeviation there = here;
-    there.add(trials_[k].deviation, 1);
-    result.columns[k] += comparison_.predicted(anew_, there, zones, base, stop_) - base;
+  comparison_.start_at(anew_, here.deviation, zones, stop_);
+  PredictedWindows result{
+      .windows = kept(fit, shifts), .left = {}, .motions = comparison_.motions(anew_, here, stop_)};
+  predict(here, result.motions, result.windows);
+  const std::vector<Eigen::MatrixXd> inputs = comparison_.of_inputs(anew_, result.motions, stop_);
+  for (std::size_t k = 0; k < inputs.size(); ++k) result.windows.inputs[k] += inputs[k];
+  result.left = comparison_.measured() - result.windows.base + result.windows.shifted_by(shifts);
+  return result;
+}
+
+LinearisedWindows WindowLinearisation::linearised(PredictedWindows here, const ContestFit& fit,
+                                                  const std::vector<WindowZone>& zones) const {
+  LinearisedWindows result = std::move(here.windows);
+  const WindowQuestion about{deviation_of(fit), zones};
+  std::vector<WindowQuestion> questions;
+  for (const VehicleTrial& trial : trials_) {
+    questions.push_back(about);
+    questions.back().deviation.add(trial.deviation, 1);
   }
   for (std::size_t z = 0; z < zones.size(); ++z) {
-    WindowSet in_zone;
-    std::ranges::set_intersection(anew_, comparison_.touching(zones[z]),
-                                  std::back_inserter(in_zone));
-    for (std::size_t k = 0; k < numbers_.size(); ++k) {
-      std::vector<WindowZone> there = zones;
-      there[z].numbers.at(numbers_[k]) += 1;
-      result.zones[z][k] += comparison_.predicted(in_zone, here, there, base, stop_) - base;
-    }
+    for (const std::size_t number : numbers_) questions.push_back(with_one_more(about, z, number));
+  }
+  const std::vector<Eigen::MatrixXd> there =
+      comparison_.predicted(anew_, questions, result.base, here.motions, stop_);
+  auto next = there.begin();
+  for (Eigen::MatrixXd& column : result.columns) column += *next++ - result.base;
+  for (std::vector<Eigen::MatrixXd>& numbers : result.zones) {
+    for (Eigen::MatrixXd& number : numbers) number += *next++ - result.base;
   }
   // Told of the measured inputs, to first order about the likely ones.
-  result.data = comparison_.measured() - base + result.shifted_by(shifts) + result.changed_by(fit);
+  result.data = here.left + result.changed_by(fit);
   return result;
+}
+
+bool WindowLinearisation::is_carried(const PredictedWindows& here, const ContestFit& fit,
+                                     const std::vector<WindowZone>& zones) const {
+  const WindowQuestion about{deviation_of(fit), zones};
+  const auto changes = [&](std::size_t zone, std::size_t number) {
+    if (!here.windows.zones[zone][number].isZero(0)) return true;
+    const std::vector<Eigen::MatrixXd> there =
+        comparison_.predicted(anew_, {with_one_more(about, zone, numbers_[number])},
+                              here.windows.base, here.motions, stop_);
+    return there.front() != here.windows.base;
+  };
+  for (std::size_t z = 0; z < zones.size(); ++z) {
+    bool any = false;
+    for (std::size_t k = 0; k < numbers_.size() && !any; ++k) any = changes(z, k);
+    if (!any) return false;
+  }
+  return true;
+}
+
+WindowQuestion WindowLinearisation::with_one_more(WindowQuestion here, std::size_t zone,
+                                                  std::size_t number) {
+  here.zones[zone].numbers.at(number) += 1;
+  return here;
 }
 
 void WindowLinearisation::predict_only(WindowSet windows, LinearisedWindows here) {
@@ -68,21 +103,14 @@ void WindowLinearisation::predict_all() {
 }
 
 /// Predicts windows anew; where no motion balances, as map and vehicle are said to be.
-void WindowLinearisation::predict(const VehicleDeviation& here,
-                                  const std::vector<WindowZone>& zones,
+void WindowLinearisation::predict(const WindowQuestion& here, const MotionsByWindow& motions,
                                   LinearisedWindows& windows) const {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  for (const std::size_t w : anew_) {
-    windows.base.row(static_cast<Eigen::Index>(w)).setConstant(kUnknown);
-  }
-  windows.base = comparison_.predicted(anew_, here, zones, windows.base, stop_);
   windows.unbalanced.clear();
   for (const std::size_t w : anew_) {
-    auto row = windows.base.row(static_cast<Eigen::Index>(w));
-    if (row.allFinite()) continue;
-    row.setZero();
-    windows.unbalanced.push_back(w);
+    windows.base.row(static_cast<Eigen::Index>(w)).setZero();
+    if (!motions[w]->places) windows.unbalanced.push_back(w);
   }
+  windows.base = comparison_.predicted(anew_, {here}, windows.base, motions, stop_).front();
   windows.base = comparison_.predicted(windows.unbalanced, {}, {}, windows.base, stop_);
 }
 

@@ -10,6 +10,14 @@
 
 namespace regoplan {
 
+/// Windows about a fit before it is asked what changes them.
+struct PredictedWindows {
+  /// Without data; of windows that are predicted anew, only what inputs change is known.
+  LinearisedWindows windows;
+  Eigen::MatrixXd left;  ///< measured less predicted, and less what shifts of inputs explain
+  MotionsByWindow motions;
+};
+
 /// Predicts a drive's windows, and what changes them, about one fit after the other.
 class WindowLinearisation {
  public:
@@ -24,6 +32,16 @@ class WindowLinearisation {
   /// \throws Interrupted
   LinearisedWindows about(const ContestFit& fit, const std::vector<WindowZone>& zones,
                           const Eigen::MatrixXd& shifts);
+  /// The same in two steps: most of the time is that of the second, which a fit that leaves more
+  /// than another does not need. \throws Interrupted
+  PredictedWindows predicted(const ContestFit& fit, const std::vector<WindowZone>& zones,
+                             const Eigen::MatrixXd& shifts);
+  LinearisedWindows linearised(PredictedWindows here, const ContestFit& fit,
+                               const std::vector<WindowZone>& zones) const;
+  /// Whether the soil of each zone changes something in its windows: what carries the vehicle
+  /// nowhere does not. \throws Interrupted
+  bool is_carried(const PredictedWindows& here, const ContestFit& fit,
+                  const std::vector<WindowZone>& zones) const;
   /// From now on only these windows are predicted anew about a fit, of as many zones as here; all
   /// others are what they are here, to first order.
   void predict_only(WindowSet windows, LinearisedWindows here);
@@ -31,8 +49,9 @@ class WindowLinearisation {
   void predict_all();
 
  private:
-  void predict(const VehicleDeviation& here, const std::vector<WindowZone>& zones,
+  void predict(const WindowQuestion& here, const MotionsByWindow& motions,
                LinearisedWindows& windows) const;
+  static WindowQuestion with_one_more(WindowQuestion here, std::size_t zone, std::size_t number);
   LinearisedWindows kept(const ContestFit& fit, const Eigen::MatrixXd& shifts) const;
 
   WindowComparison& comparison_;

@@ -32,7 +32,7 @@ struct Driven {
   }
 
   std::vector<VerdictFlip> flips() const {
-    return verdict_flips(setup, default_limits(*setup.vehicle), diagnosis, 1);
+    return verdict_flips(setup, default_limits(*setup.vehicle), diagnosis, 1, 2);
   }
 
   DriveSetup setup{.map = flat_firm_map(), .vehicle = {}};
@@ -59,6 +59,40 @@ TEST(VerdictFlips, AZoneInWhichWheelsSinkTooDeepFlipsWhereItWasDriven) {
   EXPECT_EQ(flips[0].ends_s, 20);
   EXPECT_EQ(flips[0].before, "");
   EXPECT_NE(flips[0].after, "");
+}
+
+TEST(VerdictFlips, ALimitThatBreaksBetweenTheMiddlesOfWindowsFlips) {
+  // A strip that no wheel is on in the middle of any window: a mean of the window keeps all limits.
+  constexpr double kFrom_m = 8.4, kTo_m = 9.6, kCell_m = 0.2;
+  Driven driven;
+  const UncertainSoil firm = driven.setup.map.soils()[0].soil;
+  UncertainSoil soft = firm;
+  soft.mean.kphi = 1.5e4;
+  soft.mean.kc = 0;
+  const ElevationRaster elevation = driven.setup.map.elevation();
+  ClassRaster classes{.frame = elevation.frame, .code = {}};
+  classes.frame.columns =
+      static_cast<int>(elevation.frame.columns * elevation.frame.cell_width_m / kCell_m);
+  classes.frame.cell_width_m = kCell_m;
+  for (int row = 0; row < classes.frame.rows; ++row) {
+    for (int column = 0; column < classes.frame.columns; ++column) {
+      const double x_m = classes.frame.west_m + (column + 0.5) * kCell_m;
+      classes.code.push_back(x_m > kFrom_m && x_m < kTo_m);
+    }
+  }
+  driven.setup.map = {elevation,
+                      classes,
+                      SoilCatalogue{.soils = {{"firm", "assumed", firm}, {"soft", "assumed", soft}},
+                                    .classes = {{0, 0}, {1, 1}},
+                                    .unmapped = {}},
+                      {}};
+  driven.diagnosis.effects->soils = {{"firm", "assumed", firm}, {"soft", "told", firm}};
+  const std::vector<VerdictFlip> flips = driven.flips();
+  ASSERT_FALSE(flips.empty());
+  EXPECT_NE(flips[0].before, "");
+  EXPECT_EQ(flips[0].after, "");
+  EXPECT_LE(flips[0].starts_s, 2);
+  EXPECT_LE(flips.back().ends_s, 6);
 }
 
 TEST(VerdictFlips, AZoneThatFewDrawsBearFlipsThoughItsMeanWould) {

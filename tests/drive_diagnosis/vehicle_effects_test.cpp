@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/drive_diagnosis/simulated_drive.h"
@@ -13,14 +14,20 @@ struct Diagnosed {
   std::vector<DriveRecording> drives;
   std::vector<DriveWindow> windows;
   std::optional<VehicleEffects> effects;
+  std::vector<std::string> told;  ///< news and stages, in their order
 };
 
 Diagnosed diagnosed(const SimulatedDrive& drive) {
   static const TerrainMap kMap = rolling_map();
-  Diagnosed result{.drives = {record(drive, kMap)}, .windows = {}, .effects = {}};
+  Diagnosed result{.drives = {record(drive, kMap)}, .windows = {}, .effects = {}, .told = {}};
   result.windows = drive_windows(result.drives[0], 0, 5, 0.3);
+  const EffectSearchSettings settings{
+      .seed = 7,
+      .progress = [&](std::string_view stage,
+                      double) { result.told.push_back("stage: " + std::string(stage)); },
+      .news = [&](const std::string& text) { result.told.push_back("news: " + text); }};
   result.effects = find_vehicle_effects(result.drives, result.windows, kMap, preset_vehicle("lrv"),
-                                        1.62, {.seed = 7})
+                                        1.62, settings)
                        .effects;
   return result;
 }
@@ -72,6 +79,22 @@ TEST(VehicleEffects, AWeakZoneOfThirtyMetresIsFoundWhereItLies) {
   }
 }
 
+TEST(VehicleEffects, TellWhatIsKnownBeforeAZoneIsFitted) {
+  const Diagnosed weak = diagnosed(
+      {.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? 4.0 : 0.0; }, .seed = 11});
+  const auto first = [&](std::string_view part) {
+    return std::ranges::find_if(
+               weak.told,
+               [part](const std::string& told) { return told.find(part) != std::string::npos; }) -
+           weak.told.begin();
+  };
+  const auto end = static_cast<std::ptrdiff_t>(weak.told.size());
+  EXPECT_EQ(first("windows are compared"), 0);
+  EXPECT_LT(first("stage: looking for zones"), first("news: soil_zone from about"));
+  EXPECT_LT(first("news: soil_zone from about"), first("stage: fitting what stands out"));
+  EXPECT_LT(first("stage: fitting what stands out"), end);
+}
+
 TEST(VehicleEffects, ASoilFarWeakerThanTheMapSaysIsEstimatedToBearAndToHoldLess) {
   constexpr double kWeakness = 9;  // deviations, beyond what the zone's numbers vary one by one
   const Diagnosed weak =
@@ -90,6 +113,27 @@ TEST(VehicleEffects, ASoilFarWeakerThanTheMapSaysIsEstimatedToBearAndToHoldLess)
   // What is told of how well it is known is true of it.
   EXPECT_NEAR(zone.estimate.mean.friction_angle_rad, true_there.friction_angle_rad,
               3 * zone.estimate.standard_deviation.friction_angle_rad);
+}
+
+TEST(VehicleEffects, SoilsBesideAZoneAreToldAsSurelyAsTheyAreKnown) {
+  // A zone whose wheels sink deep pulled them by 2.5 in all.
+  const Diagnosed weak = diagnosed(
+      {.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? 6.0 : 0.0; }, .seed = 15});
+  ASSERT_TRUE(weak.effects);
+  ASSERT_EQ(weak.effects->found.size(), 1u) << said(*weak.effects);
+  ASSERT_TRUE(weak.effects->found[0].zone) << said(*weak.effects);
+  const UncertainSoil there = rolling_map().soils()[0].soil, told = weak.effects->soils[0].soil;
+  double squares = 0;
+  int count = 0;
+  for (const SoilParameter& number : soil_parameters()) {
+    const double std = told.standard_deviation.*number.member;
+    if (!(std > 0)) continue;
+    const double pull = (told.mean.*number.member - there.mean.*number.member) / std;
+    squares += pull * pull;
+    ++count;
+  }
+  EXPECT_GE(count, 4);
+  EXPECT_LT(squares, 1);
 }
 
 TEST(VehicleEffects, AWheelThatDragsIsNamed) {

@@ -262,6 +262,29 @@ TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {
   EXPECT_GE(edges.ends_ci95[1], drive.zone.ends);
 }
 
+TEST(WindowComparison, WindowsWhoseWheelsAreInTheSameZonesArePredictedAlike) {
+  // The search for edges predicts each window once for all edges that leave its wheels in place.
+  const OverAStretch drive;
+  const auto begin = static_cast<std::size_t>(drive.zone.begins);
+  const auto over = [&](double begins) {
+    WindowZone zone = drive.zone;
+    zone.begins = begins;
+    const WindowQuestion question{{}, {zone}};
+    return std::pair{drive.comparison->zones_under_wheels(begin, question),
+                     drive.comparison->predicted_each({{begin, question}}, {}).front()};
+  };
+  const auto middle = static_cast<double>(begin) + 0.5;
+  const auto [zones, values] = over(middle);
+  int alike = 0, other = 0;
+  for (double off = -0.4; off < 0.45; off += 0.04) {
+    const auto [there, predicted] = over(middle + off);
+    ++(there == zones ? alike : other);
+    EXPECT_EQ(there == zones, predicted == values) << off;
+  }
+  EXPECT_GT(alike, 0);
+  EXPECT_GT(other, 10);
+}
+
 /// The rolling map with two soils, the one of a class everywhere.
 TerrainMap of_two_soils(std::int32_t everywhere) {
   const TerrainMap map = rolling_map();
@@ -289,6 +312,38 @@ TEST(WindowModel, ASearchThatLeadsNowhereFromWhereTheLastOneEndedBeginsAtTheMeas
   const auto again = model.predict(input, {});
   ASSERT_TRUE(said && again);
   EXPECT_NEAR(again->forward_mps, said->forward_mps, 1e-6);
+}
+
+TEST(WindowModel, MotionsAreSoughtAgainWhereTheVehicleMovesOtherwiseAndNowhereElse) {
+  const Compared compared({.seed = 3});
+  const TerrainMap map = of_two_soils(0);
+  const WindowModel model(map, compared.vehicle, 1.62);
+  const WindowInput& input = compared.comparison->input(20);
+  const WindowMotions here = model.motions(input, {});
+  ASSERT_TRUE(here.places);
+  WindowMotions elsewhere = here;  // shows whether they are taken
+  for (WindowMotions::Place& place : *elsewhere.places) place.found.motion.vx_mps += 1;
+  int taken = 0, sought = 0;
+  for (const VehicleTrial& trial : vehicle_trials(compared.vehicle, {}, map, {true, true})) {
+    const auto anew = model.predict(input, trial.deviation),
+               known = model.predict(input, trial.deviation, {}, &here),
+               shown = model.predict(input, trial.deviation, {}, &elsewhere);
+    ASSERT_TRUE(anew && known && shown) << trial.parameter;
+    EXPECT_EQ(known->forward_mps, anew->forward_mps) << trial.parameter;
+    EXPECT_EQ(known->left_mps, anew->left_mps) << trial.parameter;
+    EXPECT_EQ(known->pitch_rad, anew->pitch_rad) << trial.parameter;
+    EXPECT_EQ(known->torque_nm, anew->torque_nm) << trial.parameter;
+    const bool is_taken = shown->forward_mps > anew->forward_mps + 0.5;
+    const bool moves = trial.parameter.starts_with("mare.") || trial.id == "payload";
+    const bool only_told = trial.parameter.starts_with("weak.") || trial.id == "wheel_drag" ||
+                           trial.id == "motor_constant";
+    EXPECT_FALSE(moves && is_taken) << trial.parameter;
+    EXPECT_FALSE(only_told && !is_taken) << trial.parameter;
+    taken += is_taken;
+    sought += !is_taken;
+  }
+  EXPECT_GT(taken, 10);
+  EXPECT_GT(sought, 10);
 }
 
 TEST(WindowModel, AZoneIsOfItsOwnSoilWhateverTheMapSays) {

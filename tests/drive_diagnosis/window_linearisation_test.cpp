@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/drive_diagnosis/compared_drive.h"
 
@@ -92,6 +93,27 @@ TEST(WindowLinearisation, WindowsWithoutAMotionAreAsSaid) {
     EXPECT_TRUE(std::ranges::binary_search(touching, w)) << "window " << w;
     expect_row(sunk.base, as_said, static_cast<Eigen::Index>(w));
   }
+}
+
+TEST(WindowLinearisation, ASoilThatCarriesNowhereChangesNothing) {
+  OverAZone drive;
+  WindowLinearisation linearisation(*drive.comparison, drive.trials, OverAZone::kNumbers,
+                                    drive.stop);
+  const auto is_carried = [&](const WindowZone& zone) {
+    const ContestFit fit = OverAZone::fit_of(0, 0, zone);
+    return linearisation.is_carried(linearisation.predicted(fit, {zone}, drive.shifts), fit,
+                                    {zone});
+  };
+  EXPECT_TRUE(is_carried(drive.said));
+  WindowZone sunk = drive.said;
+  sunk.begins = std::floor(sunk.begins) - 1;  // its windows lie in it with all wheels
+  sunk.numbers = weaker_by(400);
+  const LinearisedWindows full =
+      linearisation.about(OverAZone::fit_of(0, 0, sunk), {sunk}, drive.shifts);
+  const bool changes = std::ranges::any_of(
+      full.zones[0], [](const Eigen::MatrixXd& number) { return !number.isZero(0); });
+  ASSERT_FALSE(changes);
+  EXPECT_FALSE(is_carried(sunk));
 }
 
 }  // namespace

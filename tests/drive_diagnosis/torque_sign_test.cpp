@@ -1,0 +1,49 @@
+#include "drive_diagnosis/comparison/torque_sign.h"
+
+#include <gtest/gtest.h>
+
+#include "drive_diagnosis/drive_diagnosis.h"
+#include "tests/drive_diagnosis/simulated_drive.h"
+
+namespace regoplan {
+namespace {
+
+/// What is said of a drive with the torques of some wheels turned round.
+DriveDiagnosis diagnosed_reversed(const std::vector<std::string>& wheels, SimulatedDrive how = {}) {
+  std::vector<DriveRecording> drives{record(how, rolling_map())};
+  std::vector<DriveWindow> none;
+  for (const std::string& wheel : wheels) reverse_torque(wheel, drives, none);
+  return diagnose_drives(
+      std::move(drives),
+      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
+      {});
+}
+
+TEST(TorqueSign, OfOneWheelIsAFindingAndNoPayload) {
+  const DriveDiagnosis diagnosis = diagnosed_reversed({"rear_left"});
+  EXPECT_EQ(diagnosis.verdict, DriveVerdict::kConsistent);
+  ASSERT_EQ(diagnosis.findings.size(), 1u);
+  EXPECT_EQ(diagnosis.findings[0].id, "sign");
+  EXPECT_TRUE(diagnosis.findings[0].mended);
+  EXPECT_NE(diagnosis.findings[0].text.find("torque_rear_left_nm"), std::string::npos);
+  ASSERT_TRUE(diagnosis.effects);
+  EXPECT_TRUE(diagnosis.effects->has_torque);
+}
+
+TEST(TorqueSign, OfEveryWheelIsToldOfEach) {
+  const DriveDiagnosis diagnosis =
+      diagnosed_reversed({"front_left", "front_right", "rear_left", "rear_right"});
+  EXPECT_EQ(diagnosis.findings.size(), 4u);
+  EXPECT_EQ(diagnosis.verdict, DriveVerdict::kConsistent);
+}
+
+TEST(TorqueSign, IsLeftAsItIsWhereFaultsOfTheVehicleExplainTheTorques) {
+  SimulatedDrive dragging{.seed = 21};
+  dragging.deviation.wheel_drag_nm[1] = -8;  // pushed on
+  dragging.deviation.motor_share.fill(-0.5);
+  const DriveDiagnosis diagnosis = diagnosed_reversed({}, dragging);
+  for (const DriveFinding& finding : diagnosis.findings) EXPECT_NE(finding.id, "sign");
+}
+
+}  // namespace
+}  // namespace regoplan
