@@ -33,8 +33,9 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   if (options.heights.scale == 0) {
     throw InputError("--scale: 0 is not valid (allowed: any number but 0)");
   }
-  SoilCatalogue soils =
-      read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
+  const SettingsNode soils_file = read_settings(options.soils);
+  SoilCatalogue soils = read_soil_catalogue(soils_file, WheelVariant::kIshigami2007);
+  for (const std::string& doubt : doubtful_units(soils_file, soils)) notify(doubt, options.quiet);
   ElevationRaster elevation = read_elevation(options.elevation, options.heights);
   std::optional<ClassRaster> classes;
   if (options.classes) {

@@ -194,21 +194,25 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
     std::vector<std::string> notices;
 
     const SettingsNode& soils = mapping.required("soils");
-    SoilCatalogue catalogue =
-        soils.kind() == SettingsNode::Kind::kMapping
-            ? read_soil_catalogue(soils, variant)
-            : read_named(soils, [&](const NamedFile& file) {
-                if (!std::filesystem::exists(file.path)) {
-                  throw InputError(file.path.string() + ": no such file");
-                }
-                return read_soil_catalogue(read_settings(file.path.string()), variant);
-              });
+    const auto read_soils = [&](const SettingsNode& given) {
+      SoilCatalogue catalogue = read_soil_catalogue(given, variant);
+      std::ranges::move(doubtful_units(given, catalogue), std::back_inserter(notices));
+      return catalogue;
+    };
+    SoilCatalogue catalogue = soils.kind() == SettingsNode::Kind::kMapping
+                                  ? read_soils(soils)
+                                  : read_named(soils, [&](const NamedFile& file) {
+                                      if (!std::filesystem::exists(file.path)) {
+                                        throw InputError(file.path.string() + ": no such file");
+                                      }
+                                      return read_soils(read_settings(file.path.string()));
+                                    });
 
     if (const SettingsNode* drawn = mapping.optional("terrain")) {
       SyntheticTerrain terrain = placed(*drawn, [&] { return draw_terrain(read_terrain(*drawn)); });
       return ScenarioMap{.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
                                            std::move(catalogue), std::move(terrain.rocks)),
-                         .notices = {},
+                         .notices = std::move(notices),
                          .inputs = std::move(inputs)};
     }
     const SettingsNode& elevation_file = mapping.required("elevation");
@@ -259,6 +263,8 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
   if (overrides.model_file) {
     model = read_model_file(*overrides.model_file);
     model_notices = leave_test_bed_behind(model->spec.mechanisms, *overrides.model_file);
+    // Without a name its soil numbers count nowhere.
+    if (model->soil_name) std::ranges::copy(model->warnings, std::back_inserter(model_notices));
   }
   const WheelVariant variant = model ? model->spec.variant : WheelVariant::kIshigami2007;
 

@@ -205,5 +205,22 @@ TEST_F(ScenarioSettings, AClassRasterWithoutCrsTakesTheElevationsWithANotice) {
   EXPECT_EQ(read.notices.size(), 1);
 }
 
+TEST_F(ScenarioSettings, SoilsInAnotherUnitAreToldAsASetupTellsThem) {
+  const auto told = [](const std::vector<std::string>& notices, const std::string& words) {
+    return std::ranges::any_of(notices, [&](const auto& n) { return n.ends_with(words); });
+  };
+  const char* const radians = ".friction_angle_deg: 0.65 is small for a soil; suspected: radians";
+  EXPECT_FALSE(told(scenario("gravity_mps2", "gravity_mps2").notices, radians));
+  EXPECT_TRUE(told(scenario("friction_angle_deg: 35", "friction_angle_deg: 0.65").notices,
+                   "map.soils.soils.mare" + std::string(radians)));
+  // A model that takes the place of a soil of the map is a soil as well.
+  const std::string model =
+      replaced(replaced(kSimulantModel, "soil_name: simulant", "soil_name: mare"),
+               "friction_angle_deg: 37.2", "friction_angle_deg: 0.65");
+  const std::string file = folder_.write("m.yaml", model);
+  EXPECT_TRUE(told(scenario("gravity_mps2", "gravity_mps2", {.model_file = file}).notices,
+                   "m.yaml:7: soil" + std::string(radians)));
+}
+
 }  // namespace
 }  // namespace regoplan
