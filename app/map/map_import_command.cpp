@@ -47,6 +47,10 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   if (options.rocks) rocks = read_rocks(*options.rocks);
   const TerrainMap map(std::move(elevation), std::move(classes), std::move(soils),
                        std::move(rocks));
+  if (options.classes) {
+    const std::string notice = unlisted_classes_notice(map, *options.classes);
+    if (!notice.empty()) notify(notice, options.quiet);
+  }
   if (!write_map_folder(map, options.stub, options.out, stop_on_interrupt())) return kInterrupted;
   for (const std::string& notice : map_notices(map, stub_vehicle(options.stub))) {
     notify(notice, options.quiet);

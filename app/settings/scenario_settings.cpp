@@ -143,6 +143,12 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
                                                      : named_vehicle(node, folder);
 }
 
+ScenarioMap with_class_notice(ScenarioMap map, const std::string& raster) {
+  std::string notice = unlisted_classes_notice(map.map, raster);
+  if (!notice.empty()) map.notices.push_back(std::move(notice));
+  return map;
+}
+
 /// The files of a scenario beside those of its map.
 std::vector<InputFile> inputs_of(const std::string& file, const SettingsNode& vehicle,
                                  const std::filesystem::path& folder,
@@ -210,18 +216,22 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
 
     if (const SettingsNode* drawn = mapping.optional("terrain")) {
       SyntheticTerrain terrain = placed(*drawn, [&] { return draw_terrain(read_terrain(*drawn)); });
-      return ScenarioMap{.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
-                                           std::move(catalogue), std::move(terrain.rocks)),
-                         .notices = std::move(notices),
-                         .inputs = std::move(inputs)};
+      return with_class_notice(
+          {.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
+                             std::move(catalogue), std::move(terrain.rocks)),
+           .notices = std::move(notices),
+           .inputs = std::move(inputs)},
+          fmt::format("{}:{}: {}", drawn->file(), drawn->line(), drawn->path()));
     }
     const SettingsNode& elevation_file = mapping.required("elevation");
     ElevationRaster elevation = read_named(
         elevation_file, [](const NamedFile& file) { return read_elevation(file.path.string()); });
 
     std::optional<ClassRaster> classes;
+    std::string classes_shown;
     if (const SettingsNode* name = mapping.optional("soil_class")) {
       read_named(*name, [&](const NamedFile& file) {
+        classes_shown = file.shown.string();
         classes = read_classes(file.path.string());
         std::string notice = adopt_crs(*classes, elevation.frame, file.shown.string());
         if (!notice.empty()) notices.push_back(std::move(notice));
@@ -237,10 +247,11 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
       rocks =
           read_named(*name, [](const NamedFile& file) { return read_rocks(file.path.string()); });
     }
-    return ScenarioMap{.map = TerrainMap(std::move(elevation), std::move(classes),
-                                         std::move(catalogue), std::move(rocks)),
-                       .notices = std::move(notices),
-                       .inputs = std::move(inputs)};
+    return with_class_notice({.map = TerrainMap(std::move(elevation), std::move(classes),
+                                                std::move(catalogue), std::move(rocks)),
+                              .notices = std::move(notices),
+                              .inputs = std::move(inputs)},
+                             classes_shown);
   });
 }
 

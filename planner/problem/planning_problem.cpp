@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/class_codes.h"
 #include "maps/ground_finder.h"
 #include "planner/problem/gravity_range.h"
 #include "planner/problem/obstacles.h"
@@ -33,7 +34,7 @@ void validate_place(const TerrainMap& map, const char* what, double x_m, double 
   }
   if (!map.soil_index(x_m, y_m)) {
     throw InputError(
-        fmt::format("{}: the soil at ({}, {}) is unmapped or forbidden", what, x_m, y_m));
+        fmt::format("{}: no soil at ({}, {}): {}", what, x_m, y_m, why_no_soil(map, x_m, y_m)));
   }
 }
 

@@ -224,3 +224,30 @@ TEST_F(ScenarioSettings, SoilsInAnotherUnitAreToldAsASetupTellsThem) {
 
 }  // namespace
 }  // namespace regoplan
+TEST_F(ScenarioSettings, AClassWithoutASoilIsToldWithItsCodeItsCellsAndTheRemedy) {
+  ClassRaster classes{.frame = flat_elevation().frame, .code = std::vector<std::int32_t>(1600, 1)};
+  classes.code[20 * 40 + 10] = 6;  // below the start
+  classes.code[0] = 7;
+  write_classes(classes, folder_.path("classes.tif"));
+  const std::string soils = kOneSoil;
+  const auto listing = [&](const std::string& listed) {
+    return "soil_class: classes.tif\n  soils: {" + listed + soils.substr(1);
+  };
+  const std::string as_it_is = "soils: " + soils;
+  EXPECT_EQ(error_of(as_it_is, listing("classes: {1: mare}, ")),
+            "s.yaml:7: start: no soil at (10, 20): the soil classes hold the code 6 there, in 1 of "
+            "1600 cells, and the soils do not list it (classes: 1; remedy: add 6: NAME to classes, "
+            "or unmapped: NAME)");
+  const auto told = [&](const std::string& listed) {
+    const std::vector<std::string> notices = scenario(as_it_is, listing(listed)).notices;
+    const auto found = std::ranges::find_if(
+        notices, [](const auto& n) { return n.find("no soil is given") != std::string::npos; });
+    return found == notices.end() ? "" : found->substr(folder_.path("").size());
+  };
+  EXPECT_EQ(told("classes: {1: mare, 6: mare}, "),
+            "classes.tif: no soil is given for the code 7 (1 cell) of 1600 cells: their ground is "
+            "forbidden; remedy: add 7: NAME to classes of the soils, or unmapped: NAME");
+  EXPECT_EQ(told("classes: {1: mare, 6: mare, 7: mare}, "), "");
+  EXPECT_EQ(told("unmapped: mare, classes: {1: mare}, "), "");
+}
+
