@@ -45,7 +45,7 @@ Goal read_goal(const SettingsNode& node, double speed_max_mps) {
     Goal goal;
     goal.x_m = mapping.number("x_m", kAnyNumber);
     goal.y_m = mapping.number("y_m", kAnyNumber);
-    goal.radius_m = mapping.number("radius_m", kAbove0);
+    goal.radius_m = mapping.number("radius_m", kAnyNumber);  // how large it may be, the map says
     const SettingsNode* heading = mapping.optional("heading_deg");
     const SettingsNode* tolerance = mapping.optional("heading_tolerance_deg");
     if (!heading != !tolerance) {

@@ -151,8 +151,12 @@ TEST_F(ScenarioSettings, WhatAModelSaysOfItsTestBedIsLeftBehind) {
 }
 
 TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
-  EXPECT_EQ(error_of("radius_m: 3", "radius_m: 0"),
-            "s.yaml:7: goal.radius_m: 0 is not valid (allowed: above 0)");
+  for (const char* radius_m : {"0", "57", "1000000000"}) {  // the map is 40 m by 40 m
+    EXPECT_EQ(error_of("radius_m: 3", std::string("radius_m: ") + radius_m),
+              fmt::format("s.yaml:7: goal.radius_m: {} is not valid (allowed: above 0 to the map's "
+                          "diagonal, 56.57)",
+                          radius_m));
+  }
   EXPECT_EQ(error_of("radius_m: 3", "radius: 3"),
             "s.yaml:7: goal: radius_m is missing (line 7 has radius)");
   EXPECT_EQ(error_of("gravity_mps2: 1.62", "gravity_mps2: .nan"),
