@@ -278,5 +278,20 @@ TEST_F(Program, ABadMapSettingIsNamedAsItsOption) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("m")));
 }
 
+TEST_F(Program, APlanSaysWhereItsTimeWentBeforeTheSearchWhereThatIsMuch) {
+  write_flat_scenario(folder_);
+  const auto plan = [&](const std::string& budget) {
+    return run("plan" + quoted("scenario.yaml") + "--out" + quoted("out") + budget).output;
+  };
+  const std::string line = "s went before the search: reading the scenario and its map ";
+  // A program takes longer than a ten thousandth of a second to start.
+  EXPECT_NE(plan("--time 0.001").find("Of 0.001 s, "), std::string::npos);
+  EXPECT_NE(plan("--time 0.001").find(line), std::string::npos);
+  EXPECT_EQ(plan("--iterations 20").find(line), std::string::npos);
+  const auto json = nlohmann::json::parse(folder_.read("out/plan.json"));
+  EXPECT_EQ(json.at("before_search").at(0).at("step"), "reading the scenario and its map");
+  EXPECT_GT(json.at("before_search").at(0).at("time_s"), 0);
+}
+
 }  // namespace
 }  // namespace regoplan
