@@ -278,6 +278,28 @@ TEST_F(Program, ABadMapSettingIsNamedAsItsOption) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("m")));
 }
 
+TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
+  const ProgramRun gain = run("mechanisms sensor_gain");
+  EXPECT_EQ(gain.status, 0) << gain.errors;
+  for (const char* words : {"an instrument", "told = (1 + gain) true", "fx_n, fy_n, torque_nm",
+                            "settling_time_s unit: s"}) {
+    EXPECT_NE(gain.output.find(words), std::string::npos) << words << " in: " << gain.output;
+  }
+  // Those that docs/drive-diagnosis.md lists as faults of a vehicle and its map.
+  for (const char* id :
+       {"wheel_drag", "side_drag", "steering_offset", "wheel_radius", "payload", "motor_constant",
+        "cg_offset", "tow_drag", "map_offset", "zone_border", "attitude_mounting"}) {
+    const ProgramRun told = run(std::string("mechanisms --json ") + id);
+    EXPECT_EQ(told.status, 0) << told.errors;
+    for (const auto& number : nlohmann::json::parse(told.output).at(0).at("parameters")) {
+      EXPECT_TRUE(number.at("unit") != "" || std::string(number.at("name")).ends_with("share"));
+    }
+  }
+  EXPECT_NE(run("mechanisms").output.find("sensor_gain"), std::string::npos);
+  expect_refusal(run("mechanisms stickiness"),
+                 {"stickiness is none of ", "grousers", "sensor_gain"});
+}
+
 TEST_F(Program, APlanSaysWhereItsTimeWentBeforeTheSearchWhereThatIsMuch) {
   write_flat_scenario(folder_);
   const auto plan = [&](const std::string& budget) {
