@@ -66,6 +66,7 @@ std::string summary(const PlanResult& result, const PlanningProblem& problem) {
                         "margin_min", "limited by", "draws ok");
   }
   for (const Candidate& candidate : result.candidates) text += candidate_row(candidate);
+  if (const std::string ties = tie_sentence(result.candidates); !ties.empty()) text += ties + "\n";
   std::string rejected;
   for (int i = 0; i < kRejectionCount; ++i) {
     const auto count = result.rejected.at(static_cast<std::size_t>(i));

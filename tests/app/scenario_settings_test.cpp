@@ -226,8 +226,6 @@ TEST_F(ScenarioSettings, SoilsInAnotherUnitAreToldAsASetupTellsThem) {
                    "m.yaml:7: soil" + std::string(radians)));
 }
 
-}  // namespace
-}  // namespace regoplan
 TEST_F(ScenarioSettings, AClassWithoutASoilIsToldWithItsCodeItsCellsAndTheRemedy) {
   ClassRaster classes{.frame = flat_elevation().frame, .code = std::vector<std::int32_t>(1600, 1)};
   classes.code[20 * 40 + 10] = 6;  // below the start
@@ -255,3 +253,5 @@ TEST_F(ScenarioSettings, AClassWithoutASoilIsToldWithItsCodeItsCellsAndTheRemedy
   EXPECT_EQ(told("unmapped: mare, classes: {1: mare}, "), "");
 }
 
+}  // namespace
+}  // namespace regoplan
