@@ -19,6 +19,7 @@
 #include "maps/raster_opening.h"
 #include "maps/raster_units.h"
 #include "maps/undeclared_nodata.h"
+#include "maps/warp_command.h"
 #include "maps/whole_file.h"
 #include "terramech/basics/input_error.h"
 
@@ -72,7 +73,8 @@ void require_bearable_size(const GridFrame& frame, const std::string& file) {
   }
 }
 
-GridFrame read_frame(GDALDataset& dataset, const std::string& file) {
+/// \param resampling what suits its cells, for remedies
+GridFrame read_frame(GDALDataset& dataset, const std::string& file, const char* resampling) {
   GridFrame frame;
   frame.columns = dataset.GetRasterXSize();
   frame.rows = dataset.GetRasterYSize();
@@ -87,24 +89,24 @@ GridFrame read_frame(GDALDataset& dataset, const std::string& file) {
   const OGRSpatialReference* crs = dataset.GetSpatialRef();
   if (crs != nullptr && crs->IsGeographic()) {
     fail_raster(
-        file,
-        fmt::format("its CRS \"{}\" is geographic (degrees), metres are needed; remedy: "
-                    "gdalwarp -t_srs \"{}\" {} out.tif",
-                    crs->GetName(), metric_crs(*crs, transform, frame.columns, frame.rows), file));
+        file, fmt::format("its CRS \"{}\" is geographic (degrees), metres are needed; remedy: {}",
+                          crs->GetName(),
+                          warp_command(file, metric_crs(*crs, transform, frame.columns, frame.rows),
+                                       resampling)));
   }
-  if (crs != nullptr) check_crs_unit(*crs, transform, frame.columns, frame.rows, file);
+  if (crs != nullptr) check_crs_unit(*crs, transform, frame, {file, resampling});
   // Below a thousandth of a cell over the whole raster, a rotation is rounding.
   const bool rotated = std::abs(transform[2]) * frame.rows > 1e-3 * std::abs(transform[1]) ||
                        std::abs(transform[4]) * frame.columns > 1e-3 * std::abs(transform[5]);
   if (rotated) {
-    fail_raster(file, fmt::format("is rotated against its CRS; remedy: gdalwarp {} out.tif", file));
+    fail_raster(file, "is rotated against its CRS; remedy: " + warp_command(file, "", resampling));
   }
   if (!(transform[1] > 0 && transform[5] < 0)) {
     fail_raster(
         file,
-        fmt::format("is not north-up (its rows do not run from north to south, or its columns "
-                    "not from west to east); remedy: gdalwarp {} out.tif",
-                    file));
+        "is not north-up (its rows do not run from north to south, or its columns not from west to "
+        "east); remedy: " +
+            warp_command(file, "", resampling));
   }
   frame.west_m = transform[0];
   frame.north_m = transform[3];
@@ -243,7 +245,7 @@ ElevationRaster read_elevation(const std::string& file, const HeightReading& rea
     fail_raster(file, "is a picture of colours, heights in metres are needed");
   }
   check_height_unit(band, dataset->GetSpatialRef(), reading, file);
-  ElevationRaster raster{.frame = read_frame(*dataset, file), .height_m = {}};
+  ElevationRaster raster{.frame = read_frame(*dataset, file, "bilinear"), .height_m = {}};
   bool known = false;
   const auto height = [&](double value, std::size_t cell) {
     if (!(std::abs(value) <= kHeightMax_m)) {
@@ -274,7 +276,7 @@ ClassRaster read_classes(const std::string& file) {
   const QuietGdal quiet;
   const GDALDatasetUniquePtr dataset = open_raster(file);
   GDALRasterBand& band = *dataset->GetRasterBand(1);
-  ClassRaster raster{.frame = read_frame(*dataset, file), .code = {}};
+  ClassRaster raster{.frame = read_frame(*dataset, file, "near"), .code = {}};
   bool known = false;
   const auto code = [&](double value, std::size_t cell) {
     if (!(value > INT32_MIN && value <= INT32_MAX) || value != std::floor(value)) {
@@ -309,16 +311,12 @@ std::string adopt_crs(ClassRaster& classes, const GridFrame& elevation,
     notice = fmt::format("{}: the elevation names no CRS; taken to be the same as \"{}\"",
                          classes_file, crs_name(own));
   } else if (own != elevation.crs_wkt) {
-    const std::array<const char*, 4> options{
-        "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "IGNORE_COORDINATE_EPOCH=YES",
-        "CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS", nullptr};
     const OGRSpatialReference elevation_crs = crs_of(elevation.crs_wkt);
-    if (!crs_of(own).IsSame(&elevation_crs, options.data())) {
-      fail_raster(
-          classes_file,
-          fmt::format("its CRS \"{}\" is not the elevation's, \"{}\"; remedy: gdalwarp -r near "
-                      "-t_srs THE_ELEVATION'S_CRS {} out.tif",
-                      crs_name(own), crs_name(elevation.crs_wkt), classes_file));
+    if (!is_same_crs(crs_of(own), elevation_crs)) {
+      fail_raster(classes_file,
+                  fmt::format("its CRS \"{}\" is not the elevation's, \"{}\"; remedy: {}",
+                              crs_name(own), crs_name(elevation.crs_wkt),
+                              warp_command(classes_file, crs_word(elevation_crs), "near")));
     }
   }
   if (!overlap(classes.frame, elevation)) {

@@ -10,6 +10,7 @@
 #include <regex>
 #include <string_view>
 
+#include "maps/warp_command.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
@@ -130,22 +131,23 @@ void check_height_unit(GDALRasterBand& band, const OGRSpatialReference* crs,
 }
 
 void check_crs_unit(const OGRSpatialReference& crs, const std::array<double, 6>& transform,
-                    int columns, int rows, const std::string& file) {
+                    const GridFrame& frame, const RasterInWords& raster) {
   const char* name = nullptr;
   const double metres = crs.GetLinearUnits(&name);
   if (is_metre(metres)) return;
   const std::string proj = projection_in_metres(crs);
   const std::string remedy =
-      proj.empty() ? fmt::format(
-                         "gdal_translate -a_srs 'LOCAL_CS[\"metres\",UNIT[\"metre\",1]]' -a_ullr "
-                         "{:.10g} {:.10g} {:.10g} {:.10g} {} out.tif",
-                         metres * transform[0], metres * transform[3],
-                         metres * (transform[0] + columns * transform[1]),
-                         metres * (transform[3] + rows * transform[5]), file)
-                   : fmt::format("gdalwarp -t_srs \"{}\" {} out.tif", proj, file);
+      proj.empty()
+          ? fmt::format(
+                "gdal_translate -a_srs 'LOCAL_CS[\"metres\",UNIT[\"metre\",1]]' -a_ullr "
+                "{:.10g} {:.10g} {:.10g} {:.10g} {} out.tif",
+                metres * transform[0], metres * transform[3],
+                metres * (transform[0] + frame.columns * transform[1]),
+                metres * (transform[3] + frame.rows * transform[5]), shell_word(raster.file))
+          : warp_command(raster.file, proj, raster.resampling);
   throw InputError(
       fmt::format("{}: the unit of its CRS \"{}\" is {} ({:.10g} m), metres are needed; remedy: {}",
-                  file, crs.GetName() == nullptr ? "" : crs.GetName(),
+                  raster.file, crs.GetName() == nullptr ? "" : crs.GetName(),
                   name == nullptr ? "unnamed" : name, metres, remedy));
 }
 

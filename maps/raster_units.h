@@ -4,6 +4,7 @@
 #include <string>
 
 #include "maps/height_reading.h"
+#include "maps/terrain_map.h"
 
 class GDALRasterBand;
 class OGRSpatialReference;
@@ -17,10 +18,16 @@ namespace regoplan {
 void check_height_unit(GDALRasterBand& band, const OGRSpatialReference* crs,
                        const HeightReading& reading, const std::string& file);
 
+/// A raster, for remedies that can be copied.
+struct RasterInWords {
+  std::string file;
+  std::string resampling;  ///< that suits its cells, as gdalwarp calls it
+};
+
 /// A planar CRS is in metres.
-/// \param transform, columns, rows of the raster, for a remedy that can be copied
+/// \param transform, frame of the raster; of the frame columns and rows count
 /// \throws InputError naming the unit and the remedy
 void check_crs_unit(const OGRSpatialReference& crs, const std::array<double, 6>& transform,
-                    int columns, int rows, const std::string& file);
+                    const GridFrame& frame, const RasterInWords& raster);
 
 }  // namespace regoplan

@@ -130,6 +130,15 @@ inline bool covers(const GridFrame& frame, double x_m, double y_m) {
          y_m <= frame.north_m;
 }
 
+/// The index of the cell that holds (x, y), which must lie in the extent of the grid.
+inline std::size_t cell_at(const GridFrame& frame, double x_m, double y_m) {
+  const auto column = std::min<std::ptrdiff_t>(
+      static_cast<std::ptrdiff_t>((x_m - frame.west_m) / frame.cell_width_m), frame.columns - 1);
+  const auto row = std::min<std::ptrdiff_t>(
+      static_cast<std::ptrdiff_t>((frame.north_m - y_m) / frame.cell_height_m), frame.rows - 1);
+  return static_cast<std::size_t>(row * frame.columns + column);
+}
+
 inline bool TerrainMap::inside(double x_m, double y_m) const {
   return covers(ground_->elevation.frame, x_m, y_m);
 }
@@ -160,12 +169,7 @@ inline double TerrainMap::height_m(double x_m, double y_m) const {
 inline std::optional<int> TerrainMap::soil_index(double x_m, double y_m) const {
   std::int16_t soil = ground_->soil_elsewhere;
   if (ground_->classes && covers(ground_->classes->frame, x_m, y_m)) {
-    const GridFrame& frame = ground_->classes->frame;
-    const auto column = std::min<std::ptrdiff_t>(
-        static_cast<std::ptrdiff_t>((x_m - frame.west_m) / frame.cell_width_m), frame.columns - 1);
-    const auto row = std::min<std::ptrdiff_t>(
-        static_cast<std::ptrdiff_t>((frame.north_m - y_m) / frame.cell_height_m), frame.rows - 1);
-    soil = ground_->soil_of_cell[static_cast<std::size_t>(row * frame.columns + column)];
+    soil = ground_->soil_of_cell[cell_at(ground_->classes->frame, x_m, y_m)];
   }
   return soil == kNoSoil ? std::nullopt : std::optional<int>(soil);
 }

@@ -37,14 +37,19 @@ class Planning {
         session_(session),
         budget_(session.started, problem.search.time_s),
         announcements_(session, budget_),
+        begun_s_(budget_.elapsed_s()),
         verdict_(problem, WorldUse::kVerdict, problem.search.threads) {
     result_.seed = problem.search.seed;
+    result_.before_search.push_back(
+        {.step = "reading the scenario and its map", .time_s = begun_s_});
+    timed("rocks and known ground");
   }
 
   PlanResult run() && {
     result_.certificate = start_certificate(verdict_);
     const bool can_stand = !result_.certificate;
     if (can_stand) result_.certificate = certificate_of_infeasibility(problem_);
+    timed("certificates");
     if (result_.certificate) {
       result_.status = PlanStatus::kInfeasible;
       // The refusal of a start says itself what would have to give way.
@@ -68,6 +73,7 @@ class Planning {
         .budget = budget_,
         .stop = session_.stop,
         .announcements = announcements_};
+    timed("force tables and doubtful soils");
     const double search_start_s = budget_.elapsed_s();
     SearchResult found = search_and_verify(plan, result_);
     result_.planning_time_s = found.ended_s - search_start_s;
@@ -81,6 +87,13 @@ class Planning {
 
  private:
   bool stopped() const { return session_.stop.stop_requested(); }
+
+  /// Notes what a step took that ends now.
+  void timed(const char* step) {
+    const double now_s = budget_.elapsed_s();
+    result_.before_search.push_back({.step = step, .time_s = now_s - begun_s_});
+    begun_s_ = now_s;
+  }
 
   /// Takes away what does not keep the chance constraint. \returns how many
   std::size_t drop_improbable() {
@@ -135,6 +148,7 @@ class Planning {
   const PlanSession& session_;
   TimeBudget budget_;
   Announcements announcements_;
+  double begun_s_;  ///< when the step on its way began
   World verdict_;
   PlanResult result_;
   std::vector<VerifiedPath> chosen_;  ///< the candidates

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <numbers>
-
 #include "app/settings/model_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/soil_settings.h"
@@ -24,30 +20,6 @@ std::map<Channel, double> read_noise(const SettingsNode& node) {
     }
     return noise;
   });
-}
-
-/// Means that hardly any soil has, but that the usual mistake of a unit gives.
-std::vector<std::string> doubtful_soil(const SettingsNode& soil, const Soil& mean) {
-  struct Doubt {
-    const char* key;
-    double value, below;
-    const char* unit;
-  };
-  const std::array<Doubt, 3> doubts{{
-      {"friction_angle_deg", mean.friction_angle_rad * 180 / std::numbers::pi, 2, "radians"},
-      {"cohesion_pa", mean.cohesion_pa, 10, "kPa"},
-      {"density_kgpm3", mean.density_kgpm3, 100, "g/cm3"},
-  }};
-  std::vector<std::string> warnings;
-  for (const Doubt& doubt : doubts) {
-    if (doubt.value == 0 || doubt.value >= doubt.below) continue;
-    const SettingsNode* place = soil.find(doubt.key);
-    warnings.emplace_back(
-        (place ? *place : soil)
-            .error(fmt::format("{} is small for a soil; suspected: {}", doubt.value, doubt.unit))
-            .what());
-  }
-  return warnings;
 }
 
 }  // namespace
@@ -71,7 +43,7 @@ SetupSettings read_setup(const SettingsNode& node) {
     const SettingsNode& soil = mapping.required("soil");
     setup.soil =
         read_mapping(soil, [&](SettingsMapping& keys) { return read_soil(keys, setup.variant); });
-    settings.warnings = doubtful_soil(soil, setup.soil.mean);
+    settings.warnings = doubtful_units(soil, setup.soil.mean);
     if (const SettingsNode* name = mapping.optional("soil_name")) settings.soil_name = name->text();
     if (const SettingsNode* noise = mapping.optional("noise")) {
       setup.noise_standard_deviation = read_noise(*noise);

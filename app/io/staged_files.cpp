@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <random>
 #include <system_error>
 
 #include "app/io/result_manifest.h"
@@ -25,14 +26,12 @@ fs::path tidy(const fs::path& folder) {
   return whole.has_filename() ? whole : whole.parent_path();  // "a/b/" is "a/b"
 }
 
-/// The topmost of the folders towards `folder` that do not exist yet; empty where it exists.
-fs::path topmost_missing(const fs::path& folder) {
-  fs::path missing;
+/// The folder itself, or the lowest above it that exists.
+fs::path lowest_existing(const fs::path& folder) {
+  fs::path at = folder;
   std::error_code unknown;  // what cannot even be asked for cannot be made either
-  for (fs::path at = tidy(folder); !fs::exists(at, unknown); at = at.parent_path()) {
-    missing = at;
-  }
-  return missing;
+  while (!fs::exists(at, unknown)) at = at.parent_path();
+  return at;
 }
 
 /// An open folder that no other process has locked; -1 where one has, or it is gone.
@@ -77,6 +76,53 @@ void sweep(const fs::path& folder) {
   throw InputError(fmt::format("{}: {}: {}", folder.option, at.string(), why));
 }
 
+/// Held while results are moved into a folder, taken away or looked at, so that of two processes
+/// which end at once each finds the files and the manifest of one, not some of either.
+class FolderLock {
+ public:
+  enum class Missing { kMake, kLeave };
+
+  /// Holds nothing where the folder is missing and shall be left so.
+  FolderLock(const fs::path& folder, Missing missing) {
+    // A process whose files could not be moved takes away again what it has made.
+    for (int attempt = 0; attempt < 100 && file_ < 0; ++attempt) {
+      std::error_code failed;
+      if (missing == Missing::kMake) fs::create_directories(folder, failed);
+      if (failed) fail(folder, failed.message());
+      file_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+      if (file_ < 0 && missing == Missing::kLeave && errno == ENOENT) return;
+      if (file_ >= 0 && !(wait() && is_named())) file_ = (close(file_), -1);
+    }
+    if (file_ < 0) fail(folder, "cannot be locked");
+  }
+  ~FolderLock() {
+    if (file_ >= 0) close(file_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  bool wait() const {
+    int failed = 0;
+    do failed = flock(file_, LOCK_EX);
+    while (failed != 0 && errno == EINTR);
+    return failed == 0;
+  }
+  bool is_named() const {
+    struct stat status {};
+    return fstat(file_, &status) == 0 && status.st_nlink > 0;
+  }
+
+  int file_ = -1;
+};
+
+/// Digits that no other hidden folder has, whichever processes, machines and containers share a
+/// folder.
+std::string unused_number() {
+  std::random_device chance;
+  return fmt::format("{}{:010}", chance(), chance());
+}
+
 /// Made absolute, an empty name would be the working folder.
 const fs::path& non_empty(const ResultFolder& folder) {
   if (folder.path.empty())
@@ -106,46 +152,55 @@ void require_writable_folder(const ResultFolder& folder) {
 
 void require_results_fit(const ResultFolder& folder, const std::vector<std::string>& names) {
   require_writable_folder(folder);
+  const FolderLock lock(folder.path, FolderLock::Missing::kLeave);
   require_replaceable(folder, names);
 }
 
 StagedFiles::StagedFiles(const ResultFolder& folder)
-    : folder_{tidy(non_empty(folder)), folder.force, folder.option},
-      made_(topmost_missing(folder_.path)) {
-  const fs::path existing = made_.empty() ? folder_.path : made_.parent_path();
+    : folder_{tidy(non_empty(folder)), folder.force, folder.option} {
+  // A folder that is missing is made when there is something to put into it. Made here it would
+  // have to be taken away again, and two processes that share it cannot tell which of them may.
+  const fs::path existing = lowest_existing(folder_.path);
   if (!fs::is_directory(existing)) refuse(folder_, existing, "not a folder");
-  if (made_.empty()) sweep(folder_.path);
-  // A folder that a killed process of the same number left may still be there, or be swept by
-  // another process while it is made; so may one above it that the other made and needs no more.
-  staging_ = folder_.path / fmt::format("{}{}", kStagingPrefix, getpid());
+  sweep(existing);
+  // What was killed before it had made the folder has left its own above it.
+  if (existing == folder_.path) sweep(existing.parent_path());
   std::error_code failed;
-  for (int attempt = 0; attempt < 10 && lock_ < 0; ++attempt) {
-    fs::create_directories(staging_, failed);
-    if (!failed) lock_ = locked(staging_);
+  // Another process may sweep the hidden folder before it is locked.
+  for (int attempt = 0; attempt < 100 && lock_ < 0 && !failed; ++attempt) {
+    staging_ = existing / (std::string(kStagingPrefix) + unused_number());
+    if (fs::create_directory(staging_, failed)) lock_ = locked(staging_);
   }
+  if (lock_ >= 0) try_missing(folder_.path.lexically_relative(existing), failed);
   if (failed) {
-    remove_made();
-    refuse(
-        folder_, folder_.path,
-        fmt::format("cannot be {}: {}", made_.empty() ? "written to" : "made", failed.message()));
+    remove_staging();
+    refuse(folder_, folder_.path,
+           fmt::format("cannot be {}: {}", existing == folder_.path ? "written to" : "made",
+                       failed.message()));
   }
-  if (lock_ < 0) fail(staging_, "is in use by another process");
+  if (lock_ < 0) fail(staging_, "cannot be locked");
 }
 
 StagedFiles::~StagedFiles() {
-  std::error_code ignored;  // nothing can be done about a leftover
-  fs::remove_all(staging_, ignored);
-  close(lock_);
-  remove_made();
+  remove_staging();
 }
 
-/// Folders that hold nothing yet go again; the system keeps those that hold something.
-void StagedFiles::remove_made() const {
-  if (made_.empty()) return;
-  for (fs::path at = folder_.path;; at = at.parent_path()) {
-    rmdir(at.c_str());
-    if (at == made_) return;
+/// Makes the missing folders inside the hidden one, to find out whether the system takes them.
+void StagedFiles::try_missing(const fs::path& missing, std::error_code& failed) const {
+  if (missing == ".") return;
+  if (fs::is_symlink(fs::symlink_status(staging_.parent_path() / *missing.begin()))) {
+    failed = std::make_error_code(std::errc::file_exists);  // a link that leads nowhere
+    return;
   }
+  fs::create_directories(staging_ / missing, failed);
+  std::error_code ignored;  // goes with the hidden folder at the latest
+  fs::remove_all(staging_ / *missing.begin(), ignored);
+}
+
+void StagedFiles::remove_staging() const {
+  std::error_code ignored;  // nothing can be done about a leftover
+  fs::remove_all(staging_, ignored);
+  if (lock_ >= 0) close(lock_);
 }
 
 std::string StagedFiles::path(const std::string& name) {
@@ -162,6 +217,18 @@ void StagedFiles::write(const RenderedFile& file) {
 }
 
 void StagedFiles::commit() {
+  const FolderLock lock(folder_.path, FolderLock::Missing::kMake);
+  try {
+    move_all();
+  } catch (...) {
+    // Folders that hold nothing go again; the system keeps those that hold something.
+    const fs::path existing = staging_.parent_path();
+    for (fs::path at = folder_.path; at != existing; at = at.parent_path()) rmdir(at.c_str());
+    throw;
+  }
+}
+
+void StagedFiles::move_all() {
   require_replaceable(folder_, names_);
   ResultManifest manifest(folder_.path);
   // Killed at any moment, each file is one of the two that the manifest then knows.
@@ -173,6 +240,7 @@ void StagedFiles::commit() {
 }
 
 bool StagedFiles::remove(const std::string& name) {
+  const FolderLock lock(folder_.path, FolderLock::Missing::kLeave);
   ResultManifest manifest(folder_.path);
   if (!manifest.is_own(name)) return false;
   std::error_code failed;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace regoplan {
@@ -19,12 +20,14 @@ struct ResultFolder {
   std::string option = "--out";  ///< that names it, for messages
 };
 
-/// Files on their way into a folder: written to a hidden folder inside it, moved to their names by
-/// `commit()`, and gone without a trace where that is never reached. So there are whole files or
-/// none. Hidden folders that killed processes have left are swept.
+/// Files on their way into a folder: written to a hidden folder inside it (where it is missing,
+/// inside the lowest one above it that exists), moved to their names by `commit()`, and gone
+/// without a trace where that is never reached. So there are whole files or none, and a folder only
+/// where it holds something. Processes may share a folder: the files of one `commit()` stand
+/// together. Hidden folders that killed processes have left are swept.
 class StagedFiles {
  public:
-  /// Makes the folder where it is missing.
+  /// Finds out whether the folder can be made where it is missing.
   /// \throws InputError where it cannot be made or written to
   explicit StagedFiles(const ResultFolder& folder);
   ~StagedFiles();
@@ -37,6 +40,7 @@ class StagedFiles {
   /// \throws InputError where the file cannot be written
   void write(const RenderedFile& file);
 
+  /// Makes the folder where it is missing.
   /// \throws InputError where a file cannot be moved to its name, or would replace one that is not
   /// regoplan's own
   void commit();
@@ -45,18 +49,20 @@ class StagedFiles {
   bool remove(const std::string& name);
 
  private:
-  void remove_made() const;
+  void try_missing(const std::filesystem::path& missing, std::error_code& failed) const;
+  void remove_staging() const;
+  void move_all();
   void write_manifest(const std::string& text);
   void move(const std::string& name) const;
 
   ResultFolder folder_;
   std::filesystem::path staging_;
-  int lock_ = -1;               ///< says to others that the staging folder is in use
-  std::filesystem::path made_;  ///< the topmost folder that was missing, empty where none was
+  int lock_ = -1;  ///< says to others that the staging folder is in use
   std::vector<std::string> names_;
 };
 
-/// Asked before long work: makes `folder` and a folder in it, and removes what it made.
+/// Asked before long work: whether `folder` takes files, or can be made where it is missing. Leaves
+/// everything as it was.
 /// \throws InputError where that fails
 void require_writable_folder(const ResultFolder& folder);
 

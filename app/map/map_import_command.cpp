@@ -33,8 +33,9 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   if (options.heights.scale == 0) {
     throw InputError("--scale: 0 is not valid (allowed: any number but 0)");
   }
-  SoilCatalogue soils =
-      read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
+  const SettingsNode soils_file = read_settings(options.soils);
+  SoilCatalogue soils = read_soil_catalogue(soils_file, WheelVariant::kIshigami2007);
+  for (const std::string& doubt : doubtful_units(soils_file, soils)) notify(doubt, options.quiet);
   ElevationRaster elevation = read_elevation(options.elevation, options.heights);
   std::optional<ClassRaster> classes;
   if (options.classes) {
@@ -46,6 +47,10 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   if (options.rocks) rocks = read_rocks(*options.rocks);
   const TerrainMap map(std::move(elevation), std::move(classes), std::move(soils),
                        std::move(rocks));
+  if (options.classes) {
+    const std::string notice = unlisted_classes_notice(map, *options.classes);
+    if (!notice.empty()) notify(notice, options.quiet);
+  }
   if (!write_map_folder(map, options.stub, options.out, stop_on_interrupt())) return kInterrupted;
   for (const std::string& notice : map_notices(map, stub_vehicle(options.stub))) {
     notify(notice, options.quiet);

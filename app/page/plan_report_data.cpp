@@ -353,6 +353,7 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"interrupted", result.interrupted},
                {"seed", result.seed},
                {"propagations", result.propagations},
+               {"before_search", json::array()},
                {"planning_time_s", result.planning_time_s},
                {"verification_time_s", result.verification_time_s},
                {"least_duration_s", nullptr},
@@ -366,6 +367,9 @@ json plan_report_data(const PlanningProblem& problem, const PlanResult& result) 
                {"relaxed", relaxed_json(problem, result.relaxed)},
                {"rejected", rejected_json(result)},
                {"rejected_states", rejected_states_json(result.rejected_states)}};
+  for (const TimedStep& timed : result.before_search) {
+    data["before_search"].push_back({{"step", timed.step}, {"time_s", timed.time_s}});
+  }
   if (result.rasters) data["map"]["layers"] = report_layers(*result.rasters);
   if (result.least_duration_s) data["least_duration_s"] = *result.least_duration_s;
   if (result.certificate) data["certificate"] = *result.certificate;

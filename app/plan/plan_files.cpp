@@ -39,6 +39,10 @@ Json objective_json(const Objective& objective) {
           {"exposed_below", objective.exposed_below}};
 }
 
+Json timed_step_json(const TimedStep& timed) {
+  return {{"step", timed.step}, {"time_s", timed.time_s}};
+}
+
 /// Null where a path is as the search found it.
 Json improved_json(const std::optional<Improvement>& improvement) {
   if (!improvement) return nullptr;
@@ -167,6 +171,7 @@ std::string plan_json(const PlanningProblem& problem, const PlanResult& result,
             {"candidates", candidates},
             {"rejected", rejected},
             {"propagations", result.propagations},
+            {"before_search", list_json(result.before_search, timed_step_json)},
             {"planning_time_s", result.planning_time_s},
             {"verification_time_s", result.verification_time_s},
             {"first_verified_s", number_json(result.first_verified_s)},

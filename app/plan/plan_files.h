@@ -18,7 +18,8 @@ struct PlanOrigin {
 };
 
 /// The text of plan.json, to lie in `folder`. Two runs of the same problem under an iteration
-/// budget differ in `planning_time_s`, `verification_time_s` and `first_verified_s` only.
+/// budget differ in `before_search`, `planning_time_s`, `verification_time_s` and
+/// `first_verified_s` only.
 std::string plan_json(const PlanningProblem& problem, const PlanResult& result,
                       const PlanOrigin& origin = {}, const std::filesystem::path& folder = {});
 

@@ -110,6 +110,8 @@ std::vector<std::string> lead_sentences(const PlanResult& result) {
     sentences.push_back("Shown by: " + with_stop(*result.certificate));
   }
   if (!result.candidates.empty()) sentences.push_back(soil_sentence(result.candidates.front()));
+  if (std::string sentence = tie_sentence(result.candidates); !sentence.empty())
+    sentences.push_back(std::move(sentence));
   if (std::string sentence = gap_sentence(result); !sentence.empty())
     sentences.push_back(std::move(sentence));
   if (!result.doubtful_soils.empty()) {
@@ -151,6 +153,19 @@ std::string plan_headline(const PlanResult& result, const Limits& limits) {
       counted(result.candidates.size(), "verified path"), best_words(best),
       words(name(best.limiting.margin)),
       place(best.limiting.x_m, best.limiting.y_m, best.limiting.time_s));
+}
+
+std::string tie_sentence(const std::vector<Candidate>& ranked) {
+  std::vector<std::string> groups;
+  for (const auto& [first, last] : tied_ranks(ranked)) {
+    groups.push_back(fmt::format("{} {} {}", first, last == first + 1 ? "and" : "to", last));
+  }
+  if (groups.empty()) return "";
+  return fmt::format(
+      "Ranks {} are tied: over the draws of the soils they differ by less than chance does; of "
+      "tied "
+      "paths the faster stands first.",
+      fmt::join(groups, ", and "));
 }
 
 std::string plan_report(const PlanningProblem& problem, const PlanResult& result) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "planner/problem/plan_result.h"
 #include "planner/problem/planning_problem.h"
@@ -15,5 +16,9 @@ std::string plan_headline(const PlanResult& result, const Limits& limits);
 /// what decides along each of them, what was rejected and why, and how it was decided. Its data
 /// stand in it as JSON, with the key names and units of `plan.json`.
 std::string plan_report(const PlanningProblem& problem, const PlanResult& result);
+
+/// Which ranks are none, as the draws of the soils cannot tell their paths apart; empty where each
+/// is one.
+std::string tie_sentence(const std::vector<Candidate>& ranked);
 
 }  // namespace regoplan

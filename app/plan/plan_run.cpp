@@ -36,9 +36,25 @@ std::string candidate_row(const Candidate& candidate) {
              : "-");
 }
 
-std::string summary(const PlanResult& result, const Limits& limits) {
-  std::string text = plan_headline(result, limits) + "\n";
+/// Where the time before the search went, where that is more than a tenth of what the answer may
+/// take: else empty.
+std::string before_search_line(const PlanResult& result, const Search& search) {
+  constexpr double kShare = 0.1;
+  double whole_s = 0;
+  std::vector<std::string> steps;
+  for (const TimedStep& timed : result.before_search) {
+    whole_s += timed.time_s;
+    steps.push_back(fmt::format("{} {:.1f} s", timed.step, timed.time_s));
+  }
+  if (!search.time_s || whole_s <= kShare * *search.time_s) return "";
+  return fmt::format("Of {:g} s, {:.1f} s went before the search: {}.\n", *search.time_s, whole_s,
+                     fmt::join(steps, ", "));
+}
+
+std::string summary(const PlanResult& result, const PlanningProblem& problem) {
+  std::string text = plan_headline(result, problem.limits) + "\n";
   if (result.interrupted) text = "Interrupted. " + text;
+  text += before_search_line(result, problem.search);
   if (const auto gap = duration_gap(result)) {
     text += fmt::format(
         "No path of this problem is faster than {:.1f} s; gap of the fastest: {:.0f} %.\n",
@@ -50,6 +66,7 @@ std::string summary(const PlanResult& result, const Limits& limits) {
                         "margin_min", "limited by", "draws ok");
   }
   for (const Candidate& candidate : result.candidates) text += candidate_row(candidate);
+  if (const std::string ties = tie_sentence(result.candidates); !ties.empty()) text += ties + "\n";
   std::string rejected;
   for (int i = 0; i < kRejectionCount; ++i) {
     const auto count = result.rejected.at(static_cast<std::size_t>(i));
@@ -101,8 +118,7 @@ PlanRun run_plan(const Scenario& scenario, const PlanOutput& output) {
            {.on_progress = [&](const PlanProgress& progress) { line.show(progress); },
             .on_verified = [&](const Candidate& path,
                                double since_start_s) { say(verified_line(path, since_start_s)); },
-            .on_answer =
-                [&](const PlanResult& answer) { say(summary(answer, scenario.problem.limits)); },
+            .on_answer = [&](const PlanResult& answer) { say(summary(answer, scenario.problem)); },
             .stop = stop_on_interrupt(),
             .started = output.started.value_or(kProgramStart)});
   line.wipe();

@@ -1,9 +1,12 @@
 #include "app/settings/map_notices.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "maps/class_codes.h"
 
 namespace regoplan {
 namespace {
@@ -46,6 +49,26 @@ std::vector<std::string> map_notices(const TerrainMap& map, const Vehicle& vehic
         cell_text(frame), std::atan(1 / cell_m) * 57.29577951308232));
   }
   return notices;
+}
+
+std::string unlisted_classes_notice(const TerrainMap& map, const std::string& raster) {
+  const std::vector<UnlistedCode> unlisted = unlisted_codes(map);
+  if (map.catalogue().unmapped || unlisted.empty()) return "";
+  constexpr std::size_t kListed = 8;
+  std::vector<std::string> codes;
+  for (const UnlistedCode& found : unlisted) {
+    if (codes.size() == kListed) break;
+    codes.push_back(
+        fmt::format("{} ({} {})", found.code, found.cells, found.cells == 1 ? "cell" : "cells"));
+  }
+  if (unlisted.size() > kListed) {
+    codes.push_back(fmt::format("{} others", unlisted.size() - kListed));
+  }
+  return fmt::format(
+      "{}: no soil is given for the {} {} of {} cells: their ground is forbidden; remedy: "
+      "add {}: NAME to classes of the soils, or unmapped: NAME",
+      raster, codes.size() == 1 ? "code" : "codes", fmt::join(codes, ", "),
+      map.classes()->code.size(), unlisted.front().code);
 }
 
 }  // namespace regoplan

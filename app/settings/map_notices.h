@@ -12,4 +12,9 @@ namespace regoplan {
 /// sentence each: cells wider than the vehicle, heights in whole metres on small cells.
 std::vector<std::string> map_notices(const TerrainMap& map, const Vehicle& vehicle);
 
+/// Of a map without a soil for unmapped ground: the codes of its class raster that its soils do not
+/// list, whose cells nobody may enter. Empty where there are none.
+/// \param raster what the codes stand in, for the sentence
+std::string unlisted_classes_notice(const TerrainMap& map, const std::string& raster);
+
 }  // namespace regoplan

@@ -74,10 +74,11 @@ ModelSettings read_model(const SettingsNode& node) {
     settings.spec.variant = read_variant(mapping.required("model"));
     settings.spec.wheel = read_wheel(mapping.required("wheel"));
     settings.spec.gravity_mps2 = mapping.number("gravity_mps2", kGravity_mps2);
-    settings.soil = read_mapping(mapping.required("soil"), [&](SettingsMapping& soil) {
-      return read_soil(soil, settings.spec.variant);
-    });
+    const SettingsNode& soil = mapping.required("soil");
+    settings.soil = read_mapping(
+        soil, [&](SettingsMapping& keys) { return read_soil(keys, settings.spec.variant); });
     settings.spec.soil = settings.soil.mean;
+    settings.warnings = doubtful_units(soil, settings.soil.mean);
     if (const SettingsNode* name = mapping.optional("soil_name")) settings.soil_name = name->text();
     return settings;
   });

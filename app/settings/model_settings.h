@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/settings/settings_mapping.h"
 #include "app/settings/settings_node.h"
@@ -14,6 +15,7 @@ struct ModelSettings {
   WheelModelSpec spec;                   ///< `{mean, std}` counts by its mean
   UncertainSoil soil;                    ///< the soil with what is known of its spread
   std::optional<std::string> soil_name;  ///< the soil of a map that these numbers replace
+  std::vector<std::string> warnings{};   ///< soil numbers whose unit is doubtful, a sentence each
 };
 
 /// Reads `{model, wheel: {radius_m, width_m}, gravity_mps2, soil: {<soil keys>}, soil_name,

@@ -45,7 +45,7 @@ Goal read_goal(const SettingsNode& node, double speed_max_mps) {
     Goal goal;
     goal.x_m = mapping.number("x_m", kAnyNumber);
     goal.y_m = mapping.number("y_m", kAnyNumber);
-    goal.radius_m = mapping.number("radius_m", kAbove0);
+    goal.radius_m = mapping.number("radius_m", kAnyNumber);  // how large it may be, the map says
     const SettingsNode* heading = mapping.optional("heading_deg");
     const SettingsNode* tolerance = mapping.optional("heading_tolerance_deg");
     if (!heading != !tolerance) {
@@ -143,6 +143,12 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
                                                      : named_vehicle(node, folder);
 }
 
+ScenarioMap with_class_notice(ScenarioMap map, const std::string& raster) {
+  std::string notice = unlisted_classes_notice(map.map, raster);
+  if (!notice.empty()) map.notices.push_back(std::move(notice));
+  return map;
+}
+
 /// The files of a scenario beside those of its map.
 std::vector<InputFile> inputs_of(const std::string& file, const SettingsNode& vehicle,
                                  const std::filesystem::path& folder,
@@ -194,30 +200,38 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
     std::vector<std::string> notices;
 
     const SettingsNode& soils = mapping.required("soils");
-    SoilCatalogue catalogue =
-        soils.kind() == SettingsNode::Kind::kMapping
-            ? read_soil_catalogue(soils, variant)
-            : read_named(soils, [&](const NamedFile& file) {
-                if (!std::filesystem::exists(file.path)) {
-                  throw InputError(file.path.string() + ": no such file");
-                }
-                return read_soil_catalogue(read_settings(file.path.string()), variant);
-              });
+    const auto read_soils = [&](const SettingsNode& given) {
+      SoilCatalogue catalogue = read_soil_catalogue(given, variant);
+      std::ranges::move(doubtful_units(given, catalogue), std::back_inserter(notices));
+      return catalogue;
+    };
+    SoilCatalogue catalogue = soils.kind() == SettingsNode::Kind::kMapping
+                                  ? read_soils(soils)
+                                  : read_named(soils, [&](const NamedFile& file) {
+                                      if (!std::filesystem::exists(file.path)) {
+                                        throw InputError(file.path.string() + ": no such file");
+                                      }
+                                      return read_soils(read_settings(file.path.string()));
+                                    });
 
     if (const SettingsNode* drawn = mapping.optional("terrain")) {
       SyntheticTerrain terrain = placed(*drawn, [&] { return draw_terrain(read_terrain(*drawn)); });
-      return ScenarioMap{.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
-                                           std::move(catalogue), std::move(terrain.rocks)),
-                         .notices = {},
-                         .inputs = std::move(inputs)};
+      return with_class_notice(
+          {.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
+                             std::move(catalogue), std::move(terrain.rocks)),
+           .notices = std::move(notices),
+           .inputs = std::move(inputs)},
+          fmt::format("{}:{}: {}", drawn->file(), drawn->line(), drawn->path()));
     }
     const SettingsNode& elevation_file = mapping.required("elevation");
     ElevationRaster elevation = read_named(
         elevation_file, [](const NamedFile& file) { return read_elevation(file.path.string()); });
 
     std::optional<ClassRaster> classes;
+    std::string classes_shown;
     if (const SettingsNode* name = mapping.optional("soil_class")) {
       read_named(*name, [&](const NamedFile& file) {
+        classes_shown = file.shown.string();
         classes = read_classes(file.path.string());
         std::string notice = adopt_crs(*classes, elevation.frame, file.shown.string());
         if (!notice.empty()) notices.push_back(std::move(notice));
@@ -233,10 +247,11 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
       rocks =
           read_named(*name, [](const NamedFile& file) { return read_rocks(file.path.string()); });
     }
-    return ScenarioMap{.map = TerrainMap(std::move(elevation), std::move(classes),
-                                         std::move(catalogue), std::move(rocks)),
-                       .notices = std::move(notices),
-                       .inputs = std::move(inputs)};
+    return with_class_notice({.map = TerrainMap(std::move(elevation), std::move(classes),
+                                                std::move(catalogue), std::move(rocks)),
+                              .notices = std::move(notices),
+                              .inputs = std::move(inputs)},
+                             classes_shown);
   });
 }
 
@@ -259,6 +274,8 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
   if (overrides.model_file) {
     model = read_model_file(*overrides.model_file);
     model_notices = leave_test_bed_behind(model->spec.mechanisms, *overrides.model_file);
+    // Without a name its soil numbers count nowhere.
+    if (model->soil_name) std::ranges::copy(model->warnings, std::back_inserter(model_notices));
   }
   const WheelVariant variant = model ? model->spec.variant : WheelVariant::kIshigami2007;
 

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <iterator>
+#include <limits>
+#include <string_view>
 
 #include "app/io/number_text.h"
 
@@ -103,6 +106,50 @@ SoilCatalogue read_soil_catalogue(const SettingsNode& node, WheelVariant variant
     }
     return catalogue;
   });
+}
+
+std::vector<std::string> doubtful_units(const SettingsNode& soil, const Soil& mean) {
+  struct Doubt {
+    std::string_view key;
+    double usual_min, usual_max;  // in the file's unit
+    const char* suspected;
+  };
+  constexpr double kNoMax = std::numeric_limits<double>::infinity();
+  constexpr double kShearModulusMax_m = 0.3;
+  constexpr std::array<Doubt, 6> kDoubts{{
+      {"friction_angle_deg", 2, kNoMax, "radians"},
+      {"cohesion_pa", 10, kNoMax, "kPa"},
+      {"density_kgpm3", 100, kNoMax, "g/cm3"},
+      {"kphi", 1e4, kNoMax, "kN/m^(n+2)"},
+      {"kx0_m", 0, kShearModulusMax_m, "cm or mm"},
+      {"ky0_m", 0, kShearModulusMax_m, "cm or mm"},
+  }};
+  std::vector<std::string> sentences;
+  for (const SoilParameter& parameter : soil_parameters()) {
+    const auto* const doubt = std::ranges::find(kDoubts, parameter.name, &Doubt::key);
+    if (doubt == kDoubts.end()) continue;
+    const double value = mean.*parameter.member / parameter.file_unit;
+    const bool small = value != 0 && value < doubt->usual_min;  // a soil may have no cohesion
+    if (!small && value <= doubt->usual_max) continue;
+    const std::string text = number_in_unit(mean.*parameter.member, parameter.file_unit);
+    const SettingsNode* place = soil.find(doubt->key);
+    sentences.emplace_back((place ? *place : soil)
+                               .error(fmt::format("{} is {} for a soil; suspected: {}", text,
+                                                  small ? "small" : "large", doubt->suspected))
+                               .what());
+  }
+  return sentences;
+}
+
+std::vector<std::string> doubtful_units(const SettingsNode& node, const SoilCatalogue& catalogue) {
+  std::vector<std::string> sentences;
+  const SettingsNode* soils = node.find("soils");
+  for (std::size_t i = 0; soils && i < catalogue.soils.size(); ++i) {
+    const SettingsNode& soil = soils->mapping().at(i).value;
+    std::ranges::move(doubtful_units(soil, catalogue.soils[i].soil.mean),
+                      std::back_inserter(sentences));
+  }
+  return sentences;
 }
 
 std::string soil_keys_text(const UncertainSoil& soil, const std::string& indent) {

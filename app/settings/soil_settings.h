@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/settings/settings_mapping.h"
 #include "maps/terrain_map.h"
@@ -16,6 +17,14 @@ UncertainSoil read_soil(SettingsMapping& mapping, WheelVariant variant);
 /// Reads `{classes: {CODE: NAME}, soils: {NAME: {source, <soil keys>}}, unmapped: NAME |
 /// forbidden}`; without `unmapped`, unmapped cells are forbidden.
 SoilCatalogue read_soil_catalogue(const SettingsNode& node, WheelVariant variant);
+
+/// Means that hardly any soil has, but that the usual slip of a unit gives (an angle in radians,
+/// kPa for Pa, ...): a sentence each, with file, line, key, value and the unit that is suspected.
+/// \param soil where the keys stand \param mean what was read there
+std::vector<std::string> doubtful_units(const SettingsNode& soil, const Soil& mean);
+
+/// Of every soil of a catalogue. \param node what `catalogue` was read from
+std::vector<std::string> doubtful_units(const SettingsNode& node, const SoilCatalogue& catalogue);
 
 /// The catalogue as a soils file that reads back to the same numbers, bit for bit.
 std::string soil_catalogue_text(const SoilCatalogue& catalogue);

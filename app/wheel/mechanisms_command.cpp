@@ -10,6 +10,7 @@
 #include "app/command/command.h"
 #include "app/command/plan_options.h"
 #include "app/settings/model_settings.h"
+#include "app/wheel/other_names.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/mechanisms/mechanism.h"
@@ -195,8 +196,56 @@ ExitStatus check_model(const std::string& file) {
   return kYes;
 }
 
+Json other_json(const OtherName& other) {
+  Json numbers = Json::array();
+  for (const NamedNumber& number : other.numbers) {
+    numbers.push_back({{"name", number.name}, {"unit", number.unit}});
+  }
+  return {{"id", other.id},
+          {"of", other.of},
+          {"what", other.what},
+          {"columns", other.columns},
+          {"parameters", numbers}};
+}
+
+std::string other_text(const OtherName& other) {
+  std::string text =
+      fmt::format("{}\n  no mechanism of a wheel; {} of {}\n  {}\n", other.id,
+                  other.numbers.empty() ? "a word" : "a fault", other.of, other.what);
+  if (!other.columns.empty()) text += fmt::format("  columns: {}\n", other.columns);
+  for (const NamedNumber& number : other.numbers) {
+    text += fmt::format("    {:<14} {}\n", number.name,
+                        number.unit.empty() ? "a share" : "unit: " + std::string(number.unit));
+  }
+  return text;
+}
+
+ExitStatus tell_other(const OtherName& other, bool json) {
+  fmt::print("{}", json ? Json::array({other_json(other)}).dump(2) + "\n" : other_text(other));
+  return kYes;
+}
+
+std::string ids_of_others() {
+  std::string ids;
+  for (const OtherName& other : other_names())
+    ids += (ids.empty() ? "" : ", ") + std::string(other.id);
+  return ids;
+}
+
+/// \throws InputError naming every id that is known
+[[noreturn]] void refuse(const std::string& id) {
+  std::string ids, last;
+  for (const MechanismForm& form : mechanism_forms()) {
+    if (last != form.id) ids += (ids.empty() ? "" : ", ") + std::string(form.id);
+    last = form.id;
+  }
+  throw InputError(fmt::format("mechanism id: {} is none of {}; nor a name beside these: {}", id,
+                               ids, ids_of_others()));
+}
+
 ExitStatus run_mechanisms(const MechanismsOptions& options) {
   if (options.model) return check_model(*options.model);
+  if (const OtherName* other = other_name(options.id)) return tell_other(*other, options.json);
   Json all = Json::array();
   std::string text, last;
   for (const MechanismForm& form : mechanism_forms()) {
@@ -209,12 +258,16 @@ ExitStatus run_mechanisms(const MechanismsOptions& options) {
     last = form.id;
     text += form_text(form);
   }
-  if (all.empty() && text.empty()) form_of({.id = options.id});  // throws, naming the known ones
+  if (all.empty() && text.empty()) refuse(options.id);
   if (options.json) {
     fmt::print("{}\n", all.dump(2));
     return kYes;
   }
   fmt::print("{}", text);
+  if (!options.quiet && options.id.empty()) {
+    fmt::print("\nBeside these, no physics of a wheel (regoplan mechanisms ID tells what): {}\n",
+               ids_of_others());
+  }
   if (!options.quiet) {
     fmt::print(
         "\nPictures: change at slip -0.6 -0.3 0 0.2 0.4 0.6 0.8, slip angle 15 deg, at the "
@@ -233,7 +286,9 @@ Command add_mechanisms_command(CLI::App& program) {
       "mechanisms",
       "The vocabulary of diagnose: every mechanism with its forms, parameters (unit, usual range,\n"
       "default), source, and a small picture of what it does to Fx, Fy, torque and sinkage.");
-  CLI::Option* id = parser->add_option("ID", options->id, "one mechanism only");
+  CLI::Option* id = parser->add_option(
+      "ID", options->id,
+      "one only; faults of instruments and vehicles that diagnose names as well");
   parser
       ->add_option("--model", options->model,
                    "instead: the mechanisms of a model file, and what it leaves to defaults")

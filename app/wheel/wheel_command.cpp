@@ -55,7 +55,8 @@ ExitStatus run_wheel(const WheelOptions& options) {
   if (options.conditions.empty() || options.model.empty()) {
     throw InputError("CONDITIONS.csv and --model FILE.yaml are needed, or --figures DIR");
   }
-  const WheelModel model(read_model_file(options.model).spec);
+  const ModelSettings settings = read_model_file(options.model);
+  const WheelModel model(settings.spec);
   if (!std::filesystem::exists(options.conditions)) {
     throw InputError(options.conditions + ": no such file");
   }
@@ -68,6 +69,7 @@ ExitStatus run_wheel(const WheelOptions& options) {
     throw InputError("--out: " + options.conditions + " would overwrite its own input");
   }
 
+  for (const std::string& warning : settings.warnings) notify(warning, options.quiet);
   const std::stop_token stop = stop_on_interrupt();
   PolledInput input(options.conditions, stop);
   std::istream conditions(&input);

@@ -65,9 +65,10 @@ def unwhole_files(out):
 
 
 def staging(out):
-    """When the hidden folder was made that files are written to first; 0 where there is none."""
+    """When the hidden folder was made that files are written to first: in `out`, or beside it where
+    that is still to be made; 0 where there is none."""
     try:
-        return max((entry.stat().st_ctime for entry in os.scandir(out)
+        return max((entry.stat().st_ctime for entry in os.scandir(out if out.exists() else out.parent)
                     if entry.name.startswith(".regoplan-") and entry.is_dir()), default=0)
     except FileNotFoundError:
         return 0
@@ -113,7 +114,8 @@ def whole_run(program, arguments, folder):
 
 
 def left_in(folder):
-    left = [path.name for path in (folder / "out").glob(".*") if path.name != ".regoplan-files"]
+    left = [path.name for at in (folder, folder / "out") for path in at.glob(".regoplan-*")
+            if path.name != ".regoplan-files"]
     return left + [path.name for path in (folder / "cache").glob("*/*.force-table.*")]
 
 

@@ -88,9 +88,10 @@ def interrupted(process, after_s, number):
 
 
 def wrong_in(out, says):
+    wrong = [f"{left.name} is left" for at in (out, out.parent) for left in at.glob(".regoplan-*")
+             if left.name != ".regoplan-files"]
     if not out.exists():
-        return []
-    wrong = [f"{left.name} is left" for left in out.glob(".*") if left.name != ".regoplan-files"]
+        return wrong
     if not (out / says).exists():
         return wrong + [f"{file.name} without {says}" for file in out.glob("[!.]*")
                         if file.name != "runs.jsonl"]

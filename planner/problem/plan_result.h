@@ -119,6 +119,12 @@ struct RelaxedAnswer {
 enum class PlanStatus { kFeasible, kInfeasible, kUndecided };
 std::string_view name(PlanStatus status);  ///< `feasible`, `infeasible`, `undecided`
 
+/// What a part of a plan took.
+struct TimedStep {
+  std::string step;
+  double time_s = 0;
+};
+
 struct PlanResult {
   PlanStatus status = PlanStatus::kUndecided;
   std::string reason;
@@ -135,6 +141,7 @@ struct PlanResult {
   std::int64_t propagations = 0;
   /// No path of this problem is faster (`least_duration_s`), where that was worked out.
   std::optional<double> least_duration_s;
+  std::vector<TimedStep> before_search;    ///< since the plan's start, in order
   double planning_time_s = 0;              ///< from the first search's start to the last one's end
   double verification_time_s = 0;          ///< from then on: replays, improvement and soil draws
   std::optional<double> first_verified_s;  ///< since the plan's start, of the first verified path

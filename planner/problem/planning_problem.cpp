@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maps/class_codes.h"
 #include "maps/ground_finder.h"
 #include "planner/problem/gravity_range.h"
 #include "planner/problem/obstacles.h"
@@ -33,7 +34,7 @@ void validate_place(const TerrainMap& map, const char* what, double x_m, double 
   }
   if (!map.soil_index(x_m, y_m)) {
     throw InputError(
-        fmt::format("{}: the soil at ({}, {}) is unmapped or forbidden", what, x_m, y_m));
+        fmt::format("{}: no soil at ({}, {}): {}", what, x_m, y_m, why_no_soil(map, x_m, y_m)));
   }
 }
 
@@ -97,7 +98,13 @@ void validate(const PlanningProblem& problem) {
   require("start.speed_mps", problem.start.speed_mps,
           problem.start.speed_mps >= 0 && problem.start.speed_mps <= problem.speed_max_mps,
           "0 to speed_mps.max");
-  require("goal.radius_m", problem.goal.radius_m, problem.goal.radius_m > 0, "above 0");
+  // A goal of this size holds the map wherever it lies: nothing would be left to plan.
+  const GridFrame& frame = problem.map.elevation().frame;
+  const double diagonal_m =
+      std::hypot(frame.east_m() - frame.west_m, frame.north_m - frame.south_m());
+  require("goal.radius_m", problem.goal.radius_m,
+          problem.goal.radius_m > 0 && problem.goal.radius_m <= diagonal_m,
+          fmt::format("above 0 to the map's diagonal, {:.4g}", diagonal_m).c_str());
   require("goal.speed_mps.max", problem.goal.speed_max_mps,
           problem.goal.speed_max_mps >= 0 && problem.goal.speed_max_mps <= problem.speed_max_mps,
           "0 to speed_mps.max");

@@ -15,7 +15,8 @@ void set_by_draws(Standing& standing, double p05, double p05_high, const Probabi
   standing.high = broken ? feasible.high : p05_high;
 }
 
-std::vector<std::size_t> rank_order(const std::vector<Standing>& standings) {
+std::vector<std::vector<std::size_t>> rank_groups(const std::vector<Standing>& standings) {
+  std::vector<std::vector<std::size_t>> groups;
   std::vector<std::size_t> order(standings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto better = [&](std::size_t a, std::size_t b) {
@@ -36,7 +37,16 @@ std::vector<std::size_t> rank_order(const std::vector<Standing>& standings) {
       return standings[i].tier == leader.tier && standings[i].high >= leader.value;
     });
     std::stable_sort(group, rest, sooner);
+    groups.emplace_back(group, rest);
     group = rest;
+  }
+  return groups;
+}
+
+std::vector<std::size_t> rank_order(const std::vector<Standing>& standings) {
+  std::vector<std::size_t> order;
+  for (const std::vector<std::size_t>& group : rank_groups(standings)) {
+    order.insert(order.end(), group.begin(), group.end());
   }
   return order;
 }

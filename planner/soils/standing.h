@@ -25,9 +25,13 @@ struct Standing {
 /// \param p05_high upper end of the quantile's interval
 void set_by_draws(Standing& standing, double p05, double p05_high, const Probability& feasible);
 
-/// Indices from the best down. The best of those left leads a group: whoever is of its tier and
-/// lies within its own sampling error of the leader is tied with it. In a group the faster ranks
-/// first, then the shorter; where limits break in draws, those off doubtful soils before them.
+/// Indices from the best down, in groups. The best of those left leads a group: whoever is of its
+/// tier and lies within its own sampling error of the leader is tied with it. In a group the faster
+/// ranks first, then the shorter; where limits break in draws, those off doubtful soils before
+/// them.
+std::vector<std::vector<std::size_t>> rank_groups(const std::vector<Standing>& standings);
+
+/// The same without the groups.
 std::vector<std::size_t> rank_order(const std::vector<Standing>& standings);
 
 }  // namespace regoplan

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "planner/verdict/verified_path.h"
@@ -15,6 +16,10 @@ std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int m
 /// Ranks by `rank_order`: by the soils' draws; paths without draws come last, by their margin at
 /// the mean soils. Numbers the ranks from 1.
 void rank(std::vector<VerifiedPath>& paths);
+
+/// Ranks that the draws cannot tell apart: first and last of each group of two and more that are
+/// tied. \param ranked in the order of their ranks
+std::vector<std::pair<int, int>> tied_ranks(const std::vector<Candidate>& ranked);
 
 /// Whether a candidate keeps the chance constraint: the lower end of its probability's interval
 /// counts. What was not drawn keeps none but that of 0.

@@ -13,8 +13,8 @@ import regoplan
 from regoplan import _program, _tables
 
 # Differ between two runs of the program as well: times, and in what files the input stood.
-CLOCKS = ("planning_time_s", "verification_time_s", "first_verified_s", "evaluation_time_s",
-          "inputs")
+CLOCKS = ("before_search", "planning_time_s", "verification_time_s", "first_verified_s",
+          "evaluation_time_s", "inputs")
 
 
 def without_clocks(found):

@@ -7,6 +7,8 @@
 #include <array>
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "tests/app/error_text.h"
 #include "tests/app/json_schema.h"
@@ -39,6 +41,21 @@ class Diagnose : public testing::Test {
     std::stringstream text;
     text << stream.rdbuf();
     return folder_.write("changed.csv", replaced(text.str(), from, to));
+  }
+
+  /// Every name of a ranking is one that `mechanisms` knows, with its columns and units.
+  void expect_every_name_told(const nlohmann::json& ranking) const {
+    std::set<std::string> names;
+    for (const auto& candidate : ranking) {
+      std::stringstream ids(candidate.at("id").get<std::string>());
+      for (std::string id; std::getline(ids, id, '+');) names.insert(id);
+    }
+    EXPECT_TRUE(names.contains("sensor_gain"));
+    for (const std::string& id : names) {
+      const ProgramRun told = run_program(folder_, "mechanisms --json " + id);
+      ASSERT_EQ(told.status, 0) << told.errors;
+      for (const auto& form : nlohmann::json::parse(told.output)) EXPECT_EQ(form.at("id"), id);
+    }
   }
 
   ScratchFolder folder_;
@@ -78,6 +95,7 @@ TEST_F(Diagnose, TheBuiltInRecordingIsExplainedTheSameWhateverTheThreads) {
     }
   }
   EXPECT_NEAR(sum, 1, 1e-9);
+  expect_every_name_told(d["ranking"]);
   EXPECT_NEAR(d["mechanisms"][0]["probability"].get<double>(), with_the_name, 1e-9);
   const auto& share = d["mechanisms"][0]["share"];
   EXPECT_GT(share["explained"], 0.9);

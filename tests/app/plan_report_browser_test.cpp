@@ -1,4 +1,7 @@
 
+#include <algorithm>
+#include <regex>
+
 #include "app/plan/plan_report.h"
 #include "tests/app/browser_page.h"
 #include "tests/app/plan_report_fixture.h"
@@ -43,6 +46,33 @@ TEST_F(PlanReportInTheBrowser, DrawsAnAnswerWithoutAnyPath) {
   PlanResult nothing;
   nothing.status = PlanStatus::kInfeasible;
   expect_drawn_without_error(drawn(nothing));
+}
+
+/// Titles of the sections that are seen.
+std::vector<std::string> sections_of(const std::string& page) {
+  static const std::regex section(R"(<section([^>]*)>\s*<h2[^>]*>([^<]*)</h2>)");
+  std::vector<std::string> titles;
+  for (std::sregex_iterator at(page.begin(), page.end(), section), end; at != end; ++at) {
+    if (at->str(1).find("hidden") == std::string::npos) titles.push_back(at->str(2));
+  }
+  return titles;
+}
+
+TEST_F(PlanReportInTheBrowser, HasNoSectionThatSaysNothing) {
+  const std::vector<std::string> whole = sections_of(drawn(result_));
+  for (const char* title : {"Along the path", "What carries the answer"}) {
+    EXPECT_NE(std::ranges::find(whole, title), whole.end()) << title;
+  }
+  PlanResult nothing;
+  nothing.status = PlanStatus::kUndecided;
+  nothing.rejected[0] = 3;
+  const std::vector<std::string> undecided{"Candidates", "Map", "What was rejected, and why",
+                                           "How this was decided", "What this does not say"};
+  EXPECT_EQ(sections_of(drawn(nothing)), undecided);
+  nothing.status = PlanStatus::kInfeasible;
+  nothing.rejected[0] = 0;
+  nothing.certificate = "the start is walled in";
+  EXPECT_EQ(sections_of(drawn(nothing)).size(), undecided.size() - 1);
 }
 
 }  // namespace

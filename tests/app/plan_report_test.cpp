@@ -240,5 +240,18 @@ TEST(PlanHeadline, UndecidedNeverSoundsLikeNo) {
   EXPECT_EQ(plan_headline(result, {}), "Undecided: no path was found in 20 s.");
 }
 
+TEST_F(PlanReport, SaysWhichRanksAreTied) {
+  const auto set = [&](std::size_t k, double p05, double p05_high) {
+    result_.candidates[k].spread->p05 = p05;
+    result_.candidates[k].spread->p05_high = p05_high;
+  };
+  set(0, 0.103, 0.12);
+  set(1, 0.100, 0.11);
+  set(2, 0.05, 0.06);
+  EXPECT_NE(plan_report(problem_, result_).find("<p>Ranks 1 and 2 are tied: "), std::string::npos);
+  set(1, 0.100, 0.102);
+  EXPECT_EQ(plan_report(problem_, result_).find("are tied: "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace regoplan

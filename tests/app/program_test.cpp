@@ -101,7 +101,9 @@ TEST_F(BadScenario, GoalOutsideTheMap) {
 
 TEST_F(BadScenario, GoalRadiusZero) {
   change("radius_m: 3", "radius_m: 0");
-  expect_refused({"scenario.yaml:7: goal.radius_m: 0 is not valid (allowed: above 0)"});
+  expect_refused(
+      {"scenario.yaml:7: goal.radius_m: 0 is not valid (allowed: above 0 to the map's "
+       "diagonal, 56.57)"});
 }
 
 TEST_F(BadScenario, UnknownKey) {
@@ -274,6 +276,43 @@ TEST_F(Program, ABadMapSettingIsNamedAsItsOption) {
   EXPECT_EQ(bad.status, 1);
   EXPECT_TRUE(bad.errors.starts_with("regoplan: --cell-m: -1 is not valid")) << bad.errors;
   EXPECT_FALSE(std::filesystem::exists(folder_.path("m")));
+}
+
+TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
+  const ProgramRun gain = run("mechanisms sensor_gain");
+  EXPECT_EQ(gain.status, 0) << gain.errors;
+  for (const char* words : {"an instrument", "told = (1 + gain) true", "fx_n, fy_n, torque_nm",
+                            "settling_time_s unit: s"}) {
+    EXPECT_NE(gain.output.find(words), std::string::npos) << words << " in: " << gain.output;
+  }
+  // Those that docs/drive-diagnosis.md lists as faults of a vehicle and its map.
+  for (const char* id :
+       {"wheel_drag", "side_drag", "steering_offset", "wheel_radius", "payload", "motor_constant",
+        "cg_offset", "tow_drag", "map_offset", "zone_border", "attitude_mounting"}) {
+    const ProgramRun told = run(std::string("mechanisms --json ") + id);
+    EXPECT_EQ(told.status, 0) << told.errors;
+    for (const auto& number : nlohmann::json::parse(told.output).at(0).at("parameters")) {
+      EXPECT_TRUE(number.at("unit") != "" || std::string(number.at("name")).ends_with("share"));
+    }
+  }
+  EXPECT_NE(run("mechanisms").output.find("sensor_gain"), std::string::npos);
+  expect_refusal(run("mechanisms stickiness"),
+                 {"stickiness is none of ", "grousers", "sensor_gain"});
+}
+
+TEST_F(Program, APlanSaysWhereItsTimeWentBeforeTheSearchWhereThatIsMuch) {
+  write_flat_scenario(folder_);
+  const auto plan = [&](const std::string& budget) {
+    return run("plan" + quoted("scenario.yaml") + "--out" + quoted("out") + budget).output;
+  };
+  const std::string line = "s went before the search: reading the scenario and its map ";
+  // A program takes longer than a ten thousandth of a second to start.
+  EXPECT_NE(plan("--time 0.001").find("Of 0.001 s, "), std::string::npos);
+  EXPECT_NE(plan("--time 0.001").find(line), std::string::npos);
+  EXPECT_EQ(plan("--iterations 20").find(line), std::string::npos);
+  const auto json = nlohmann::json::parse(folder_.read("out/plan.json"));
+  EXPECT_EQ(json.at("before_search").at(0).at("step"), "reading the scenario and its map");
+  EXPECT_GT(json.at("before_search").at(0).at("time_s"), 0);
 }
 
 }  // namespace

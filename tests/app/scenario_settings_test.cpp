@@ -151,8 +151,12 @@ TEST_F(ScenarioSettings, WhatAModelSaysOfItsTestBedIsLeftBehind) {
 }
 
 TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
-  EXPECT_EQ(error_of("radius_m: 3", "radius_m: 0"),
-            "s.yaml:7: goal.radius_m: 0 is not valid (allowed: above 0)");
+  for (const char* radius_m : {"0", "57", "1000000000"}) {  // the map is 40 m by 40 m
+    EXPECT_EQ(error_of("radius_m: 3", std::string("radius_m: ") + radius_m),
+              fmt::format("s.yaml:7: goal.radius_m: {} is not valid (allowed: above 0 to the map's "
+                          "diagonal, 56.57)",
+                          radius_m));
+  }
   EXPECT_EQ(error_of("radius_m: 3", "radius: 3"),
             "s.yaml:7: goal: radius_m is missing (line 7 has radius)");
   EXPECT_EQ(error_of("gravity_mps2: 1.62", "gravity_mps2: .nan"),
@@ -203,6 +207,50 @@ TEST_F(ScenarioSettings, AClassRasterWithoutCrsTakesTheElevationsWithANotice) {
   const Scenario read =
       scenario(std::string("soils: ") + kOneSoil, "soil_class: classes.tif\n  soils: " + soils);
   EXPECT_EQ(read.notices.size(), 1);
+}
+
+TEST_F(ScenarioSettings, SoilsInAnotherUnitAreToldAsASetupTellsThem) {
+  const auto told = [](const std::vector<std::string>& notices, const std::string& words) {
+    return std::ranges::any_of(notices, [&](const auto& n) { return n.ends_with(words); });
+  };
+  const char* const radians = ".friction_angle_deg: 0.65 is small for a soil; suspected: radians";
+  EXPECT_FALSE(told(scenario("gravity_mps2", "gravity_mps2").notices, radians));
+  EXPECT_TRUE(told(scenario("friction_angle_deg: 35", "friction_angle_deg: 0.65").notices,
+                   "map.soils.soils.mare" + std::string(radians)));
+  // A model that takes the place of a soil of the map is a soil as well.
+  const std::string model =
+      replaced(replaced(kSimulantModel, "soil_name: simulant", "soil_name: mare"),
+               "friction_angle_deg: 37.2", "friction_angle_deg: 0.65");
+  const std::string file = folder_.write("m.yaml", model);
+  EXPECT_TRUE(told(scenario("gravity_mps2", "gravity_mps2", {.model_file = file}).notices,
+                   "m.yaml:7: soil" + std::string(radians)));
+}
+
+TEST_F(ScenarioSettings, AClassWithoutASoilIsToldWithItsCodeItsCellsAndTheRemedy) {
+  ClassRaster classes{.frame = flat_elevation().frame, .code = std::vector<std::int32_t>(1600, 1)};
+  classes.code[20 * 40 + 10] = 6;  // below the start
+  classes.code[0] = 7;
+  write_classes(classes, folder_.path("classes.tif"));
+  const std::string soils = kOneSoil;
+  const auto listing = [&](const std::string& listed) {
+    return "soil_class: classes.tif\n  soils: {" + listed + soils.substr(1);
+  };
+  const std::string as_it_is = "soils: " + soils;
+  EXPECT_EQ(error_of(as_it_is, listing("classes: {1: mare}, ")),
+            "s.yaml:7: start: no soil at (10, 20): the soil classes hold the code 6 there, in 1 of "
+            "1600 cells, and the soils do not list it (classes: 1; remedy: add 6: NAME to classes, "
+            "or unmapped: NAME)");
+  const auto told = [&](const std::string& listed) {
+    const std::vector<std::string> notices = scenario(as_it_is, listing(listed)).notices;
+    const auto found = std::ranges::find_if(
+        notices, [](const auto& n) { return n.find("no soil is given") != std::string::npos; });
+    return found == notices.end() ? "" : found->substr(folder_.path("").size());
+  };
+  EXPECT_EQ(told("classes: {1: mare, 6: mare}, "),
+            "classes.tif: no soil is given for the code 7 (1 cell) of 1600 cells: their ground is "
+            "forbidden; remedy: add 7: NAME to classes of the soils, or unmapped: NAME");
+  EXPECT_EQ(told("classes: {1: mare, 6: mare, 7: mare}, "), "");
+  EXPECT_EQ(told("unmapped: mare, classes: {1: mare}, "), "");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "app/settings/soil_settings.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -164,6 +165,27 @@ TEST(SoilSettings, TheSoilsOfTheTestsAreThoseOfTheScenarios) {
     }
   }
   EXPECT_EQ(compared, 6);
+}
+
+TEST(SoilSettings, NumbersThatLookLikeAnotherUnitAreToldSoilBySoil) {
+  const auto doubts = [](const std::string& from, const std::string& to) {
+    const SettingsNode node = parse_settings(replaced(kSoils, from, to), "soils.yaml");
+    const auto all = doubtful_units(node, read_soil_catalogue(node, WheelVariant::kIshigami2007));
+    return all.size() == 1 ? all[0] : fmt::format("{} sentences", all.size());
+  };
+  EXPECT_EQ(doubts("source: measured", "source: measured"), "0 sentences");
+  EXPECT_EQ(doubts("cohesion_pa: 1000", "cohesion_pa: 0"), "0 sentences");
+  EXPECT_EQ(doubts("{mean: 37.2, std: 1.5}", "{mean: 0.65, std: 0.03}"),
+            "soils.yaml:7: soils.sand.friction_angle_deg: 0.65 is small for a soil; suspected: "
+            "radians");
+  EXPECT_EQ(doubts("cohesion_pa: 1000", "cohesion_pa: 1"),
+            "soils.yaml:19: soils.firm.cohesion_pa: 1 is small for a soil; suspected: kPa");
+  EXPECT_EQ(doubts("kphi: 8.14e5", "kphi: 814"),
+            "soils.yaml:9: soils.sand.kphi: 814 is small for a soil; suspected: kN/m^(n+2)");
+  EXPECT_EQ(doubts("density_kgpm3: 1600", "density_kgpm3: 1.6"),
+            "soils.yaml:14: soils.sand.density_kgpm3: 1.6 is small for a soil; suspected: g/cm3");
+  EXPECT_EQ(doubts("kx0_m: .036", "kx0_m: 3.6"),
+            "soils.yaml:15: soils.sand.kx0_m: 3.6 is large for a soil; suspected: cm or mm");
 }
 
 }  // namespace

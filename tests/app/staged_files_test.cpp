@@ -1,6 +1,11 @@
 #include "app/io/staged_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <iostream>
+#include <optional>
 
 #include "tests/app/error_text.h"
 #include "tests/scratch_folder.h"
@@ -101,16 +106,84 @@ TEST(StagedFiles, WhatAKilledProcessLeftIsSwept) {
   put({folder.path("")}, "1");
   EXPECT_EQ(folder.count(), 4);
   EXPECT_EQ(folder.read(".regoplan-notes"), "mine");
+
+  std::filesystem::create_directories(folder.path(".regoplan-99999999/half"));
+  put({folder.path("new")}, "1");
+  std::filesystem::create_directories(folder.path(".regoplan-99999999/half"));
+  put({folder.path("new")}, "2");
+  EXPECT_FALSE(std::filesystem::exists(folder.path(".regoplan-99999999")));
 }
 
 TEST(StagedFiles, OfAProcessThatIsStillAtItAreLeftAlone) {
   const ScratchFolder folder;
   StagedFiles other({folder.path("")});
-  const std::string half = other.path("half");
-  std::filesystem::rename(folder.path(".regoplan-" + std::to_string(getpid())),
-                          folder.path(".regoplan-99999999"));
+  other.write({.name = "half", .content = "x"});
   put({folder.path("")}, "1");
-  EXPECT_TRUE(std::filesystem::exists(folder.path(".regoplan-99999999")));
+  EXPECT_TRUE(std::filesystem::exists(other.path("half")));
+}
+
+TEST(StagedFiles, OfTwoThatAreGivenUpInOneNewFolderLeaveNoTrace) {
+  const ScratchFolder folder;
+  for (const bool first_ends_first : {true, false}) {
+    std::optional<StagedFiles> first, second;
+    first.emplace(ResultFolder{folder.path("new/deeper")});
+    second.emplace(ResultFolder{folder.path("new/deeper")});
+    first->write({.name = "one", .content = "1"});
+    (first_ends_first ? first : second).reset();
+    (first_ends_first ? second : first).reset();
+    EXPECT_EQ(folder.count(), 0) << first_ends_first;
+  }
+}
+
+TEST(StagedFiles, GivenUpLeaveWhatAnotherPutIntoTheSameNewFolder) {
+  const ScratchFolder folder;
+  {
+    const StagedFiles given_up({folder.path("new")});
+    put({folder.path("new")}, "1");
+  }
+  EXPECT_EQ(folder.read("new/one"), "1");
+  EXPECT_EQ(folder.count(), 4);  // the folder, both files and what is known of them
+}
+
+TEST(StagedFiles, ThatCannotBeMovedTakeTheFolderAwayThatTheyMade) {
+  const ScratchFolder folder;
+  StagedFiles staged({folder.path("new/deeper")});
+  const std::string file = staged.path("one");
+  std::filesystem::create_directory(
+      std::filesystem::path(file).replace_filename(".regoplan-files"));
+  EXPECT_NE(error_text([&] { staged.commit(); }), "");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("new")));
+}
+
+/// Starts processes that put files into one new folder at once, give up every other time, and ask
+/// whether it takes files in between. \returns those that failed
+int failures_side_by_side(const ResultFolder& folder, int processes, int rounds) {
+  for (int process = 0; process < processes; ++process) {
+    if (fork() != 0) continue;
+    const std::string error = error_text([&] {
+      for (int round = 0; round < rounds; ++round) {
+        const StagedFiles given_up(folder);
+        require_results_fit(folder, {"one", "two"});
+        put(folder, std::to_string(process));
+      }
+    });
+    if (!error.empty()) std::cerr << error << '\n';
+    _exit(error.empty() ? 0 : 1);
+  }
+  int failed = 0;
+  for (int status = 0; wait(&status) > 0;) failed += status == 0 ? 0 : 1;
+  return failed;
+}
+
+TEST(StagedFiles, OfProcessesThatEndAtOnceAreThoseOfOneAndStayKnown) {
+  const ScratchFolder folder;
+  for (int repeat = 0; repeat < 10; ++repeat) {
+    EXPECT_EQ(failures_side_by_side({folder.path("new")}, 8, 10), 0);
+    EXPECT_EQ(folder.read("new/one"), folder.read("new/two"));
+    EXPECT_EQ(folder.count(), 4);
+    EXPECT_EQ(error_text([&] { put({folder.path("new")}, "next"); }), "");
+    std::filesystem::remove_all(folder.path("new"));
+  }
 }
 
 TEST(StagedFiles, AFolderThatIsAFileIsAnErrorBeforeAnyWork) {
@@ -134,6 +207,10 @@ TEST(StagedFiles, AFolderThatTheSystemRefusesIsAnErrorThatLeavesNothing) {
       refusal({"/proc", false, "--chart"}).starts_with("--chart: /proc: cannot be written to: "));
   const std::string too_long = folder.path("new/" + std::string(300, 'n'));
   EXPECT_EQ(refusal({too_long}), "--out: " + too_long + ": cannot be made: File name too long");
+  const std::string astray = folder.path("astray");
+  std::filesystem::create_symlink("/proc/no-such-folder", astray);
+  EXPECT_EQ(refusal({astray}), "--out: " + astray + ": cannot be made: File exists");
+  std::filesystem::remove(astray);
   EXPECT_EQ(folder.count(), 0);
 }
 

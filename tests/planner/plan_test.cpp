@@ -201,6 +201,31 @@ TEST(Plan, AStopRequestEndsItWithWhatThereIs) {
   EXPECT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
 }
 
+TEST(PlanTime, BeforeTheSearchIsToldStepByStepFromTheStartOn) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.search.planner = "Lattice";
+  problem.search.iterations = 100;
+  const auto now = std::chrono::steady_clock::now();
+  const PlanResult result = plan(problem, {.started = now - std::chrono::seconds(5)});
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - now;
+  ASSERT_EQ(result.before_search.size(), 4);
+  EXPECT_GE(result.before_search[0].time_s, 5);  // whoever reads the scenario is counted as well
+  double whole_s = result.planning_time_s;
+  for (const TimedStep& timed : result.before_search) {
+    EXPECT_GE(timed.time_s, 0) << timed.step;
+    EXPECT_NE(timed.step, "");
+    whole_s += timed.time_s;
+  }
+  EXPECT_LE(whole_s, 5 + taken.count());
+
+  // A certificate needs no search, and has its time too.
+  problem.limits.slope_max_rad = 0.01;
+  problem.map = one_soil_map(50, firm_regolith(), [](double x, double) { return 0.2 * x; });
+  const PlanResult refused = plan(problem, {});
+  ASSERT_EQ(refused.status, PlanStatus::kInfeasible);
+  EXPECT_EQ(refused.before_search.size(), 3);
+}
+
 TEST(PlanTime, IsThatOfTheWholeAnswer) {
   UncertainSoil uncertain = firm_regolith();
   uncertain.standard_deviation.friction_angle_rad = 4 * kTestDegree;

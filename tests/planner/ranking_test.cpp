@@ -52,6 +52,18 @@ TEST(Ranking, WhoLiesWithinItsOwnSamplingErrorOfTheBestIsTiedAndTimeDecides) {
   EXPECT_EQ(order_of({best, drawn(path("b", 0.2, 60), 0.100, 0.102)}), "ab");
 }
 
+TEST(Ranking, TiedRanksAreThoseThatTheDrawsCannotTellApart) {
+  std::vector<VerifiedPath> paths{
+      drawn(path("a", 0.2, 90), 0.103, 0.12), drawn(path("b", 0.2, 60), 0.100, 0.11),
+      drawn(path("c", 0.2, 50), 0.050, 0.06), drawn(path("d", 0.2, 40), 0.020, 0.03),
+      drawn(path("e", 0.2, 30), 0.015, 0.021)};
+  rank(paths);
+  std::vector<Candidate> ranked;
+  for (const VerifiedPath& path : paths) ranked.push_back(path.candidate);
+  EXPECT_EQ(tied_ranks(ranked), (std::vector<std::pair<int, int>>{{1, 2}, {4, 5}}));
+  EXPECT_TRUE(tied_ranks({ranked[0], ranked[2]}).empty());
+}
+
 TEST(Ranking, ABinsEdgeDecidesNothing) {
   // A thousandth apart, on either side of what would be a bin's edge of a hundredth.
   for (const double p05 : {0.1045, 0.1055, 0.1095}) {

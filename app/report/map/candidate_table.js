@@ -108,7 +108,7 @@ function candidateTable(host) {
         'No path was verified within the limits. Those named by letters take a change that stands in the table below; they keep all other limits and are dashed on the map.'));
   host.append(element(
       'p', {class: 'note'},
-      'Ranked by the margin that 95 % of the soil draws keep. Every path was replayed with the direct wheel model and a ten times finer step; the deviation is between search and replay. \u25c6 marks what no other path beats in smallest margin, duration and energy at once.'));
+      'Ranked by the margin that 95 % of the soil draws keep, or by the share of draws that hold where that breaks limits; what lies within its own sampling error of a better path is tied with it, and the faster stands first. Every path was replayed with the direct wheel model and a ten times finer step; the deviation is between search and replay. \u25c6 marks what no other path beats in smallest margin, duration and energy at once.'));
   const wide = element(
       'table', {class: 'candidates'},
       element(

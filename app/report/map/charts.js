@@ -113,8 +113,7 @@ const CHARTS = [
 
 function charts(host) {
   if (!view.selected) {
-    host.append(element('p', {}, 'There is no path to follow.'));
-    byId('along-path').parentElement.hidden = true;
+    host.closest('section').hidden = true;
     return;
   }
   const panels = CHARTS.map(chart => {

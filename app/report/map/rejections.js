@@ -69,7 +69,11 @@ function reasonSymbol(reason) {
 function rejectionBars(host) {
   const total = d3.sum(PLAN.rejected, r => r.count), most = d3.max(PLAN.rejected, r => r.count);
   if (!total) {
-    host.append(element('p', {}, 'The search rejected nothing.'));
+    // A certificate needs no search.
+    if (PLAN.certificate)
+      host.closest('section').hidden = true;
+    else
+      host.append(element('p', {}, 'The search rejected nothing.'));
     return;
   }
   const rows = PLAN.rejected.map(({reason, count}) => {
@@ -127,10 +131,11 @@ function rejectionDetail(state) {
 
 function whatIfTable(host) {
   if (!PLAN.what_ifs.length) {
-    host.append(element(
-        'p', {},
-        PLAN.candidates.length ? 'No what-ifs were asked.' :
-                                 'Without a candidate there is nothing to vary.'));
+    // Without a path there is nothing to vary.
+    if (PLAN.candidates.length)
+      host.append(element('p', {}, 'No what-ifs were asked.'));
+    else
+      host.closest('section').hidden = true;
     return;
   }
   const rows = PLAN.what_ifs.map((w, k) => {

@@ -94,6 +94,10 @@ function facts(host) {
               `${SECONDS(PLAN.planning_time_s)} searching and verifying, ${
                   SECONDS(PLAN.verification_time_s)} more improving and drawing soils`
             ],
+            ...PLAN.before_search.length === 0 ? [] : [[
+              'Before the search',
+              PLAN.before_search.map(part => `${part.step} ${SECONDS(part.time_s)}`).join(', ')
+            ]],
             ['Threads', integer(search.threads)], ['Program', `regoplan ${PLAN.version}`]
           ]),
       factTable(
