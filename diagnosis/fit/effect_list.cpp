@@ -52,6 +52,8 @@ bool can_bear(std::string_view id, const Columns& columns) {
   if (id == "cohesion_drift") return columns.time;
   if (id == "skid_branch") return columns.skid;
   if (id == "slip_sinkage") return columns.driving;
+  // Of a wheel that only drives straight ahead it is slip_sinkage.
+  if (id == "sliding_sinkage") return columns.angle || columns.skid;
   if (id == "soil_change") return columns.difference;
   if (id == "grousers") return columns.lugs;
   const std::set<std::string_view> kSideways{

@@ -102,6 +102,23 @@ TEST(Hypothesis, OfATorqueAsMuchMayLeakIntoAForceAsOfItsForceAtTheRim) {
   EXPECT_NEAR(spread_of("fx_n into torque_nm") / setup.wheel.radius_m, 0.08, 0.03);
 }
 
+/// What sinks in as a wheel slides, whichever way, is what sinks in as it slips while it only
+/// drives straight ahead: one name for one thing.
+TEST(Hypothesis, ToSlideIsToSlipWhereAWheelOnlyDrivesStraightAhead) {
+  const DiagnosisSetup setup = simulant_setup();
+  const auto offers_sliding = [&](const std::vector<double>& slips,
+                                  const std::vector<double>& angles_deg) {
+    const Recording recording =
+        record({}, setup, setup.soil.mean, {.slips = slips, .angles_deg = angles_deg}, 1);
+    return std::ranges::any_of(effects_for(condense(recording, setup).bed, recording),
+                               [](const Effect& e) { return e.id == "sliding_sinkage"; });
+  };
+  const std::vector<double> driving{0.05, 0.15, 0.3, 0.5, 0.8};
+  EXPECT_FALSE(offers_sliding(driving, {0}));
+  EXPECT_TRUE(offers_sliding(driving, {0, 10}));
+  EXPECT_TRUE(offers_sliding({-0.4, 0.05, 0.15, 0.3, 0.5}, {0}));
+}
+
 /// A recording of one day whose runs are ten minutes apart.
 Recording timed(const DiagnosisSetup& setup) {
   Recording recording = record({}, setup, setup.soil.mean, {.conditions = 12}, 1);
