@@ -11,7 +11,7 @@ set(app_suites
     BadScenario DiagnosisJson DocsOfResults DocsOfSettings DriveFile MapImport PlanFiles PlanReport
     RecordingFile ReportMap ScenarioSettings SettingsMapping SettingsNode SoilSettings WheelRows)
 set(planner_suites Obstacles PathCurve PathTracking Ranking TerrainRasters World)
-set(maps_suites RasterFiles TerrainMap)
+set(maps_suites RasterFiles RasterRemedies TerrainMap)
 set(terramech_suites SupplyTable)
 function(regoplan_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "drive_diagnosis/comparison/channel_samples.h"
 #include "drive_diagnosis/comparison/window_input.h"
 #include "drive_diagnosis/recording/fix_scatter.h"
 #include "drive_diagnosis/recording/robust_statistics.h"
@@ -15,48 +16,6 @@
 
 namespace regoplan {
 namespace {
-
-/// How far single samples of a channel scatter. Torques jump where a follower steers anew: that is
-/// motion, which the model has as well, and no noise. What stands says 0 and nothing of scatter.
-double sample_std(const DriveRecording& drive, const std::string& name) {
-  const DriveChannel* channel = drive.channel(name);
-  if (!channel) return 0;
-  std::vector<double> time_s, values;
-  for (std::size_t i = 0; i < drive.size(); ++i) {
-    const auto value = static_cast<double>(channel->values[i]);
-    if (std::isnan(value) || value == 0) continue;
-    time_s.push_back(drive.time_s[i]);
-    values.push_back(value);
-  }
-  return scatter_of_samples(time_s, values);
-}
-
-int samples_in(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
-  const DriveChannel* channel = drive.channel(name);
-  int samples = 0;
-  for (std::size_t i = 0; channel && i < drive.size(); ++i) {
-    const bool is_within = drive.time_s[i] >= window.start_s && drive.time_s[i] <= window.end_s;
-    if (is_within && !std::isnan(channel->values[i])) ++samples;
-  }
-  return samples;
-}
-
-/// Root mean square of a channel's samples in a window; 0 where it has none.
-double mean_size(const DriveRecording& drive, const DriveWindow& window, const std::string& name) {
-  const DriveChannel* channel = drive.channel(name);
-  if (!channel) return 0;
-  const auto begin = std::ranges::lower_bound(drive.time_s, window.start_s) - drive.time_s.begin();
-  double squares = 0;
-  int count = 0;
-  for (auto i = static_cast<std::size_t>(begin);
-       i < drive.size() && drive.time_s[i] <= window.end_s; ++i) {
-    const auto value = static_cast<double>(channel->values[i]);
-    if (std::isnan(value)) continue;
-    squares += value * value;
-    ++count;
-  }
-  return count == 0 ? 0 : std::sqrt(squares / count);
-}
 
 /// By how much an acceleration may be off: sinkage is that of steady motion at each place, and
 /// samples do not tell what happens between them.

@@ -1,0 +1,105 @@
+// What EffectFit does with a zone: its soil and its edges, in turn.
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "drive_diagnosis/fit/effect_fit.h"
+#include "drive_diagnosis/fit/likely_edges.h"
+
+namespace regoplan {
+
+void EffectFit::settle_zone(EffectFound& zone) {
+  const Settled start{.fit = fit_, .shifts = shifts_};
+  LinearisedWindows here = linearise().windows;
+  // A soil that fits badly leaves misfit in its zone, which would pass for noise.
+  scatter_ = scatter_outside(here, zone.share);
+  // A tenth of the windows is far from linear in what is sought: most of the time is saved.
+  WindowSet windows = windows_far_from_linear(here);
+  linearisation_.predict_only(std::move(windows), std::move(here));
+  Settled best = likeliest_soil(start, zone);
+  linearisation_.predict_all();
+  take_edges(zone);
+  go_on_from(std::move(best));
+  go_on_from(settled_with_edges(zone));
+  scatter_.reset();
+}
+
+/// Windows that a soil far from the map's moves beyond their first order while the zone that was
+/// added last is settled: those that a zone touches or may come to touch, and those in which the
+/// model has no motion.
+WindowSet EffectFit::windows_far_from_linear(const LinearisedWindows& here) const {
+  constexpr double kEdgesMove = 4;  // windows, in all rounds of place_edges
+  std::vector<WindowZone> all = zones();
+  all.back() = comparison_.widened(all.back(), kEdgesMove);
+  WindowSet windows = here.unbalanced;
+  for (const WindowZone& zone : all) {
+    WindowSet both;
+    std::ranges::set_union(windows, comparison_.touching(zone), std::back_inserter(both));
+    windows = std::move(both);
+  }
+  return windows;
+}
+
+/// \param zone gets the edges that it is likeliest with
+EffectFit::Settled EffectFit::likeliest_soil(const Settled& start, EffectFound& zone) {
+  const EffectFound found = zone;
+  const auto& less = contest_.wide_directions;  // bearing, cohesion and friction come first
+  const Eigen::VectorXd weaker = less[0] + less[1] + less[2];
+  Settled best;
+  for (const double weakness : {0.0, 1.4, 2.8}) {
+    EffectFound placed = found;
+    take_edges(placed);
+    go_on_from(start);
+    fit_.zones.back() = weakness * weaker;
+    Settled settled = settled_with_edges(placed);
+    // The map's soil is the answer where none of all says anything.
+    if (!best.fit.zones.empty() && settled.nats >= best.nats) continue;
+    best = std::move(settled);
+    zone = placed;
+  }
+  return best;
+}
+
+/// Soil and edges of the zone that was added last, in turn: an edge that is off by half a window
+/// asks for a soil that is nowhere.
+EffectFit::Settled EffectFit::settled_with_edges(EffectFound& zone) {
+  constexpr int kStepsBefore = 3, kRounds = 3;
+  Settled settled = settled_from_here(kStepsBefore);
+  for (int round = 0; round < kRounds; ++round) {
+    go_on_from(settled);
+    if (!place_edges(zone) && round > 0) break;
+    settled = settled_from_here();
+  }
+  return settled;
+}
+
+void EffectFit::take_edges(const EffectFound& zone) {
+  contest_.zones_known.back().share = zone.share;
+  edges_.back() = {zone.begins, zone.ends};
+}
+
+/// Moves the edges of the zone that was added last to where its soil makes them likeliest.
+/// \returns whether they moved
+bool EffectFit::place_edges(EffectFound& zone) {
+  const Eigen::MatrixXd shifts = shifts_;
+  const Weighed here = weigh();
+  // What the inputs' scatter explains stays what it is.
+  const Eigen::MatrixXd measured = comparison_.measured() + here.windows.windows.shifted_by(shifts);
+  const VehicleDeviation vehicle = deviation();
+  const LikelyEdges edges = likely_edges({.comparison = comparison_,
+                                          .deviation = vehicle,
+                                          .measured = measured,
+                                          .predicted = here.windows.windows.base,
+                                          .noise = here.noise},
+                                         zones(), stop_);
+  zone.begins = edges.begins;
+  zone.ends = edges.ends;
+  zone.first_at = edges.begins_ci95;
+  zone.last_at = edges.ends_ci95;
+  zone.share = shares_between(edges.begins, edges.ends, comparison_.size());
+  const std::array<double, 2> before = edges_.back();
+  take_edges(zone);
+  return edges_.back() != before;
+}
+
+}  // namespace regoplan
