@@ -234,7 +234,6 @@ class Diagnosing {
           "proves itself held out: it is taken for chance");
     }
     nothing_is_missing();
-    weigh(scored_, PlainModel::kHolds);
   }
 
   /// A fault of an instrument, known to the last term and so no name in part, that explains the
@@ -323,6 +322,7 @@ class Diagnosing {
     found_.verdict = Verdict::kUnexplained;
     found_.only_bed_memory = true;
     found_.remainder_share = 1;
+    weigh(scored_, PlainModel::kRefuted);
     if (found_.where.empty()) {
       if (auto after = last_part_of(calibrated_.recording())) found_.where.push_back(*after);
     }
@@ -335,6 +335,7 @@ class Diagnosing {
       only_bed_memory();
       return;
     }
+    weigh(scored_, PlainModel::kHolds);
     if (!consistent_) list_suspects();
     found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
     take(calibrated_alone(calibrated_, options_.threads));

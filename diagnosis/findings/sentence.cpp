@@ -209,7 +209,7 @@ std::string class_words(const Diagnosis& diagnosis) {
 
 /// Where the run before is all that replicates tell beside the soil.
 std::string bed_memory_words() {
-  return "Replicates follow what the run before left in the bed (see the notes), and no name on "
+  return "replicates follow what the run before left in the bed (see the notes), and no name on "
          "the list does that; beside it nothing is missing that these data could show. The "
          "corrected model is the calibrated one, for a bed as it was in the mean. To decide, "
          "prepare the bed anew before each run.";
@@ -234,7 +234,9 @@ std::string probability_words(double probability) {
   return probability > 0.99 ? "over 99 %" : fmt::format("{:.0f} %", 100 * probability);
 }
 
-std::string sentence_of(const Diagnosis& diagnosis) {
+namespace {
+
+std::string words_of(const Diagnosis& diagnosis) {
   std::string where;
   if (!diagnosis.where.empty()) {
     where = mismatch_words(diagnosis.where.front(),
@@ -264,6 +266,14 @@ std::string sentence_of(const Diagnosis& diagnosis) {
       return "The diagnosis was interrupted before it had a verdict.";
   }
   return "";
+}
+
+}  // namespace
+
+std::string sentence_of(const Diagnosis& diagnosis) {
+  std::string text = words_of(diagnosis);
+  if (!text.empty()) text.front() = static_cast<char>(std::toupper(text.front()));
+  return text;
 }
 
 }  // namespace regoplan

@@ -126,6 +126,7 @@ TEST(Diagnose, ABedThatKeepsWhatTheRunBeforeDidIsNoCleanBill) {
   EXPECT_NE(found.sentence.find("the run before"), std::string::npos) << found.sentence;
   ASSERT_FALSE(found.where.empty());
   EXPECT_TRUE(found.where.front().region.contains("after_slip_ratio"));
+  EXPECT_NE(found.ranking.front().id, "parameters");
 }
 
 TEST(Diagnose, AnAmplifierOnAnotherRangeIsASensorHoweverFarOff) {

@@ -84,6 +84,12 @@ TEST(Sentence, TellsNoShareOfAnExcessThatNoiseMayBe) {
   EXPECT_EQ(sentence.find("excess misfit"), std::string::npos) << sentence;
 }
 
+TEST(Sentence, BeginsWithACapitalWhereverNothingIsLocated) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.clear();
+  EXPECT_EQ(sentence_of(diagnosis).rfind("The data say", 0), 0) << sentence_of(diagnosis);
+}
+
 TEST(Sentence, CountsRunsAsTheRowsOfARecordingDo) {
   Diagnosis diagnosis = named();
   diagnosis.where.front().region = {{"run_order", {31.3, 47}}};

@@ -120,7 +120,7 @@ const soilsTold = Object.entries(REPORT.soils || {});
 if (soilsTold.length) {
   byId('soils-section').hidden = false;
   byId('soils').append(
-      element('p', {class: 'note'}, 'Outside zones. corrected-map/ has these numbers: they are fitted along with all else.'),
+      element('p', {class: 'note'}, 'By the windows that no zone touches, fitted along with all else. corrected-map/ has these numbers.'),
       ...soilsTold.map(soilTable));
 }
 const zonesText = REPORT.windows_used ? 'No zone of other soil.' :
