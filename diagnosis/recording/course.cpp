@@ -36,8 +36,7 @@ void add_stretches(const std::vector<WheelRun>& runs, std::vector<Column>& colum
   std::vector<double> edges_m;
   for (std::size_t k = 1; k < kParts; ++k) edges_m.push_back(along_m[runs.size() * k / kParts]);
   edges_m.push_back(std::nextafter(along_m.back(), INFINITY));
-  const auto repeated = std::ranges::unique(edges_m);
-  edges_m.erase(repeated.begin(), repeated.end());
+  edges_m.erase(std::unique(edges_m.begin(), edges_m.end()), edges_m.end());
   std::vector<Column> stretches;
   for (std::size_t i = 0; i < edges_m.size(); ++i) {
     for (std::size_t k = i + 1; k < edges_m.size(); ++k) {
