@@ -93,7 +93,9 @@ class FolderLock {
       if (file_ < 0 && missing == Missing::kLeave && errno == ENOENT) return;
       if (file_ >= 0 && !(wait() && is_named())) file_ = (close(file_), -1);
     }
-    if (file_ < 0) fail(folder, "cannot be locked");
+    if (file_ < 0) {
+      fail(folder, fmt::format("cannot be locked ({})", std::generic_category().message(errno)));
+    }
   }
   ~FolderLock() {
     if (file_ >= 0) close(file_);

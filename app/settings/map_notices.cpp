@@ -52,8 +52,9 @@ std::vector<std::string> map_notices(const TerrainMap& map, const Vehicle& vehic
 }
 
 std::string unlisted_classes_notice(const TerrainMap& map, const std::string& raster) {
+  if (map.catalogue().unmapped) return "";
   const std::vector<UnlistedCode> unlisted = unlisted_codes(map);
-  if (map.catalogue().unmapped || unlisted.empty()) return "";
+  if (unlisted.empty()) return "";
   constexpr std::size_t kListed = 8;
   std::vector<std::string> codes;
   for (const UnlistedCode& found : unlisted) {

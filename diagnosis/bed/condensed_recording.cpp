@@ -214,7 +214,9 @@ std::optional<Grouped> replicates_elsewhere(const Recording& recording, const Us
   for (const std::size_t run : usable.runs) ids.insert(recording.runs[run].run_id);
   if (repeated >= static_cast<std::size_t>(kEnoughReplicates) || ids.size() < usable.runs.size())
     return std::nullopt;
-  return group(recording, usable, model, {}, Places::kTogether);
+  Grouped together = group(recording, usable, model, {}, Places::kTogether);
+  if (together.conditions.size() == grouped.conditions.size()) return std::nullopt;
+  return together;
 }
 
 /// What may change in the course of a recording: every channel by as much, by a share of itself, or
@@ -377,7 +379,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
                     "diagnosis needs {} and more",
                     grouped.conditions.size(), fewest));
   }
-  const auto elsewhere = replicates_elsewhere(recording, usable, model, grouped);
+  auto elsewhere = replicates_elsewhere(recording, usable, model, grouped);
   const Grouped& replicated = elsewhere ? *elsewhere : grouped;
   if (elsewhere) {
     result.notes.emplace_back(
@@ -419,6 +421,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   }
   bed.accuracy = sufficient_accuracy(bed);
   bed.stop = std::move(stop);
+  if (elsewhere && result.course) take_off(*result.course, result.noise, elsewhere->channels);
   result.correlation = elsewhere ? noise_correlation(result.noise, elsewhere->conditions,
                                                      values_of(elsewhere->channels))
                                  : noise_correlation(result.noise, bed.conditions, result.adjusted);

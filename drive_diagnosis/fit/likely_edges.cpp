@@ -11,7 +11,8 @@ namespace regoplan {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kReach = 1;  ///< windows
+/// Steps by which edges are tried, and how far about the likeliest so far; windows.
+constexpr double kCoarse = 0.25, kReach = 1, kFine = 0.05, kNear = 0.2;
 /// How far off edges are told, in windows, though the nats of what they leave say that they are
 /// nearer: 95 % of 60 edges of concealed patches (benchmarks/drives, seeds 1351 to 1400) lie within
 /// .43, a quarter of a second of which is in the truth's own samples. The soil is another with each
@@ -34,8 +35,8 @@ class EdgeSearch {
       : windows_(windows),
         zones_(std::move(zones)),
         stop_(stop),
-        within_reach_(
-            windows.comparison.touching(windows.comparison.widened(zones_.back(), kReach))) {
+        within_reach_(windows.comparison.touching(
+            windows.comparison.widened(zones_.back(), kReach + kNear))) {
     // Windows that balance now have to with other edges too.
     otherwise_ = windows.predicted;
     const Eigen::MatrixXd now =
@@ -160,7 +161,6 @@ class EdgeSearch {
 
 LikelyEdges likely_edges(const FittedWindows& windows, std::vector<WindowZone> zones,
                          const std::stop_token& stop) {
-  constexpr double kCoarse = 0.25, kFine = 0.05, kNear = 0.2;  // windows
   EdgeSearch search(windows, std::move(zones), stop);
   search.try_about(kCoarse, kReach);
   search.try_about(kFine, kNear);

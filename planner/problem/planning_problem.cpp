@@ -104,7 +104,8 @@ void validate(const PlanningProblem& problem) {
       std::hypot(frame.east_m() - frame.west_m, frame.north_m - frame.south_m());
   require("goal.radius_m", problem.goal.radius_m,
           problem.goal.radius_m > 0 && problem.goal.radius_m <= diagonal_m,
-          fmt::format("above 0 to the map's diagonal, {:.4g}", diagonal_m).c_str());
+          fmt::format("above 0 to the map's diagonal, {:.2f}", std::floor(100 * diagonal_m) / 100)
+              .c_str());
   require("goal.speed_mps.max", problem.goal.speed_max_mps,
           problem.goal.speed_max_mps >= 0 && problem.goal.speed_max_mps <= problem.speed_max_mps,
           "0 to speed_mps.max");

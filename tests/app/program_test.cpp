@@ -103,7 +103,7 @@ TEST_F(BadScenario, GoalRadiusZero) {
   change("radius_m: 3", "radius_m: 0");
   expect_refused(
       {"scenario.yaml:7: goal.radius_m: 0 is not valid (allowed: above 0 to the map's "
-       "diagonal, 56.57)"});
+       "diagonal, 56.56)"});
 }
 
 TEST_F(BadScenario, UnknownKey) {

@@ -154,7 +154,7 @@ TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
   for (const char* radius_m : {"0", "57", "1000000000"}) {  // the map is 40 m by 40 m
     EXPECT_EQ(error_of("radius_m: 3", std::string("radius_m: ") + radius_m),
               fmt::format("s.yaml:7: goal.radius_m: {} is not valid (allowed: above 0 to the map's "
-                          "diagonal, 56.57)",
+                          "diagonal, 56.56)",
                           radius_m));
   }
   EXPECT_EQ(error_of("radius_m: 3", "radius: 3"),
