@@ -60,6 +60,7 @@ TEST(DiagnosisJson, FitIsByChannelAndSaysHowConditionsWereHeldOut) {
   EXPECT_EQ(d["fit"]["fx_n"]["held_out_by"], "slip band");
   EXPECT_EQ(d["held_out_by"], "slip band");
   EXPECT_EQ(d["share_explained"], 0.97);
+  EXPECT_EQ(d["excess_is_clear"], true);
   EXPECT_EQ(d["lack_of_fit"]["before"]["f"], 40);
   EXPECT_EQ(d["lack_of_fit"]["after"]["critical"], 2.1);
   EXPECT_EQ(d["lack_of_fit"]["after"]["p_value"], 0.4);

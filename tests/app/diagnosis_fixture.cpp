@@ -47,6 +47,7 @@ DiagnosisRun claimed_diagnosis() {
   d.fit = {{Channel::kFx, 0.1, 2.0, 1.1, 0.12}, {Channel::kSinkage, 2e-4, 3e-3, 1e-3, 2.2e-4}};
   d.held_out_by = "slip band";
   d.share_explained = 0.97;
+  d.excess_is_clear = true;
   d.before = {.f = 40,
               .critical = 2.1,
               .p_value = 1e-9,
