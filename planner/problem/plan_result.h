@@ -121,7 +121,7 @@ std::string_view name(PlanStatus status);  ///< `feasible`, `infeasible`, `undec
 
 /// What a part of a plan took.
 struct TimedStep {
-  std::string step;
+  std::string_view step;  ///< in words of the program, that outlive it
   double time_s = 0;
 };
 
