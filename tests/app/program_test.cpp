@@ -291,7 +291,8 @@ TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
         "cg_offset", "tow_drag", "map_offset", "zone_border", "attitude_mounting"}) {
     const ProgramRun told = run(std::string("mechanisms --json ") + id);
     EXPECT_EQ(told.status, 0) << told.errors;
-    for (const auto& number : nlohmann::json::parse(told.output).at(0).at("parameters")) {
+    const auto names = nlohmann::json::parse(told.output);
+    for (const auto& number : names.at(0).at("parameters")) {
       EXPECT_TRUE(number.at("unit") != "" || std::string(number.at("name")).ends_with("share"));
     }
   }
