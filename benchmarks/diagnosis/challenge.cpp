@@ -146,15 +146,6 @@ Plan with_wrong_soil(Random& random, Plan plan) {
   return plan;
 }
 
-bool is_valid(const Soil& soil) {
-  try {
-    validate(soil);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 const TruthEffect& in_turn(const std::vector<TruthEffect>& effects, std::uint64_t turn) {
   // a stride that is prime to the length spreads neighbours of the list
   return effects[turn * 11 % effects.size()];

@@ -96,12 +96,7 @@ Soil true_soil(Random& random, const UncertainSoil& known) {
     for (const SoilParameter& parameter : soil_parameters()) {
       soil.*parameter.member += bounded_normal(random) * known.standard_deviation.*parameter.member;
     }
-    try {
-      validate(soil);
-      return soil;
-    } catch (const std::exception&) {
-      continue;  // rare: a0 + a1 s left the contact
-    }
+    if (is_valid(soil)) return soil;  // rarely not: a0 + a1 s left the contact
   }
   return known.mean;
 }

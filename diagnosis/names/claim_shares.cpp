@@ -19,10 +19,9 @@ const CandidateFit* fit_of(const std::set<std::string>& ids, const std::vector<S
 
 void measure_shares(const CalibratedRecording& calibrated, const std::vector<ScoredId>& scored,
                     const CandidateFit& fit, int threads, std::vector<Claim>& claims) {
-  if (!name_share(calibrated, fit, threads).is_told) return;
-  const auto share = [&](const CandidateFit& with, const CandidateFit* without) {
-    return without == nullptr ? name_share(calibrated, with, threads).share
-                              : added_share(calibrated, with, *without, threads).share;
+  const auto measured = [&](const CandidateFit& with, const CandidateFit* without) {
+    return without == nullptr ? name_share(calibrated, with, threads)
+                              : added_share(calibrated, with, *without, threads);
   };
   std::set<std::string> before;
   for (Claim& claim : claims) {
@@ -31,13 +30,15 @@ void measure_shares(const CalibratedRecording& calibrated, const std::vector<Sco
     names.insert(claim.id);
     const CandidateFit* with = names.size() == claims.size() ? &fit : fit_of(names, scored);
     if (with == nullptr) return;
-    claim.share = share(*with, without);
+    const NameShare share = measured(*with, without);
+    if (!share.is_told) return;
+    claim.share = share.share;
     claim.member_shares[claim.id] = *claim.share;
     for (const std::string& id : claim.equivalent) {
       std::set<std::string> instead = before;
       instead.insert(id);
       const CandidateFit* other = fit_of(instead, scored);
-      if (other != nullptr) claim.member_shares[id] = share(*other, without);
+      if (other != nullptr) claim.member_shares[id] = measured(*other, without).share;
     }
     before = std::move(names);
   }

@@ -3,19 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "terramech/basics/input_error.h"
-
 namespace regoplan {
 namespace {
-
-bool is_valid(const Soil& soil) {
-  try {
-    validate(soil);
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
 
 /// Of strength and bearing, as far as tests of one soil scatter; 0 of all else.
 double assumed_spread(const Soil& mean, std::size_t number) {

@@ -55,6 +55,15 @@ void validate(const Soil& soil) {
   }
 }
 
+bool is_valid(const Soil& soil) {
+  try {
+    validate(soil);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
 bool resists_sinkage(const Soil& soil, double wheel_width_m) {
   return soil.kc / wheel_width_m + soil.kphi > 0;
 }

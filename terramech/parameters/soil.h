@@ -42,6 +42,9 @@ const std::array<SoilParameter, 14>& soil_parameters();
 /// theta_m would leave the contact for some slip in [-1, 1].
 void validate(const Soil& soil);
 
+/// Whether `validate` finds nothing wrong.
+bool is_valid(const Soil& soil);
+
 /// What independent tests say of a soil: mean and standard deviation of every number, independent
 /// of each other. A standard deviation of 0 is a number that is known.
 struct UncertainSoil {

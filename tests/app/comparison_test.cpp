@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "app/compare/comparison_report.h"
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

@@ -10,9 +10,9 @@
 #include <set>
 #include <sstream>
 
-#include "tests/app/error_text.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

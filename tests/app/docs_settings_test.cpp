@@ -15,8 +15,8 @@
 #include "app/settings/truth_settings.h"
 #include "terramech/mechanisms/mechanism.h"
 #include "tests/app/documents.h"
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

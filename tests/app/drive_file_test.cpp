@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "terramech/basics/input_error.h"
-#include "tests/app/error_text.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

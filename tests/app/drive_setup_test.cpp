@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "tests/app/error_text.h"
+#include "tests/error_text.h"
 #include "tests/scratch_folder.h"
 
 namespace regoplan {

@@ -10,9 +10,9 @@
 #include "app/settings/scenario_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "terramech/basics/angles.h"
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

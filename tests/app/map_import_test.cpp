@@ -7,9 +7,9 @@
 #include "app/settings/scenario_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "planner/problem/world.h"
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

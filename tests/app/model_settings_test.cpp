@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/app/error_text.h"
 #include "tests/app/simulant_model.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "tests/app/command_output.h"
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"
 #include "tests/app/simulant_model.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/settings/vehicle_settings.h"
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/program_run.h"
 #include "tests/app/simulant_model.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

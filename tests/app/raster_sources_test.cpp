@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/listener.h"
 #include "tests/app/program_run.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "app/diagnose/diagnosis_setup.h"
 #include "terramech/basics/angles.h"
-#include "tests/app/error_text.h"
 #include "tests/app/simulant_model.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "tests/app/error_text.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

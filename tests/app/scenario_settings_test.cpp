@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/simulant_model.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/settings/settings_json.h"
-#include "tests/app/error_text.h"
+#include "tests/error_text.h"
 #include "tests/scratch_folder.h"
 
 namespace regoplan {

@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "tests/app/error_text.h"
+#include "tests/error_text.h"
 #include "tests/terramech/named_soils.h"
 
 namespace regoplan {

@@ -7,7 +7,7 @@
 #include <iostream>
 #include <optional>
 
-#include "tests/app/error_text.h"
+#include "tests/error_text.h"
 #include "tests/scratch_folder.h"
 
 namespace regoplan {

@@ -5,8 +5,8 @@
 #include "app/settings/suite_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "terramech/basics/angles.h"
-#include "tests/app/error_text.h"
 #include "tests/app/flat_map.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

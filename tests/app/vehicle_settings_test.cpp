@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/app/error_text.h"
+#include "tests/error_text.h"
 #include "tests/scratch_folder.h"
 
 namespace regoplan {

@@ -8,8 +8,8 @@
 
 #include "app/io/csv_cells.h"
 #include "app/settings/model_settings.h"
-#include "tests/app/error_text.h"
 #include "tests/app/simulant_model.h"
+#include "tests/error_text.h"
 
 namespace regoplan {
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "maps/raster_files.h"
+#include "tests/error_text.h"
 #include "written_tiff.h"
 
 namespace regoplan {
@@ -45,16 +46,6 @@ std::string mended_by(const std::string& refusal, const std::string& out) {
   return out;
 }
 
-template <typename Action>
-std::string refusal_of(Action action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(RasterRemedies, TheCommandThatARefusalNamesMendsTheRaster) {
   const ScratchFolder folder;
   const std::string out = folder.path("out.tif");
@@ -68,7 +59,7 @@ TEST(RasterRemedies, TheCommandThatARefusalNamesMendsTheRaster) {
       const auto read = [&](const std::string& raster) {
         return heights ? read_elevation(raster).frame : read_classes(raster).frame;
       };
-      const std::string refusal = refusal_of([&] { read(file); });
+      const std::string refusal = error_text([&] { read(file); });
       EXPECT_NE(refusal.find(heights ? "-r bilinear " : "-r near "), std::string::npos) << refusal;
       const GridFrame mended = read(mended_by(refusal, out));
       EXPECT_GT(mended.cell_width_m, 0.1) << refusal;
@@ -91,7 +82,7 @@ TEST(RasterRemedies, ClassesInAnotherCrsAreBroughtIntoTheElevationsByTheCommandN
     const GridFrame elevation =
         read_elevation(write(folder, {.transform = transform, .crs = crs}, "dem.tif")).frame;
     ClassRaster raster = read_classes(file);
-    const std::string refusal = refusal_of([&] { adopt_crs(raster, elevation, file); });
+    const std::string refusal = error_text([&] { adopt_crs(raster, elevation, file); });
     ClassRaster mended = read_classes(mended_by(refusal, out));
     EXPECT_EQ(adopt_crs(mended, elevation, out), "") << refusal;
     std::filesystem::remove(out);
