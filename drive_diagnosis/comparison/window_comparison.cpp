@@ -373,9 +373,11 @@ WindowSet WindowComparison::all() const {
   return windows;
 }
 
-WindowSet WindowComparison::touching(const WindowZone& zone) const {
+WindowSet WindowComparison::touching(const std::vector<WindowZone>& zones) const {
   WindowSet windows = all();
-  std::erase_if(windows, [&](std::size_t i) { return !touches(i, zone); });
+  std::erase_if(windows, [&](std::size_t i) {
+    return std::ranges::none_of(zones, [&](const WindowZone& zone) { return touches(i, zone); });
+  });
   return windows;
 }
 

@@ -63,8 +63,8 @@ class WindowComparison {
 
   std::size_t size() const { return windows_of_.size(); }
   WindowSet all() const;
-  /// Those in which some wheel is in a zone within what the window is smoothed over.
-  WindowSet touching(const WindowZone& zone) const;
+  /// Those in which some wheel is in one of the zones within what the window is smoothed over.
+  WindowSet touching(const std::vector<WindowZone>& zones) const;
   /// A zone that begins and ends so many windows farther out, as far as windows follow each other.
   WindowZone widened(WindowZone zone, double windows) const;
   /// Index of the window that comparison `i` is of.

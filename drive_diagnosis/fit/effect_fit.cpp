@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 #include "drive_diagnosis/contest/slope_errors.h"
@@ -276,12 +275,7 @@ ContestFit EffectFit::nothing_known() const {
 }
 
 ContestFit EffectFit::fit_outside_zones() {
-  WindowSet in_zones;
-  for (const WindowZone& zone : zones()) {
-    WindowSet both;
-    std::ranges::set_union(in_zones, comparison_.touching(zone), std::back_inserter(both));
-    in_zones = std::move(both);
-  }
+  WindowSet in_zones = comparison_.touching(zones());
   if (in_zones.empty()) return fit_;
   if (comparison_.size() - in_zones.size() < kFewestOutside) return nothing_known();
   const Settled here{.fit = fit_, .shifts = shifts_};

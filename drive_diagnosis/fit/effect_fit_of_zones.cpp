@@ -31,12 +31,8 @@ WindowSet EffectFit::windows_far_from_linear(const LinearisedWindows& here) cons
   constexpr double kEdgesMove = 4;  // windows, in all rounds of place_edges
   std::vector<WindowZone> all = zones();
   all.back() = comparison_.widened(all.back(), kEdgesMove);
-  WindowSet windows = here.unbalanced;
-  for (const WindowZone& zone : all) {
-    WindowSet both;
-    std::ranges::set_union(windows, comparison_.touching(zone), std::back_inserter(both));
-    windows = std::move(both);
-  }
+  WindowSet windows;
+  std::ranges::set_union(here.unbalanced, comparison_.touching(all), std::back_inserter(windows));
   return windows;
 }
 

@@ -36,7 +36,7 @@ class EdgeSearch {
         zones_(std::move(zones)),
         stop_(stop),
         within_reach_(windows.comparison.touching(
-            windows.comparison.widened(zones_.back(), kReach + kNear))) {
+            {windows.comparison.widened(zones_.back(), kReach + kNear)})) {
     // Windows that balance now have to with other edges too.
     otherwise_ = windows.predicted;
     const Eigen::MatrixXd now =

@@ -193,7 +193,7 @@ TEST(WindowComparison, EachWheelComesOntoASoftStretchWhenItIsThereItself) {
 TEST(WindowComparison, OnlyTheWindowsThatAreNamedArePredicted) {
   const OverAStretch drive;
   const Eigen::MatrixXd plain = drive.predicted({}), with = drive.predicted({drive.zone});
-  const WindowSet touching = drive.comparison->touching(drive.zone);
+  const WindowSet touching = drive.comparison->touching({drive.zone});
   ASSERT_GT(touching.size(), 2U);
   ASSERT_LT(touching.size(), drive.comparison->size());
   EXPECT_EQ(drive.comparison->predicted(touching, {}, {drive.zone}, plain, {}), with);
@@ -206,7 +206,7 @@ TEST(WindowComparison, AFrontWheelTouchesAZoneBeforeTheMiddleOfTheVehicleDoes) {
   const auto does = [&](double begins) {
     WindowZone zone = drive.zone;
     zone.begins = begins;
-    const WindowSet touching = drive.comparison->touching(zone);
+    const WindowSet touching = drive.comparison->touching({zone});
     const auto row = static_cast<Eigen::Index>(before);
     const bool changes = drive.predicted({zone}).row(row) != drive.predicted({}).row(row);
     EXPECT_EQ(changes, std::ranges::binary_search(touching, before)) << begins;

@@ -57,7 +57,7 @@ TEST(WindowLinearisation, OnlyWindowsThatItIsToldToArePredictedAnew) {
   WindowLinearisation linearisation(*drive.comparison, drive.trials, OverAZone::kNumbers,
                                     drive.stop);
   const LinearisedWindows full = drive.there(linearisation), before = drive.here(linearisation);
-  const WindowSet anew = drive.comparison->touching(drive.comparison->widened(drive.zone, 1));
+  const WindowSet anew = drive.comparison->touching({drive.comparison->widened(drive.zone, 1)});
   linearisation.predict_only(anew, before);
   const LinearisedWindows some = drive.there(linearisation);
 
@@ -87,7 +87,7 @@ TEST(WindowLinearisation, WindowsWithoutAMotionAreAsSaid) {
   drive.said.numbers = weaker_by(40);  // carries no vehicle
   const LinearisedWindows sunk = drive.here(linearisation);
   ASSERT_FALSE(sunk.unbalanced.empty());
-  const WindowSet touching = drive.comparison->touching(drive.said);
+  const WindowSet touching = drive.comparison->touching({drive.said});
   const Eigen::MatrixXd as_said = drive.comparison->predicted_as_said({});
   for (const std::size_t w : sunk.unbalanced) {
     EXPECT_TRUE(std::ranges::binary_search(touching, w)) << "window " << w;
