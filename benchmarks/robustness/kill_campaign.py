@@ -98,7 +98,11 @@ def run(program, arguments, folder, kill_after_s=None, while_writing=False):
         _, errors = process.communicate(timeout=kill_after_s)
         return process.returncode, errors.decode()
     except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
+        try:
+            os.killpg(process.pid, signal.SIGKILL)
+        except ProcessLookupError:  # it came to its end by itself meanwhile
+            _, errors = process.communicate()
+            return process.returncode, errors.decode()
         process.communicate()
         return None, ""
 
