@@ -155,7 +155,7 @@ class Diagnosing {
       x.head(base.x.size()) = base.x;
       bool either_sign = false;
       for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
-        const bool is_signed = !effect.coordinates[i].logarithmic;
+        const bool is_signed = !effect.coordinates[i].is_positive();
         x[base.x.size() + static_cast<Eigen::Index>(i)] = is_signed ? 1 : 0;
         either_sign = either_sign || is_signed;
       }

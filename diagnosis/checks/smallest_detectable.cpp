@@ -23,7 +23,7 @@ std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
     Eigen::VectorXd x(base.x.size() + static_cast<Eigen::Index>(effect.coordinates.size()));
     x.head(base.x.size()) = base.x;
     for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
-      x[base.x.size() + static_cast<Eigen::Index>(i)] = effect.coordinates[i].logarithmic ? 0 : 1;
+      x[base.x.size() + static_cast<Eigen::Index>(i)] = effect.coordinates[i].is_positive() ? 0 : 1;
     }
     const auto with = predict(problem.bed, problem.soil, candidate, x);
     if (!with) continue;
@@ -40,8 +40,8 @@ std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
       const Coordinate& c = effect.coordinates.front();
       smallest.parameter = c.name;
       smallest.value = factor * c.value(x[base.x.size()]);
-      smallest.low = c.logarithmic ? c.value(-1) : c.value(-1.5);
-      smallest.high = c.logarithmic ? c.value(1) : c.value(1.5);
+      smallest.low = c.is_positive() ? c.value(-1) : c.value(-1.5);
+      smallest.high = c.is_positive() ? c.value(1) : c.value(1.5);
     }
     all.push_back(smallest);
   }

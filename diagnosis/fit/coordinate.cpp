@@ -6,16 +6,40 @@
 namespace regoplan {
 
 double Coordinate::value(double x) const {
-  const double inner = centre + spread * x;
-  return std::clamp(logarithmic ? std::exp(inner) : inner, min, max);
+  const double y = centre + spread * x;
+  switch (scale) {
+    case Scale::kLinear:
+      return std::clamp(y, min, max);
+    case Scale::kLogarithmic:
+      return std::clamp(std::exp(y), min, max);
+    case Scale::kShare:
+      break;
+  }
+  return max / (1 + std::exp(-y));
 }
 
 double Coordinate::at(double value) const {
-  return ((logarithmic ? std::log(value) : value) - centre) / spread;
+  switch (scale) {
+    case Scale::kLinear:
+      return (value - centre) / spread;
+    case Scale::kLogarithmic:
+      return (std::log(value) - centre) / spread;
+    case Scale::kShare:
+      break;
+  }
+  return (std::log(value / (max - value)) - centre) / spread;
 }
 
 double Coordinate::slope(double x) const {
-  return logarithmic ? spread * value(x) : spread;
+  switch (scale) {
+    case Scale::kLinear:
+      return spread;
+    case Scale::kLogarithmic:
+      return spread * value(x);
+    case Scale::kShare:
+      break;
+  }
+  return spread * value(x) * (1 - value(x) / max);
 }
 
 std::vector<SoilCoordinate> soil_coordinates(const UncertainSoil& soil, double widen) {

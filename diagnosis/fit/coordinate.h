@@ -9,12 +9,21 @@
 
 namespace regoplan {
 
+/// How an unknown number follows from y = centre + spread x.
+enum class Scale {
+  kLinear,       ///< y
+  kLogarithmic,  ///< exp(y): positive
+  kShare,        ///< max/(1 + exp(-y)): positive, and no more than max
+};
+
 /// One unknown number in units of its prior: x is standard normal beforehand.
 struct Coordinate {
   std::string name;
-  bool logarithmic = false;  ///< the number is exp(centre + spread x), else centre + spread x
+  Scale scale = Scale::kLinear;
   double centre = 0, spread = 1;
   double min = -1e300, max = 1e300;  ///< valid range of the number
+
+  bool is_positive() const { return scale != Scale::kLinear; }
 
   double value(double x) const;
   double at(double value) const;  ///< the x of a number

@@ -25,19 +25,36 @@ Span span_of(const TestBed& bed, const auto& column) {
 
 Coordinate positive(std::string name, double low, double high) {
   return {.name = std::move(name),
-          .logarithmic = true,
+          .scale = Scale::kLogarithmic,
           .centre = std::log(low * high) / 2,
           .spread = std::max(std::log(high / low) / 2, 0.3)};
 }
 
-/// Prior of a mechanism's parameter: lognormal, one standard deviation either way covering the
-/// usual range; normal about 0 where the range is symmetric.
+/// A share of at most `most`, its odds lognormal.
+Coordinate share(std::string name, double low, double high, double most) {
+  constexpr double kNearlyAll = 0.97;  // where the usual range ends at the whole
+  const auto log_odds = [&](double value) {
+    const double of_most = std::min(value / most, kNearlyAll);
+    return std::log(of_most / (1 - of_most));
+  };
+  return {.name = std::move(name),
+          .scale = Scale::kShare,
+          .centre = (log_odds(low) + log_odds(high)) / 2,
+          .spread = (log_odds(high) - log_odds(low)) / 2,
+          .min = 0,
+          .max = most};
+}
+
+/// Prior of a mechanism's parameter: lognormal, or its odds are where there is a most that it can
+/// be, one standard deviation either way covering the usual range; normal about 0 where the range
+/// is symmetric.
 Coordinate coordinate_of(const MechanismParameter& parameter) {
   const std::string name(parameter.name);
   if (parameter.low < 0) return {.name = name, .spread = parameter.high / 1.5};
   constexpr double kSmallShare = 30;  // of a range that begins at 0
   const double low = parameter.low > 0 ? parameter.low : parameter.high / kSmallShare;
-  return positive(name, low, parameter.high);
+  return std::isfinite(parameter.most) ? share(name, low, parameter.high, parameter.most)
+                                       : positive(name, low, parameter.high);
 }
 
 struct Columns {
@@ -85,8 +102,10 @@ class EffectList {
     if (form.id == "shear_hump" && form.form == "wong") {
       // the hump's modulus is where the peak lies, some times the exponential's
       effect.own_modulus = true;
-      effect.coordinates.push_back(
-          {.name = "modulus_factor", .logarithmic = true, .centre = std::log(2.5), .spread = 0.5});
+      effect.coordinates.push_back({.name = "modulus_factor",
+                                    .scale = Scale::kLogarithmic,
+                                    .centre = std::log(2.5),
+                                    .spread = 0.5});
     }
     if (form.id == "soil_zone") {
       for (Coordinate& c : effect.coordinates) c.centre = 0;

@@ -51,8 +51,9 @@ double quick_score(const FitProblem& problem, const CandidateFit& single, const 
   for (Eigen::Index i = 0; i < size; ++i) {
     x[single.x.size() + i] = effect.start[static_cast<std::size_t>(i)];
   }
-  const bool linear = size > 0 && std::ranges::none_of(effect.coordinates,
-                                                       [](const auto& c) { return c.logarithmic; });
+  const bool linear = size > 0 && std::ranges::none_of(effect.coordinates, [](const auto& c) {
+                        return c.is_positive();
+                      });
   if (linear) x.tail(size).setConstant(0.5);
   const auto prediction = predict(problem.bed, problem.soil, pair, x);
   if (!prediction) return -INFINITY;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -30,6 +31,9 @@ struct MechanismParameter {
   std::string_view name;  ///< unit included
   double low, high;       ///< usual range; a value beyond is valid as long as it is finite
   double typical;
+  /// What it can be at most by what it stands for, such as the whole of a share: `diagnose` fits no
+  /// value beyond.
+  double most = std::numeric_limits<double>::infinity();
 };
 
 /// One functional form of a mechanism.

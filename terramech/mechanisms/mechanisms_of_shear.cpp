@@ -22,6 +22,19 @@ std::vector<Definition> of_shear() {
          e.soil.ky1_m += p[1];
          return e;
        }},
+      {{"shear_modulus_slip_angle",
+        "power",
+        "kx, ky times 1 + m sin^p|beta|",
+        "proxy; as linear, with one factor for both moduli",
+        {{"m", .5, 6, 2}, {"p", .5, 2, 1}}},
+       [](E e, P p, S at) {
+         const double factor = 1 + p[0] * std::pow(std::sin(at.beta_abs_rad), p[1]);
+         e.soil.kx0_m *= factor;
+         e.soil.kx1_m *= factor;
+         e.soil.ky0_m *= factor;
+         e.soil.ky1_m *= factor;
+         return e;
+       }},
       {{"coupled_shear",
         "displacement",
         "tau = tau_max (1 - exp(-|j|/K)) j/|j|",
@@ -54,7 +67,7 @@ std::vector<Definition> of_shear() {
         "wong",
         "tau/tau_max = Kr {1 + [1/(Kr (1 - 1/e)) - 1] exp(1 - j/Kw)} (1 - exp(-j/Kw))",
         "Wong 2008, eq. (2.73)",
-        {{"residual", .4, .95, .7}}},
+        {{"residual", .4, .95, .7, 1}}},
        [](E e, P p, S) {
          e.shear = ShearLaw::kHump;
          e.residual = p[0];
@@ -65,7 +78,7 @@ std::vector<Definition> of_shear() {
         "tau/tau_max = (1 - exp(-j/k)) (R + (1 - R) exp(-(j/(d k))^2)), k = kx or ky; the peak "
         "stays below tau_max",
         "proxy; dense soil loosens to its residual strength (Wong 2008, section 2.4)",
-        {{"residual", .4, .95, .7}, {"distance", 2, 6, 3.5}}},
+        {{"residual", .4, .95, .7, 1}, {"distance", 2, 6, 3.5}}},
        [](E e, P p, S) {
          e.shear = ShearLaw::kSoftening;
          e.residual = p[0];

@@ -100,6 +100,15 @@ std::vector<Definition> of_sinkage() {
          e.sinkage_factor *= 1 + p[0] * std::sin(at.beta_abs_rad);
          return e;
        }},
+      {{"lateral_digging",
+        "power",
+        "h = h0 (1 + kappa sin^p|beta|)",
+        "proxy; as sine, where digging sets in late or tails off",
+        {{"kappa", .2, 2, .8}, {"p", .5, 2, 1}}},
+       [](E e, P p, S at) {
+         e.sinkage_factor *= 1 + p[0] * std::pow(std::sin(at.beta_abs_rad), p[1]);
+         return e;
+       }},
       {{"rut_asymmetry",
         "tilt",
         "h(y) = h + y tan(psi), psi = kappa (|beta| - beta0)+",
@@ -149,6 +158,16 @@ std::vector<Definition> of_sinkage() {
          e.sinkage_factor *= 1 + p[1] * braking(at);
          return e;
        }},
+      {{"skid_branch",
+        "bow_wave",
+        "s < 0: Fx -= eta |s| b (gamma h^2 Kp/2 + 2 c h sqrt(Kp)), h = h0 (1 + k |s|)",
+        "Wong & Reece 1967, part II (proxy): a braked wheel heaps up soil ahead and pushes it",
+        {{"eta", .3, 6, 1.5}, {"sinkage", 0, 1, .3}}},
+       [](E e, P p, S at) {
+         e.front_bulldozing += p[0] * braking(at);
+         e.sinkage_factor *= 1 + p[1] * braking(at);
+         return e;
+       }},
       {{"rear_contact",
         "linear",
         "lambda = lambda0 + l1 s + l2 |beta|",
@@ -159,6 +178,17 @@ std::vector<Definition> of_sinkage() {
              std::clamp(e.soil.lambda + p[0] * at.slip + p[1] * at.beta_abs_rad, 0.0, 1.5);
          return e;
        }},
+      {{"rear_contact",
+        "power",
+        "lambda = lambda0 + l1 sgn(s) |s|^p + l2 |beta|^p",
+        "proxy; as linear, where soil fills in behind late or early",
+        {{"l1", .1, .8, .4}, {"l2_per_rad_p", 0, .8, .3}, {"p", .5, 2, 1}}},
+       [](E e, P p, S at) {
+         const double by_slip = std::copysign(std::pow(std::abs(at.slip), p[2]), at.slip);
+         e.soil.lambda = std::clamp(
+             e.soil.lambda + p[0] * by_slip + p[1] * std::pow(at.beta_abs_rad, p[2]), 0.0, 1.5);
+         return e;
+       }},
       {{"max_stress_angle",
         "linear",
         "theta_m/theta_f = a0 + a1 s + a2 |beta|",
@@ -167,6 +197,16 @@ std::vector<Definition> of_sinkage() {
        [](E e, P p, S at) {
          const double edge = std::abs(e.soil.a1) + 1e-3;
          e.soil.a0 = std::clamp(e.soil.a0 + p[0] * at.beta_abs_rad, edge, 1 - edge);
+         return e;
+       }},
+      {{"max_stress_angle",
+        "power",
+        "theta_m/theta_f = a0 + a1 s + a2 |beta|^p",
+        "proxy; as linear, where the shift sets in late or tails off",
+        {{"a2_per_rad_p", -.6, .6, .15}, {"p", .5, 2, 1}}},
+       [](E e, P p, S at) {
+         const double edge = std::abs(e.soil.a1) + 1e-3;
+         e.soil.a0 = std::clamp(e.soil.a0 + p[0] * std::pow(at.beta_abs_rad, p[1]), edge, 1 - edge);
          return e;
        }},
   };

@@ -18,7 +18,7 @@ std::vector<Definition> of_wheel() {
         "hg s/2",
         "Bekker 1969; Iizuka & Kubota 2011",
         {{"lug_height_m", .004, .02, .01},
-         {"mobilised", .3, 1, .8},
+         {"mobilised", .3, 1, .8, 1},
          {"ripple", 0, .5, 0},
          {"lugs", 12, 32, 24}}},
        [](E e, P p, S at) {
@@ -34,7 +34,7 @@ std::vector<Definition> of_wheel() {
         "effective_radius",
         "c, tan(phi) times 1 + 4 x (hg/r) (1 - exp(-5 s)), digging hg s/2",
         "proxy; lugs as a larger shear radius",
-        {{"lug_height_m", .004, .02, .01}, {"share", .3, 1, .7}}},
+        {{"lug_height_m", .004, .02, .01}, {"share", .3, 1, .7, 1}}},
        [](E e, P p, S at) {
          e.limit *= 1 + p[1] * p[0] / e.wheel.radius_m * 4 * (1 - std::exp(-5 * driving(at)));
          e.sinkage_added_m += p[0] * driving(at) / 2;
@@ -47,7 +47,7 @@ std::vector<Definition> of_wheel() {
         "having given way; carried soil behind the wheel: lambda += hg/r s",
         "Lyasko 2010, J. Terramechanics 47; Ding et al. 2011, J. Terramechanics 48, 27-45",
         {{"lug_height_m", .004, .02, .01},
-         {"mobilised", .05, .8, .2},
+         {"mobilised", .05, .8, .2, 1},
          {"carried", .4, 3, 1.2},
          {"lugs", 12, 32, 24}}},
        [](E e, P p, S at) {

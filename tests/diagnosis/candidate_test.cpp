@@ -42,7 +42,8 @@ TEST(Hypothesis, WithoutSlipAnglesNothingSidewaysIsTried) {
 
 TEST(Coordinate, ValueAndPlaceAreInverse) {
   for (const Coordinate& c : {Coordinate{.centre = 2, .spread = 0.5},
-                              Coordinate{.logarithmic = true, .centre = -1, .spread = 0.7}}) {
+                              Coordinate{.scale = Scale::kLogarithmic, .centre = -1, .spread = 0.7},
+                              Coordinate{.scale = Scale::kShare, .spread = 0.7, .max = 3}}) {
     for (const double x : {-2.0, 0.0, 1.5}) {
       EXPECT_NEAR(c.at(c.value(x)), x, 1e-12);
       EXPECT_NEAR(c.slope(x), (c.value(x + 1e-6) - c.value(x - 1e-6)) / 2e-6, 1e-6);
