@@ -194,8 +194,10 @@ std::string named_words(const Diagnosis& diagnosis) {
   }
   const double left = 1 - diagnosis.share_explained;
   if (diagnosis.excess_is_clear && left > 0.1) {
-    text += fmt::format(" Named, but {:.0f} % of the excess misfit remains.",
-                        100 * std::min(left, 1.0));
+    text += fmt::format(
+        " Named, but the corrected model leaves {:.0f} % of the excess misfit on held-out "
+        "conditions.",
+        100 * std::min(left, 1.0));
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include "diagnosis/names/claim_shares.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -19,13 +20,15 @@ const CandidateFit* fit_of(const std::set<std::string>& ids, const std::vector<S
 
 void measure_shares(const CalibratedRecording& calibrated, const std::vector<ScoredId>& scored,
                     const CandidateFit& fit, int threads, std::vector<Claim>& claims) {
-  const auto measured = [&](const CandidateFit& with, const CandidateFit* without) {
-    return without == nullptr ? name_share(calibrated, with, threads)
-                              : added_share(calibrated, with, *without, threads);
+  const auto alone = [&](const CandidateFit& names) { return fitted_alone(calibrated, names); };
+  const auto measured = [&](const CandidateFit& with, const std::optional<CandidateFit>& without) {
+    return without ? added_share(calibrated, alone(with), *without, threads)
+                   : name_share(calibrated, alone(with), threads);
   };
   std::set<std::string> before;
   for (Claim& claim : claims) {
-    const CandidateFit* without = fit_of(before, scored);
+    std::optional<CandidateFit> without;
+    if (const CandidateFit* found = fit_of(before, scored)) without = alone(*found);
     std::set<std::string> names = before;
     names.insert(claim.id);
     const CandidateFit* with = names.size() == claims.size() ? &fit : fit_of(names, scored);

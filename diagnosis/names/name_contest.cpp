@@ -9,6 +9,7 @@
 #include "diagnosis/checks/bed_memory.h"
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/names/correction.h"
+#include "diagnosis/names/name_share.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
@@ -63,15 +64,6 @@ struct Leftover {
     return share > Thresholds::kWorthCorrecting && deviations > Thresholds::kClear_errors;
   }
 };
-
-/// Names fitted as if there was nothing beside them: a discrepancy takes part of what they do.
-CandidateFit fitted_alone(const CalibratedRecording& calibrated, const CandidateFit& fit) {
-  constexpr int kSteps = 12;
-  const std::vector<std::size_t> noise_only(calibrated.bed().channels.size(), 0);
-  const auto refitted =
-      fit_under(calibrated.problem(), fit.candidate, noise_only, fit.x, kSteps, 0);
-  return refitted ? *refitted : fit;
-}
 
 /// \param names fitted alone
 Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& names,

@@ -51,6 +51,14 @@ NameShare compare(const CalibratedRecording& calibrated, const CandidateFit& wit
 
 }  // namespace
 
+CandidateFit fitted_alone(const CalibratedRecording& calibrated, const CandidateFit& fit) {
+  constexpr int kSteps = 12;
+  const std::vector<std::size_t> noise_only(calibrated.bed().channels.size(), 0);
+  const auto refitted =
+      fit_under(calibrated.problem(), fit.candidate, noise_only, fit.x, kSteps, 0);
+  return refitted ? *refitted : fit;
+}
+
 NameShare name_share(const CalibratedRecording& calibrated, const CandidateFit& fit, int threads) {
   return compare(calibrated, fit, nullptr, threads);
 }

@@ -20,6 +20,9 @@ struct NameShare {
   std::optional<Channel> worsened;
 };
 
+/// Names fitted as if there was nothing beside them: a discrepancy takes part of what they do.
+CandidateFit fitted_alone(const CalibratedRecording& calibrated, const CandidateFit& fit);
+
 NameShare name_share(const CalibratedRecording& calibrated, const CandidateFit& fit, int threads);
 
 /// As much for the effect that a fit has more than another has.

@@ -74,7 +74,7 @@ TEST(Sentence, IsNeverQuiteCertain) {
 }
 
 TEST(Sentence, SaysWhatANameLeavesUnexplained) {
-  expect_says(sentence_of(named()), {"30 % of the excess misfit remains"});
+  expect_says(sentence_of(named()), {"leaves 30 % of the excess misfit on held-out conditions"});
 }
 
 TEST(Sentence, TellsNoShareOfAnExcessThatNoiseMayBe) {
