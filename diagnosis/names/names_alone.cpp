@@ -43,7 +43,7 @@ bool may_stand(const CalibratedRecording& calibrated, const NameAlone& name, dou
 /// Leaves the best and those that some way to hold out puts level with it, the best four.
 void keep_class(std::vector<NameAlone>& names) {
   const double level = names.front().share.share.low;
-  std::erase_if(names, [&](const NameAlone& name) { return name.share.share.high < level; });
+  std::erase_if(names, [&](const NameAlone& name) { return name.reach < level; });
   if (names.size() > Thresholds::kLargestClass) names.resize(Thresholds::kLargestClass);
 }
 
@@ -57,6 +57,28 @@ Claim claim_of(const CalibratedRecording& calibrated, const std::vector<NameAlon
   claim.share = members.front().share.share;
   for (const NameAlone& member : members) claim.member_shares[member.id] = member.share.share;
   return claim;
+}
+
+/// The two forms of each name that explain most where they were fitted, of the twelve names that
+/// explain most there. \param forms_of by name: share, and which
+std::vector<std::size_t> best_forms(
+    std::map<std::string, std::vector<std::pair<double, std::size_t>>>& forms_of) {
+  constexpr std::size_t kNames = 12, kForms = 2;
+  std::vector<std::pair<double, std::string>> names;
+  for (auto& [id, forms] : forms_of) {
+    std::ranges::sort(forms, std::greater{});
+    names.emplace_back(forms.front().first, id);
+  }
+  std::ranges::sort(names, std::greater{});
+  if (names.size() > kNames) names.resize(kNames);
+  std::vector<std::size_t> best;
+  for (const auto& [share, id] : names) {
+    const auto& forms = forms_of.at(id);
+    for (std::size_t k = 0; k < std::min(kForms, forms.size()); ++k) {
+      best.push_back(forms[k].second);
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -73,28 +95,28 @@ std::vector<NameAlone> names_alone(const CalibratedRecording& calibrated,
   parallel_for(fits.size(), threads,
                [&](std::size_t i) { fits[i] = fitted_alone(calibrated, effects[i], beside); });
   // What explains little where it was fitted explains no more where it was not.
-  std::vector<std::pair<double, std::size_t>> by_share;
+  std::map<std::string, std::vector<std::pair<double, std::size_t>>> forms_of;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     if (!fits[i]) continue;
     const double share = (before - variances_off(bed, fits[i]->prediction)) / excess;
-    if (share > least) by_share.emplace_back(share, i);
+    if (share > least) forms_of[effects[i].id].emplace_back(share, i);
   }
-  std::ranges::sort(by_share, std::greater{});
-  constexpr std::size_t kHeldOut = 12;
-  if (by_share.size() > kHeldOut) by_share.resize(kHeldOut);
+  const std::vector<std::size_t> by_share = best_forms(forms_of);
   std::vector<std::optional<NameAlone>> forms(by_share.size());
   parallel_for(forms.size(), threads, [&](std::size_t k) {
-    const std::size_t i = by_share[k].second;
+    const std::size_t i = by_share[k];
     const NameShare share = beside == nullptr ? name_share(calibrated, *fits[i], 1)
                                               : added_share(calibrated, *fits[i], *beside, 1);
-    forms[k] = NameAlone{effects[i].id, std::move(*fits[i]), share};
+    forms[k] = NameAlone{effects[i].id, std::move(*fits[i]), share, share.share.high};
   });
   std::map<std::string, NameAlone> best;
   for (std::optional<NameAlone>& form : forms) {
     if (!form || !may_stand(calibrated, *form, least)) continue;
-    const auto known = best.find(form->id);
-    if (known != best.end() && known->second.share.share.low >= form->share.share.low) continue;
-    best.insert_or_assign(form->id, std::move(*form));
+    const auto [known, is_new] = best.try_emplace(form->id, *form);
+    if (is_new) continue;
+    const double reach = std::max(known->second.reach, form->reach);
+    if (form->share.share.low > known->second.share.share.low) known->second = std::move(*form);
+    known->second.reach = reach;
   }
   std::vector<NameAlone> names;
   for (auto& [id, name] : best) names.push_back(std::move(name));
@@ -123,9 +145,12 @@ std::optional<PartialClaim> claim_by_shares(const CalibratedRecording& calibrate
     result.steps.push_back(result.fit);
   }
   // The first may move a channel the wrong way that the next puts right; all together may not.
-  if (result.claims.empty() || name_share(calibrated, result.fit, threads).worsened) {
-    return std::nullopt;
+  while (!result.claims.empty() && name_share(calibrated, result.fit, threads).worsened) {
+    result.claims.pop_back();
+    result.steps.pop_back();
+    if (!result.steps.empty()) result.fit = result.steps.back();
   }
+  if (result.claims.empty()) return std::nullopt;
   return result;
 }
 

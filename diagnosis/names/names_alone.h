@@ -15,6 +15,7 @@ struct NameAlone {
   std::string id;
   CandidateFit fit;  ///< of the form that explains most
   NameShare share;   ///< of the excess misfit; of what it adds where names stand beside it
+  double reach = 0;  ///< the most that any of its forms explains in any way to hold out
 };
 
 /// What each name explains of held-out conditions, the most first by what it does in the least
@@ -26,10 +27,10 @@ std::vector<NameAlone> names_alone(const CalibratedRecording& calibrated,
 
 /// A class of names for a mismatch of which the best explains a third and more however conditions
 /// are held out, but so might some name of a nameless one: no single name. In it are those
-/// whose range of shares over ways to hold out reaches that of the best, the best four. Further
-/// classes follow as long as their best adds its part: at most three. \returns nothing where none
-/// explains as much, where one stands alone, or where all together predict a channel worse than the
-/// calibrated model
+/// of which some form reaches the share of the best in some way to hold out, the best four. Further
+/// classes follow as long as their best adds its part: at most three, the last taken back as long
+/// as all together predict a channel worse than the calibrated model. \returns nothing where none
+/// explains as much, where one stands alone, or where none is left
 std::optional<PartialClaim> claim_by_shares(const CalibratedRecording& calibrated,
                                             const std::vector<Effect>& effects, int threads);
 
