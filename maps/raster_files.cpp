@@ -251,9 +251,9 @@ ElevationRaster read_elevation(const std::string& file, const HeightReading& rea
     if (!(std::abs(value) <= kHeightMax_m)) {
       fail_raster(
           file, fmt::format("height {} m at {} is not valid (allowed: -{} to {}); remedy, where it "
-                            "marks unknown cells: gdal_translate -a_nodata {} {} out.tif",
+                            "marks unknown cells: gdal_translate -a_nodata {} {}",
                             value, cell_place(cell, raster.frame), kHeightMax_m, kHeightMax_m,
-                            value, file));
+                            value, from_and_to(file)));
     }
     known = true;
     return static_cast<float>(value);

@@ -140,10 +140,10 @@ void check_crs_unit(const OGRSpatialReference& crs, const std::array<double, 6>&
       proj.empty()
           ? fmt::format(
                 "gdal_translate -a_srs 'LOCAL_CS[\"metres\",UNIT[\"metre\",1]]' -a_ullr "
-                "{:.10g} {:.10g} {:.10g} {:.10g} {} out.tif",
+                "{:.10g} {:.10g} {:.10g} {:.10g} {}",
                 metres * transform[0], metres * transform[3],
                 metres * (transform[0] + frame.columns * transform[1]),
-                metres * (transform[3] + frame.rows * transform[5]), shell_word(raster.file))
+                metres * (transform[3] + frame.rows * transform[5]), from_and_to(raster.file))
           : warp_command(raster.file, proj, raster.resampling);
   throw InputError(
       fmt::format("{}: the unit of its CRS \"{}\" is {} ({:.10g} m), metres are needed; remedy: {}",

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "maps/warp_command.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
@@ -54,9 +55,10 @@ void check_for_undeclared_nodata(const ElevationRaster& raster, double scale, do
     throw InputError(fmt::format(
         "{}: {} stands in {} cells (the first: column {}, row {}), and all others are {} to {} m "
         "high: it marks cells without height, and the file does not say so; remedy: regoplan map "
-        "import --nodata {}, or gdal_translate -a_nodata {} {} out.tif",
+        "import --nodata {}, or gdal_translate -a_nodata {} {}",
         file, mark, std::ranges::count(raster.height_m, height_m), first % raster.frame.columns,
-        first / raster.frame.columns, others.lowest, others.highest, mark, mark, file));
+        first / raster.frame.columns, others.lowest, others.highest, mark, mark,
+        from_and_to(file)));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 namespace regoplan {
@@ -49,7 +50,13 @@ std::string crs_word(const OGRSpatialReference& crs) {
 std::string warp_command(const std::string& file, const std::string& target,
                          const std::string& resampling) {
   const std::string to = target.empty() ? "" : " -t_srs " + shell_word(target);
-  return fmt::format("gdalwarp -r {}{} {} out.tif", resampling, to, shell_word(file));
+  return fmt::format("gdalwarp -r {}{} {}", resampling, to, from_and_to(file));
+}
+
+std::string from_and_to(const std::string& file) {
+  const std::string from = file.starts_with('-') ? "./" + file : file;
+  const bool is_taken = std::filesystem::path(file).filename() == "out.tif";
+  return shell_word(from) + (is_taken ? " out-mended.tif" : " out.tif");
 }
 
 std::string shell_word(const std::string& text) {

@@ -19,6 +19,11 @@ std::string crs_word(const OGRSpatialReference& crs);
 std::string warp_command(const std::string& file, const std::string& target,
                          const std::string& resampling);
 
+/// A raster and what a command of GDAL makes of it, the last two words of a line for a shell: the
+/// output is never the input, which GDAL would destroy, and a name that begins with a minus no
+/// option.
+std::string from_and_to(const std::string& file);
+
 /// A text as one word of a line for a shell.
 std::string shell_word(const std::string& text);
 

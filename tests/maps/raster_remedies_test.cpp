@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <wordexp.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,17 +25,21 @@ TEST(RasterRemedies, DegreesAreRefusedNamingARemedyThatWorks) {
   }
 }
 
-/// Runs the command that a refusal names, as a shell would. \returns the raster that it makes
-std::string mended_by(const std::string& refusal, const std::string& out) {
+/// Runs the command that a refusal names, as a shell in `folder` would. \returns the raster that it
+/// makes
+std::string mended_by(const std::string& refusal, const ScratchFolder& folder) {
   const std::string mark = "remedy: gdalwarp ";
   const std::size_t at = refusal.find(mark);
   if (at == std::string::npos) return "no gdalwarp in: " + refusal;
   wordexp_t words{};
   EXPECT_EQ(wordexp(refusal.substr(at + mark.size()).c_str(), &words, WRDE_NOCMD), 0) << refusal;
   EXPECT_GE(words.we_wordc, 2u) << refusal;
-  EXPECT_STREQ(words.we_wordv[words.we_wordc - 1], "out.tif");
-  const char* const from = words.we_wordv[words.we_wordc - 2];
-  const GDALDatasetUniquePtr source(GDALDataset::Open(from));
+  const std::filesystem::path here = folder.path("");
+  const std::string from = words.we_wordv[words.we_wordc - 2];
+  EXPECT_FALSE(from.starts_with('-')) << from << " would be read as an option";
+  std::string out = here / words.we_wordv[words.we_wordc - 1];
+  EXPECT_FALSE(std::filesystem::exists(out)) << out << " would be written over";
+  const GDALDatasetUniquePtr source(GDALDataset::Open((here / from).c_str()));
   EXPECT_NE(source, nullptr) << from;
   std::vector<char*> options(words.we_wordv, words.we_wordv + words.we_wordc - 2);
   options.push_back(nullptr);
@@ -48,7 +53,6 @@ std::string mended_by(const std::string& refusal, const std::string& out) {
 
 TEST(RasterRemedies, TheCommandThatARefusalNamesMendsTheRaster) {
   const ScratchFolder folder;
-  const std::string out = folder.path("out.tif");
   for (const Tiff& tiff :
        {Tiff{.transform = {15, 1e-5, 0, 48, 0, -1e-5}, .crs = "EPSG:4326"},
         Tiff{.transform = {137, 1e-5, 0, -4, 0, -1e-5}, .crs = "+proj=longlat +R=3396190"},
@@ -61,7 +65,8 @@ TEST(RasterRemedies, TheCommandThatARefusalNamesMendsTheRaster) {
       };
       const std::string refusal = error_text([&] { read(file); });
       EXPECT_NE(refusal.find(heights ? "-r bilinear " : "-r near "), std::string::npos) << refusal;
-      const GridFrame mended = read(mended_by(refusal, out));
+      const std::string out = mended_by(refusal, folder);
+      const GridFrame mended = read(out);
       EXPECT_GT(mended.cell_width_m, 0.1) << refusal;
       EXPECT_LT(mended.cell_width_m, 2) << refusal;
       std::filesystem::remove(out);
@@ -69,9 +74,23 @@ TEST(RasterRemedies, TheCommandThatARefusalNamesMendsTheRaster) {
   }
 }
 
+TEST(RasterRemedies, TheCommandMendsARasterWhoseNameIsTheOutputsOrLooksLikeAnOption) {
+  const ScratchFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path(""));
+  for (const char* name : {"out.tif", "./out.tif", "-x.tif", "-r"}) {
+    write(folder, {.transform = {15, 1e-5, 0, 48, 0, -1e-5}, .crs = "EPSG:4326"}, name);
+    const std::string refusal = error_text([&] { read_elevation(name); });
+    const std::string mended = mended_by(refusal, folder);
+    EXPECT_GT(read_elevation(mended).frame.cell_width_m, 0.1) << refusal;
+    std::filesystem::remove(mended);
+    std::filesystem::remove(name);
+  }
+  std::filesystem::current_path(before);
+}
+
 TEST(RasterRemedies, ClassesInAnotherCrsAreBroughtIntoTheElevationsByTheCommandNamed) {
   const ScratchFolder folder;
-  const std::string out = folder.path("out.tif");
   const Tiff classes{
       .type = GDT_Byte, .transform = {500000, 1, 0, 5300000, 0, -1}, .crs = "EPSG:32633"};
   const std::string file = write(folder, classes);
@@ -83,7 +102,8 @@ TEST(RasterRemedies, ClassesInAnotherCrsAreBroughtIntoTheElevationsByTheCommandN
         read_elevation(write(folder, {.transform = transform, .crs = crs}, "dem.tif")).frame;
     ClassRaster raster = read_classes(file);
     const std::string refusal = error_text([&] { adopt_crs(raster, elevation, file); });
-    ClassRaster mended = read_classes(mended_by(refusal, out));
+    const std::string out = mended_by(refusal, folder);
+    ClassRaster mended = read_classes(out);
     EXPECT_EQ(adopt_crs(mended, elevation, out), "") << refusal;
     std::filesystem::remove(out);
   }
