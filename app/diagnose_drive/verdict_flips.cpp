@@ -72,8 +72,9 @@ struct WindowJudged {
   VehicleState tightest;
 };
 
+/// \pre there is a state
 WindowJudged judged_at_means(const World& world, const std::vector<VehicleState>& states) {
-  WindowJudged judged;
+  WindowJudged judged{.why = {}, .tightest = states.front()};
   double least = std::numeric_limits<double>::infinity();
   for (const VehicleState& state : states) {
     const Judgement judgement = world.judge(state, {}, 0);
@@ -81,7 +82,7 @@ WindowJudged judged_at_means(const World& world, const std::vector<VehicleState>
       judged.why = rejection_text(judgement.rejected->reason, judgement.rejected->exceeded);
       return judged;
     }
-    if (judgement.point.margin >= least) continue;
+    if (!(judgement.point.margin < least)) continue;
     least = judgement.point.margin;
     judged.tightest = state;
   }

@@ -171,7 +171,10 @@ StagedFiles::StagedFiles(const ResultFolder& folder)
   // Another process may sweep the hidden folder before it is locked.
   for (int attempt = 0; attempt < 100 && lock_ < 0 && !failed; ++attempt) {
     staging_ = existing / (std::string(kStagingPrefix) + unused_number());
-    if (fs::create_directory(staging_, failed)) lock_ = locked(staging_);
+    if (!fs::create_directory(staging_, failed)) continue;
+    lock_ = locked(staging_);
+    std::error_code ignored;  // whoever swept it has taken it away
+    if (lock_ < 0) fs::remove(staging_, ignored);
   }
   if (lock_ >= 0) try_missing(folder_.path.lexically_relative(existing), failed);
   if (failed) {

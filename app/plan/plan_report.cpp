@@ -156,16 +156,23 @@ std::string plan_headline(const PlanResult& result, const Limits& limits) {
 }
 
 std::string tie_sentence(const std::vector<Candidate>& ranked) {
-  std::vector<std::string> groups;
+  std::vector<std::string> drawn, undrawn;
   for (const auto& [first, last] : tied_ranks(ranked)) {
-    groups.push_back(fmt::format("{} {} {}", first, last == first + 1 ? "and" : "to", last));
+    // A group is of one tier: either all of it was judged over draws of the soils, or none.
+    const bool is_drawn = ranked.at(static_cast<std::size_t>(first) - 1).spread.has_value();
+    (is_drawn ? drawn : undrawn)
+        .push_back(fmt::format("{} {} {}", first, last == first + 1 ? "and" : "to", last));
   }
-  if (groups.empty()) return "";
-  return fmt::format(
-      "Ranks {} are tied: over the draws of the soils they differ by less than chance does; of "
-      "tied "
-      "paths the faster stands first.",
-      fmt::join(groups, ", and "));
+  std::string text;
+  const auto tell = [&text](const std::vector<std::string>& groups, std::string_view why) {
+    if (groups.empty()) return;
+    text += fmt::format("{}Ranks {} are tied: {}; of tied paths the faster stands first.",
+                        text.empty() ? "" : " ", fmt::join(groups, ", and "), why);
+  };
+  tell(drawn, "over the draws of the soils they differ by less than chance does");
+  tell(undrawn,
+       "no draws of the soils were made of them, and their margins at the mean are the same");
+  return text;
 }
 
 std::string plan_report(const PlanningProblem& problem, const PlanResult& result) {

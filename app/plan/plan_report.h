@@ -17,8 +17,8 @@ std::string plan_headline(const PlanResult& result, const Limits& limits);
 /// stand in it as JSON, with the key names and units of `plan.json`.
 std::string plan_report(const PlanningProblem& problem, const PlanResult& result);
 
-/// Which ranks are none, as the draws of the soils cannot tell their paths apart; empty where each
-/// is one.
+/// Which ranks are none, as the draws of the soils, or without draws the margins at their means,
+/// cannot tell their paths apart; empty where each is one.
 std::string tie_sentence(const std::vector<Candidate>& ranked);
 
 }  // namespace regoplan

@@ -151,6 +151,17 @@ TEST_F(PlanReport, WritesWhatIsNotKnownAsNull) {
   EXPECT_EQ(headline_of(page).find("nan"), std::string::npos) << headline_of(page);
 }
 
+TEST_F(PlanReport, TiesAreToldByDrawsOnlyOfPathsThatWereDrawn) {
+  const Candidate undrawn{.margin_min = 0.2};
+  Candidate drawn = undrawn;
+  drawn.spread = MarginSpread{.p05 = 0.1, .p05_high = 0.2};
+  EXPECT_EQ(tie_sentence({drawn, undrawn}), "");
+  EXPECT_NE(tie_sentence({drawn, drawn}).find("1 and 2 are tied: over the draws"),
+            std::string::npos);
+  EXPECT_NE(tie_sentence({drawn, undrawn, undrawn}).find("2 and 3 are tied: no draws"),
+            std::string::npos);
+}
+
 TEST_F(PlanReport, SaysTheVerdictFirst) {
   const std::string page = plan_report(problem_, result_);
   EXPECT_EQ(headline_of(page), plan_headline(result_, problem_.limits));

@@ -1,6 +1,7 @@
 #include "app/io/staged_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -211,6 +212,19 @@ TEST(StagedFiles, AFolderThatTheSystemRefusesIsAnErrorThatLeavesNothing) {
   std::filesystem::create_symlink("/proc/no-such-folder", astray);
   EXPECT_EQ(refusal({astray}), "--out: " + astray + ": cannot be made: File exists");
   std::filesystem::remove(astray);
+  EXPECT_EQ(folder.count(), 0);
+}
+
+TEST(StagedFiles, AFolderThatCannotBeLockedIsAnErrorThatLeavesNothing) {
+  const ScratchFolder folder;
+  // Where no file can be opened any more, folders can still be made and not be locked.
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{.rlim_cur = 0, .rlim_max = before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const std::string refusal = error_text([&] { require_writable_folder({folder.path("")}); });
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_TRUE(refusal.ends_with(": cannot be locked")) << refusal;
   EXPECT_EQ(folder.count(), 0);
 }
 
