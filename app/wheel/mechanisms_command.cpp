@@ -260,6 +260,10 @@ ExitStatus run_mechanisms(const MechanismsOptions& options) {
   }
   if (all.empty() && text.empty()) refuse(options.id);
   if (options.json) {
+    // Who reads the whole vocabulary finds every id that diagnosis.json may hold.
+    for (const OtherName& other : other_names()) {
+      if (options.id.empty()) all.push_back(other_json(other));
+    }
     fmt::print("{}\n", all.dump(2));
     return kYes;
   }

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/settings/vehicle_settings.h"
+#include "app/wheel/other_names.h"
+#include "terramech/mechanisms/mechanism.h"
 #include "tests/app/flat_map.h"
+#include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
 #include "tests/app/simulant_model.h"
 #include "tests/error_text.h"
@@ -297,6 +301,14 @@ TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
     }
   }
   EXPECT_NE(run("mechanisms").output.find("sensor_gain"), std::string::npos);
+  const auto all = nlohmann::json::parse(run("mechanisms --json").output);
+  EXPECT_EQ(schema("mechanisms").errors(all), std::vector<std::string>());
+  std::set<std::string> listed;
+  for (const auto& entry : all) listed.insert(entry.at("id").get<std::string>());
+  for (const OtherName& other : other_names()) EXPECT_TRUE(listed.contains(std::string(other.id)));
+  for (const MechanismForm& form : mechanism_forms()) {
+    EXPECT_TRUE(listed.contains(std::string(form.id)));
+  }
   expect_refusal(run("mechanisms stickiness"),
                  {"stickiness is none of ", "grousers", "sensor_gain"});
 }
