@@ -2,17 +2,19 @@
 # root, find measured data through REGOPLAN_DATA and skip, saying so, where they are absent.
 include(GoogleTest)
 
-# Each test is one of CTest, run by itself. Suites of <folder>_suites are one of CTest each: their
-# tests look at what was made once (SetUpTestSuite, a static), which takes longer than they do, or are many
-# that hardly take longer than the program takes to start for each (.07 s with OMPL and GDAL). Under sanitizers
-# every suite is: a program of theirs takes .1 s to start, and ends with a search for leaks.
-set(app_suites
-    CompareProgram Export PlanAgain
-    BadScenario DiagnosisJson DocsOfResults DocsOfSettings DriveFile MapImport PlanFiles PlanReport
-    RecordingFile ReportMap ScenarioSettings SettingsMapping SettingsNode SoilSettings WheelRows)
-set(planner_suites Obstacles PathCurve PathTracking Ranking TerrainRasters World)
-set(maps_suites RasterFiles RasterRemedies TerrainMap)
-set(terramech_suites SupplyTable)
+# Each suite is one of CTest's: a program with OMPL and GDAL takes .07 s to start, longer than most tests
+# do, and what a suite sets up is made once for all that look at it. Of suites in <folder>_long, each test is
+# one of CTest's, run by itself, so that two processors share them; and so are all tests of a program
+# that starts at once. Under sanitizers every suite is one: a program of theirs takes .1 s to start, and ends
+# with a search for leaks.
+set(app_long BenchmarkProgram DemoProgram Diagnose DiagnosisReportInTheBrowser DriveDiagnosisProgram
+             Evaluate Faults PlanReportInTheBrowser Schemas)
+set(planner_long All/EveryPlanner Evaluation Plan RelaxedProblem)
+set(drive_diagnosis_long ColumnsOfWheels TorqueSign VehicleEffects)
+set(journeys_long ALL)
+set(diagnosis_long ALL)
+set(diagnosis_challenge_long ALL)
+set(terramech_long ALL)
 function(regoplan_tests folder)
   file(GLOB sources CONFIGURE_DEPENDS tests/${folder}/*.cpp)
   add_executable(${folder}_tests ${sources})
@@ -25,27 +27,27 @@ function(regoplan_tests folder)
   endif()
   # What takes time is in the libraries; tests compile a third faster so.
   target_compile_options(${folder}_tests PRIVATE -O1)
+  set(by_itself ${${folder}_long})
   if(REGOPLAN_DEV)
+    set(by_itself "")
+  endif()
+  if(NOT "ALL" IN_LIST by_itself)
     file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/${folder}_suites.cmake CONTENT
          "include(${CMAKE_SOURCE_DIR}/cmake/suites.cmake)
-regoplan_add_suites($<TARGET_FILE:${folder}_tests> ${folder} ${CMAKE_SOURCE_DIR})\n")
+regoplan_add_suites($<TARGET_FILE:${folder}_tests> ${folder} ${CMAKE_SOURCE_DIR} ${by_itself})\n")
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES
                  ${CMAKE_BINARY_DIR}/${folder}_suites.cmake)
-    return()
   endif()
-  set(but_suites "")
-  if(${folder}_suites)
-    list(JOIN ${folder}_suites ".*:" but_suites)
-    set(but_suites "-${but_suites}.*")
+  if(by_itself)
+    set(filter "")
+    if(NOT "ALL" IN_LIST by_itself)
+      list(JOIN by_itself ".*:" filter)
+      set(filter "${filter}.*")
+    endif()
+    gtest_discover_tests(${folder}_tests WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
+                         TEST_FILTER "${filter}"
+                         PROPERTIES TIMEOUT 600 LABELS ${folder} DISCOVERY_TIMEOUT 60)
   endif()
-  gtest_discover_tests(${folder}_tests WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
-                       TEST_FILTER "${but_suites}"
-                       PROPERTIES TIMEOUT 600 LABELS ${folder} DISCOVERY_TIMEOUT 60)
-  foreach(suite ${${folder}_suites})
-    add_test(NAME ${suite} COMMAND ${folder}_tests --gtest_filter=${suite}.*
-             WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-    set_tests_properties(${suite} PROPERTIES TIMEOUT 600 LABELS ${folder})
-  endforeach()
 endfunction()
 
 regoplan_tests(terramech regoplan_terramech)

@@ -89,7 +89,7 @@ deb)
   touch "$root/var/lib/dpkg/"{status,available}
   into_root -i "$package"
   chmod -R a-w "$root/usr"
-  (cd "$work" && another_user "$root/usr/bin/regoplan" demo --no-drive --planner Lattice --iterations 20000 --candidates 1 --quiet --out result)
+  (cd "$work" && another_user "$root/usr/bin/regoplan" demo --no-drive --planner Lattice --iterations 600 --candidates 1 --quiet --out result)
   test -s "$work/result/report.html"
   chmod -R u+w "$root/usr"
   into_root --purge regoplan
