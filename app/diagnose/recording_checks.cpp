@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +13,8 @@
 
 namespace regoplan {
 namespace {
+
+constexpr double kStandardGravity_mps2 = 9.80665;  // of the unit kgf
 
 /// One value of a channel, in units of what limits it, beside the model's.
 struct Sample {
@@ -93,6 +96,8 @@ class Checks {
     check_sign(Channel::kTorque,
                "a driving wheel (positive); is an axis of the sensor turned "
                "round?");
+    check_exchanged();
+    check_kilograms();
     check_speed();
     return std::move(warnings_);
   }
@@ -223,6 +228,62 @@ class Checks {
     if (clear < kFewest || 5 * against < 4 * clear) return;
     warnings_.push_back(fmt::format("{}: {} opposes {} In {} of {} runs where its sign is clear.",
                                     place(first), name(channel), convention, against, clear));
+  }
+
+  /// Both forces of the runs that have them, each over its load, beside the model's.
+  std::vector<std::array<double, 4>> force_pairs() const {
+    std::vector<std::array<double, 4>> pairs;
+    for (std::size_t i = 0; i < runs().size(); ++i) {
+      const WheelRun& run = runs()[i];
+      const double fx = run.value(Channel::kFx), fy = run.value(Channel::kFy);
+      if (std::isnan(fx + fy) || !has_forces(at_[i].forces.status)) continue;
+      const WheelForces& model = at_[i].forces;
+      pairs.push_back(
+          {fx / run.load_n, fy / run.load_n, model.fx_n / run.load_n, model.fy_n / run.load_n});
+    }
+    return pairs;
+  }
+
+  /// Forces that come much nearer to the model with their columns exchanged.
+  void check_exchanged() {
+    constexpr std::size_t kFewest = 4;
+    const auto pairs = force_pairs();
+    if (pairs.size() < kFewest) return;
+    double told = 0, exchanged = 0;
+    for (const auto& [fx, fy, model_fx, model_fy] : pairs) {
+      told += std::pow(fx - model_fx, 2) + std::pow(fy - model_fy, 2);
+      exchanged += std::pow(fy - model_fx, 2) + std::pow(fx - model_fy, 2);
+    }
+    constexpr double kMuch = 3;
+    if (told < kMuch * kMuch * exchanged) return;
+    const auto rms = [&](double sum) { return std::sqrt(sum / static_cast<double>(pairs.size())); };
+    warnings_.push_back(fmt::format(
+        "{}: fx_n and fy_n lie {:.2g} of the load off the model, and {:.2g} with their columns "
+        "exchanged; are they?",
+        file_.file, rms(told), rms(exchanged)));
+  }
+
+  /// Channels that follow the model times, or divided by, what a kilogram weighs.
+  void check_kilograms() {
+    constexpr double kAlike = 0.8;
+    const double near = std::log(1.15), kilogram_n = kStandardGravity_mps2;
+    for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
+      double with_model = 0, own = 0, model = 0;
+      for (std::size_t i = 0; i < runs().size(); ++i) {
+        const double value = runs()[i].value(channel), expected = modelled(at_[i], channel);
+        if (std::isnan(value) || !has_forces(at_[i].forces.status)) continue;
+        with_model += value * expected;
+        own += value * value;
+        model += expected * expected;
+      }
+      if (!(with_model > kAlike * std::sqrt(own * model))) continue;
+      const double factor = std::sqrt(own / model);
+      const bool small = std::abs(std::log(factor * kilogram_n)) < near;
+      if (!small && std::abs(std::log(factor / kilogram_n)) >= near) continue;
+      warnings_.push_back(fmt::format("{}: {} is {:.2g} times the model's; suspected: {}",
+                                      file_.file, name(channel), factor,
+                                      small ? "kgf for N" : "load_n in kg"));
+    }
   }
 
   void check_speed() {

@@ -111,32 +111,35 @@ SoilCatalogue read_soil_catalogue(const SettingsNode& node, WheelVariant variant
 std::vector<std::string> doubtful_units(const SettingsNode& soil, const Soil& mean) {
   struct Doubt {
     std::string_view key;
-    double usual_min, usual_max;  // in the file's unit
-    const char* suspected;
+    double usual_min, usual_max;      // in the file's unit
+    const char *of_small, *of_large;  // what is suspected
   };
-  constexpr double kNoMax = std::numeric_limits<double>::infinity();
   constexpr double kShearModulusMax_m = 0.3;
   constexpr std::array<Doubt, 6> kDoubts{{
-      {"friction_angle_deg", 2, kNoMax, "radians"},
-      {"cohesion_pa", 10, kNoMax, "kPa"},
-      {"density_kgpm3", 100, kNoMax, "g/cm3"},
-      {"kphi", 1e4, kNoMax, "kN/m^(n+2)"},
-      {"kx0_m", 0, kShearModulusMax_m, "cm or mm"},
-      {"ky0_m", 0, kShearModulusMax_m, "cm or mm"},
+      {"friction_angle_deg", 2, 60, "radians", "a slope in percent"},
+      {"cohesion_pa", 10, 2e5, "kPa", "Pa taken for kPa"},
+      {"density_kgpm3", 100, 5e3, "g/cm3", "N/m3"},
+      {"kphi", 1e4, 1e8, "kN/m^(n+2)", "N/m^(n+2) taken for kN/m^(n+2)"},
+      {"kx0_m", 0, kShearModulusMax_m, "", "cm or mm"},
+      {"ky0_m", 0, kShearModulusMax_m, "", "cm or mm"},
   }};
   std::vector<std::string> sentences;
   for (const SoilParameter& parameter : soil_parameters()) {
     const auto* const doubt = std::ranges::find(kDoubts, parameter.name, &Doubt::key);
     if (doubt == kDoubts.end()) continue;
     const double value = mean.*parameter.member / parameter.file_unit;
-    const bool small = value != 0 && value < doubt->usual_min;  // a soil may have no cohesion
+    const bool may_be_none = doubt->key == "cohesion_pa";
+    const bool small = value < doubt->usual_min && !(may_be_none && value == 0);
     if (!small && value <= doubt->usual_max) continue;
     const std::string text = number_in_unit(mean.*parameter.member, parameter.file_unit);
     const SettingsNode* place = soil.find(doubt->key);
-    sentences.emplace_back((place ? *place : soil)
-                               .error(fmt::format("{} is {} for a soil; suspected: {}", text,
-                                                  small ? "small" : "large", doubt->suspected))
-                               .what());
+    sentences.emplace_back(
+        (place ? *place : soil)
+            .error(fmt::format("{} is {} for a soil (usual: {} to {}{}); suspected: {}", text,
+                               small ? "small" : "large", doubt->usual_min, doubt->usual_max,
+                               may_be_none ? ", or 0" : "",
+                               small ? doubt->of_small : doubt->of_large))
+            .what());
   }
   return sentences;
 }

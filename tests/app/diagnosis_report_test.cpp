@@ -51,6 +51,19 @@ TEST_F(DiagnosisReportInTheBrowser, DrawsAClaimFromTheFindingDownToTheNumbers) {
   EXPECT_EQ(pictures, 2u * (3 + 2 + 2));
 }
 
+TEST_F(DiagnosisReportInTheBrowser, DrawsALineForEachLoadAndNamesIt) {
+  DiagnosisRun run = claimed_diagnosis();
+  const auto label_of = [](const std::string& load) { return ">" + load + "&nbsp;N</text>"; };
+  EXPECT_EQ(drawn(diagnosis_report(run)).find(label_of("65")), std::string::npos) << "one load";
+  std::vector<WheelRun>& runs = run.recording.recording.runs;
+  for (std::size_t i = 0; i < runs.size(); i += 2) runs[i].load_n *= 0.5;
+  const std::string page = drawn(diagnosis_report(run));
+  expect_drawn_without_error(page);
+  for (const char* load : {"32", "65"}) {
+    EXPECT_NE(page.find(label_of(load)), std::string::npos) << load;
+  }
+}
+
 TEST_F(DiagnosisReportInTheBrowser, DrawsEveryVerdictWithoutAnError) {
   const std::string consistent = drawn(diagnosis_report(consistent_diagnosis()));
   expect_drawn_without_error(consistent);

@@ -100,6 +100,26 @@ TEST(RecordingChecks, SlipAnglesInRadiansAreSeenByTheirSideForces) {
   EXPECT_EQ(refusal(truly_small), "");
 }
 
+TEST(RecordingChecks, ColumnsOfForcesThatAreExchangedAreAskedFor) {
+  const auto exchanged = [](WheelRun& run) { std::swap(run.measured[0], run.measured[1]); };
+  const std::vector<std::string> found = doubtful_values(changed(exchanged), simulant());
+  ASSERT_FALSE(found.empty());
+  expect_words(found.back(), {"r.csv: fx_n and fy_n lie ", "columns exchanged; are they?"});
+}
+
+TEST(RecordingChecks, ForcesInKilogramsAreSuspectedByTheFactor) {
+  const auto found_with = [](Channel channel, double factor) {
+    return doubtful_values(changed([&](WheelRun& run) { scale(run, channel, factor); }),
+                           simulant());
+  };
+  for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
+    const std::vector<std::string> small = found_with(channel, 1 / 9.80665);
+    ASSERT_EQ(small.size(), 1u) << name(channel);
+    expect_words(small[0], {std::string(name(channel)) + " is 0.1 times", "kgf for N"});
+    EXPECT_TRUE(found_with(channel, 0.2).empty()) << "no unit does that";
+  }
+}
+
 TEST(RecordingChecks, ASideForceThatOpposesTheConventionIsReported) {
   const auto warnings =
       doubtful_values(changed([](WheelRun& run) { scale(run, Channel::kFy, -1); }), simulant());

@@ -213,7 +213,8 @@ TEST_F(ScenarioSettings, SoilsInAnotherUnitAreToldAsASetupTellsThem) {
   const auto told = [](const std::vector<std::string>& notices, const std::string& words) {
     return std::ranges::any_of(notices, [&](const auto& n) { return n.ends_with(words); });
   };
-  const char* const radians = ".friction_angle_deg: 0.65 is small for a soil; suspected: radians";
+  const char* const radians =
+      ".friction_angle_deg: 0.65 is small for a soil (usual: 2 to 60); suspected: radians";
   EXPECT_FALSE(told(scenario("gravity_mps2", "gravity_mps2").notices, radians));
   EXPECT_TRUE(told(scenario("friction_angle_deg: 35", "friction_angle_deg: 0.65").notices,
                    "map.soils.soils.mare" + std::string(radians)));

@@ -14,7 +14,7 @@ function curves(host) {
   host.append(element(
       'p', {class: 'note'},
       `Points are runs with one standard deviation of the noise. ${
-          lines}Runs stand at the mean load of their condition, moved there by the slope of the model; lines join means over replicates.`));
+          lines}Runs stand at the mean load of their condition, moved there by the slope of the model; lines join means over replicates, of each load by itself.`));
   host.append(
       element('div', {class: 'residual-legend'}, ...MODEL_KEYS.map(key => legendKey(key).node)));
   for (const channel of channels) {
@@ -84,12 +84,31 @@ function curvePanel(channel, rows, yDomain) {
 }
 
 function drawPanel(svg, width, channel, rows, yDomain) {
-  const box = chartBox(svg, width, 190, {left: 44, right: 12, top: 8, bottom: 32});
+  const loads =
+      grouped(rows, r => LOAD_OF[r.run]).sort((a, b) => LOAD_OF[a[0].run] - LOAD_OF[b[0].run]);
+  const box =
+      chartBox(svg, width, 190, {left: 44, right: loads.length > 1 ? 44 : 12, top: 8, bottom: 32});
   const {scale} = channelOf(channel);
   const x = paddedScale(RUNS.slip_ratio, 0.2, [box.left, box.right]);
   const y = d3.scaleLinear().domain(yDomain).nice(4).range([box.bottom, box.top]);
   drawAxes(svg, box, {scale: x, title: 'slip ratio'}, {scale: y});
 
+  for (const ofLoad of loads) drawModels(svg, ofLoad, scale, x, y);
+  if (loads.length > 1) labelLoads(svg, box, loads, scale, x, y);
+  drawMeasured(svg, rows, scale, x, y);
+  return rows.map(
+      r => ({
+        x: x(RUNS.slip_ratio[r.run]),
+        y: y(scale * r.measured),
+        text: `${RUNS.run_id[r.run]}: slip ratio ${significant(RUNS.slip_ratio[r.run], 3)}, load ${
+            significant(
+                RUNS.load_n[r.run], 3)}\u00a0N, measured ${withChannelUnit(channel, r.measured)}; ${
+            SHOWN_MODELS.map(m => `${m.name} ${inUnit(channel, shownValue(r, m.key))}`).join(', ')}`
+      }));
+}
+
+/// What the models say of runs of one load, a line each.
+function drawModels(svg, rows, scale, x, y) {
   const bySlip =
       grouped(rows, r => SLIP_OF[r.run]).sort((a, b) => SLIP_OF[a[0].run] - SLIP_OF[b[0].run]);
   const slip = group => x(SLIP_OF[group[0].run]);
@@ -122,6 +141,38 @@ function drawPanel(svg, width, channel, rows, yDomain) {
             'd',
             known.length === 1 ? `M${slip(known[0]) - 8},${y(value(known[0]))}h16` : line(known));
   }
+}
+
+/// The load of each line beside its runs of the largest slip; labels that would overlap move apart.
+function labelLoads(svg, box, loads, scale, x, y) {
+  const apart_px = 12, middle_px = 4;
+  const labels = loads
+                     .map(rows => {
+                       const last = d3.max(rows, r => SLIP_OF[r.run]);
+                       const ends = rows.filter(r => SLIP_OF[r.run] === last);
+                       return {
+                         text: `${significant(LOAD_OF[rows[0].run], 2)}\u00a0N`,
+                         x: x(last) + 6,
+                         y: y(scale * d3.mean(ends, r => r.measured)) + middle_px
+                       };
+                     })
+                     .sort((a, b) => b.y - a.y);
+  let free_px = box.bottom;
+  for (const label of labels) {
+    label.y = Math.min(label.y, free_px);
+    free_px = label.y - apart_px;
+  }
+  svg.append('g')
+      .attr('class', 'axis')
+      .selectAll('text')
+      .data(labels)
+      .join('text')
+      .attr('x', l => l.x)
+      .attr('y', l => l.y)
+      .text(l => l.text);
+}
+
+function drawMeasured(svg, rows, scale, x, y) {
   const points = svg.append('g').selectAll('g').data(rows).join('g').attr(
       'transform', r => `translate(${x(RUNS.slip_ratio[r.run])},0)`);
   points.append('line')
@@ -132,13 +183,4 @@ function drawPanel(svg, width, channel, rows, yDomain) {
       .attr('class', 'measured')
       .attr('r', 2.6)
       .attr('cy', r => y(scale * r.measured));
-  return rows.map(
-      r => ({
-        x: x(RUNS.slip_ratio[r.run]),
-        y: y(scale * r.measured),
-        text: `${RUNS.run_id[r.run]}: slip ratio ${significant(RUNS.slip_ratio[r.run], 3)}, load ${
-            significant(
-                RUNS.load_n[r.run], 3)}\u00a0N, measured ${withChannelUnit(channel, r.measured)}; ${
-            SHOWN_MODELS.map(m => `${m.name} ${inUnit(channel, shownValue(r, m.key))}`).join(', ')}`
-      }));
 }

@@ -46,6 +46,8 @@ function clustered(values, width) {
 }
 
 const SLIP_OF = clustered(RUNS.slip_ratio, 0.025), ANGLE_OF = clustered(RUNS.slip_angle_deg, 1.5);
+/// Loads that a test bed holds vary by a few percent from run to run: those are one load.
+const LOAD_OF = clustered(RUNS.load_n.map(Math.log), 0.15).map(Math.exp);
 /// What else tells runs apart, where it varies: [column, text of a run].
 const OTHERS = ['pass', 'speed_mps', 'wheel'].filter(
     column => RUNS[column] && new Set(RUNS[column]).size > 1 && new Set(RUNS[column]).size <= 6);
