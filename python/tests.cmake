@@ -24,4 +24,7 @@ if(names)
     ${names}
     PROPERTIES LABELS python TIMEOUT 300 SKIP_REGULAR_EXPRESSION "^skipped: " ENVIRONMENT
                "PYTHONPATH=${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;REGOPLAN_PROGRAM=$<TARGET_FILE:regoplan>;REGOPLAN_SOURCE_DIR=${PROJECT_SOURCE_DIR};REGOPLAN_BUILD_DIR=${CMAKE_BINARY_DIR}")
+  if("python.commands" IN_LIST names)
+    set_tests_properties(python.commands PROPERTIES COST 20)  # long: starts first (cmake/long_tests.cmake)
+  endif()
 endif()
