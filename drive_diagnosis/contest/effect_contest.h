@@ -52,6 +52,7 @@ struct EffectFound {
   double like_size = 0, like_std = 0;
   double gain = 0;    ///< twice the nats of evidence over a sound vehicle on the map's soils
   double chance = 0;  ///< what one contest in a thousand gains by chance
+  double asked = 0;   ///< gain that a zone needs to stand out
   double sigmas = 0;
   bool stands_out = false;
   std::vector<std::size_t> alike;  ///< parameters that explain as much, or the same

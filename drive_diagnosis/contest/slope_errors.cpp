@@ -1,5 +1,6 @@
 #include "drive_diagnosis/contest/slope_errors.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace regoplan {
@@ -37,26 +38,33 @@ Eigen::MatrixXd slope_error_columns(const SlopeErrors& errors, const std::vector
   return result;
 }
 
-Eigen::MatrixXd likely_slope_errors(const EffectContest& contest, const SlopeErrors& errors,
-                                    std::optional<std::size_t> pitch) {
-  constexpr double kNotTold = 1, kWorth_nats = 1;
-  Eigen::MatrixXd most_likely = slope_error_columns(errors, contest.follows, kNotTold);
-  if (!pitch) return most_likely;
-  const auto of_pitch = Eigen::seq(static_cast<Eigen::Index>(*pitch), Eigen::last, errors.channels);
-  EffectContest told{.data = contest.data(of_pitch)};
-  told.parameters = contest.parameters(of_pitch, Eigen::all);
-  told.faults_known = contest.faults_known;
-  told.ground = most_likely(of_pitch, Eigen::all);
-  double most = likelihood_nats(told);
-  for (const double persistent : {0.3, 0.1}) {
-    Eigen::MatrixXd columns = slope_error_columns(errors, contest.follows, persistent);
-    told.ground = columns(of_pitch, Eigen::all);
-    const double nats = likelihood_nats(told);
-    if (nats <= most + kWorth_nats) continue;
-    most = nats;
-    most_likely = std::move(columns);
+double likely_persistence(const EffectContest& contest, const SlopeErrors& errors,
+                          const std::vector<Eigen::Index>& channels) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index row = 0; row < contest.data.size(); ++row) {
+    if (std::ranges::find(channels, row % errors.channels) != channels.end()) rows.push_back(row);
   }
-  return most_likely;
+  EffectContest told{.data = contest.data(rows)};
+  told.parameters = contest.parameters(rows, Eigen::all);
+  told.faults_known = contest.faults_known;
+  told.soil_numbers = contest.soil_numbers;
+  told.wide_directions = contest.wide_directions;
+  for (const KnownZone& zone : contest.zones_known) {
+    told.zones_known.push_back({.share = zone.share, .columns = zone.columns(rows, Eigen::all)});
+  }
+  const auto nats = [&](double persistent) {
+    told.ground = slope_error_columns(errors, contest.follows, persistent)(rows, Eigen::all);
+    return likelihood_nats(told);
+  };
+  constexpr double kNotTold = 1, kWorth_nats = 1;
+  double likeliest = kNotTold, most = nats(kNotTold);
+  for (const double persistent : {0.3, 0.1}) {
+    const double there = nats(persistent);
+    if (there <= most + kWorth_nats) continue;
+    most = there;
+    likeliest = persistent;
+  }
+  return likeliest;
 }
 
 }  // namespace regoplan

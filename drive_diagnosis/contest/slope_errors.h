@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "drive_diagnosis/contest/effect_contest.h"
@@ -25,10 +24,11 @@ struct SlopeErrors {
 Eigen::MatrixXd slope_error_columns(const SlopeErrors& errors, const std::vector<bool>& follows,
                                     double persistent);
 
-/// The columns that make the measured pitch most likely, which no soil changes; where it says
-/// nothing, all of it persists: other scatter of torques, which goes the same way, does.
-/// \param pitch the channel that it is; nothing: not measured
-Eigen::MatrixXd likely_slope_errors(const EffectContest& contest, const SlopeErrors& errors,
-                                    std::optional<std::size_t> pitch);
+/// How much of them persists, as what is measured in some channel makes likeliest; where it says
+/// nothing, all of it: other scatter of torques, which goes the same way, does.
+/// \param contest zones and faults that it knows are free
+/// \param channels that are asked, of those that each window has
+double likely_persistence(const EffectContest& contest, const SlopeErrors& errors,
+                          const std::vector<Eigen::Index>& channels);
 
 }  // namespace regoplan

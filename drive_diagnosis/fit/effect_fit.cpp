@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
-
-#include "drive_diagnosis/contest/slope_errors.h"
 
 namespace regoplan {
 namespace {
@@ -56,12 +55,16 @@ EffectFound EffectFit::strongest(std::uint64_t seed) {
   whiten_soil(soil, here.noise);
   EffectFound strongest = strongest_effect(contest_, seed);
   if (strongest.stands_out || !strongest.is_zone) return strongest;
-  // A zone that is there has widened the noise that it was held against.
+  // A zone that is there has widened the noise that it was held against, and slopes that err alike
+  // from window to window would pass for it.
   std::vector<Eigen::MatrixXd>& numbers = here.windows.zones.emplace_back();
   for (const Eigen::MatrixXd& number : soil) {
     numbers.emplace_back(strongest.share.asDiagonal() * number);
   }
-  whiten_soil(soil, whiten(here.windows));
+  contest_.zones_known.push_back({.share = strongest.share, .columns = {}});
+  const ResidualNoise noise = whiten(here.windows);
+  contest_.zones_known.pop_back();
+  whiten_soil(soil, noise);
   return strongest_effect(contest_, seed);
 }
 
@@ -230,10 +233,24 @@ ResidualNoise EffectFit::whiten(const LinearisedWindows& here) {
   const auto white = [&](std::size_t input) {
     return Eigen::VectorXd(noise.sources().inputs[input] * noise.whitened(here.inputs[input]));
   };
-  contest_.ground = likely_slope_errors(
-      contest_, {.along = white(along), .across = white(along + 1), .channels = here.base.cols()},
-      comparison_.channel("pitch_rad"));
+  const SlopeErrors errors{
+      .along = white(along), .across = white(along + 1), .channels = here.base.cols()};
+  contest_.ground = slope_error_columns(errors, contest_.follows, persistence(errors));
   return noise;
+}
+
+/// No soil changes the pitch, so it is asked first; where it scatters too far to tell, torques tell
+/// slopes as well.
+double EffectFit::persistence(const SlopeErrors& errors) const {
+  std::vector<Eigen::Index> channels;
+  if (const auto pitch = comparison_.channel("pitch_rad")) {
+    channels.push_back(static_cast<Eigen::Index>(*pitch));
+    const double told = likely_persistence(contest_, errors, channels);
+    if (told < 1) return told;
+  }
+  channels.resize(static_cast<std::size_t>(errors.channels));
+  std::iota(channels.begin(), channels.end(), 0);
+  return likely_persistence(contest_, errors, channels);
 }
 
 /// Makes columns of soil of its own white.

@@ -12,6 +12,7 @@
 #include "drive_diagnosis/comparison/window_comparison.h"
 #include "drive_diagnosis/contest/effect_contest.h"
 #include "drive_diagnosis/contest/residual_noise.h"
+#include "drive_diagnosis/contest/slope_errors.h"
 #include "drive_diagnosis/fit/likely_soils.h"
 #include "drive_diagnosis/fit/window_linearisation.h"
 
@@ -94,6 +95,7 @@ class EffectFit {
   double nats(const PredictedWindows& here, const ResidualNoise& noise) const;
   ResidualParts residual_parts(const LinearisedWindows& here) const;
   ResidualNoise whiten(const LinearisedWindows& here);
+  double persistence(const SlopeErrors& errors) const;
   std::vector<Eigen::MatrixXd> soil_columns(const Eigen::MatrixXd& base) const;
   void whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise);
   std::optional<ScatterSources> scatter_outside(const LinearisedWindows& here,

@@ -136,7 +136,7 @@ TEST(StrongestEffect, AZoneIsAskedMoreThanChanceGivesSinceARecordingMayBeginOutO
   while (!strongest_effect(with_a_zone(deviations), 1).stands_out) deviations += 0.02;
   const EffectFound zone = strongest_effect(with_a_zone(deviations), 1);
   ASSERT_TRUE(zone.is_zone);
-  constexpr double kOutOfBalance = 7, kMostToSpare = 14;  // twice nats
+  constexpr double kOutOfBalance = 3, kMostToSpare = 6;  // twice nats
   EXPECT_GT(zone.gain, zone.chance + kOutOfBalance);
   EXPECT_LT(zone.gain, zone.chance + kMostToSpare);
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Eigen::Index kWindows = 60;
 
-/// Windows of one channel that is the pitch, measured to a tenth of what slopes err.
+/// Windows of one channel that slopes change, measured to a tenth of what they err.
 struct Drive {
   std::vector<bool> follows = std::vector<bool>(kWindows, true);
   SlopeErrors errors{.along = Eigen::VectorXd::Constant(kWindows, 10),
@@ -45,7 +45,7 @@ TEST(SlopeErrors, NothingGoesOnAcrossAGap) {
   EXPECT_NEAR(covariance(20, 21), -0.5, 1e-9);
 }
 
-TEST(SlopeErrors, ThePitchTellsWhetherTheyPersist) {
+TEST(SlopeErrors, WhatIsMeasuredTellsWhetherTheyPersist) {
   const Drive drive;
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -56,10 +56,31 @@ TEST(SlopeErrors, ThePitchTellsWhetherTheyPersist) {
     const EffectContest contest{.data = std::move(data),
                                 .parameters = Eigen::MatrixXd::Zero(kWindows, 0),
                                 .follows = drive.follows};
-    EXPECT_TRUE(likely_slope_errors(contest, drive.errors, 0).isApprox(columns));
-    EXPECT_TRUE(likely_slope_errors(contest, drive.errors, {})
-                    .isApprox(slope_error_columns(drive.errors, drive.follows, 1)));
+    EXPECT_EQ(likely_persistence(contest, drive.errors, {0}), persistent);
+    EXPECT_EQ(likely_persistence(contest, drive.errors, {}), 1) << "as nothing was asked";
   }
+}
+
+TEST(SlopeErrors, AZoneThatIsFreeIsNotTakenForSlopesThatPersist) {
+  constexpr Eigen::Index kFirst = 20, kLong = 12;
+  Drive drive;
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  const Eigen::MatrixXd columns = slope_error_columns(drive.errors, drive.follows, 0.1);
+  Eigen::VectorXd share = Eigen::VectorXd::Zero(kWindows);
+  share.segment(kFirst, kLong).setOnes();
+  constexpr double kOff = 15;  // by which soil changes each of its windows, in what scatters
+  EffectContest contest{
+      .data =
+          columns * Eigen::VectorXd::NullaryExpr(columns.cols(), [&] { return normal(random); }) +
+          Eigen::VectorXd::NullaryExpr(kWindows, [&] { return normal(random); }) + kOff * share,
+      .parameters = Eigen::MatrixXd::Zero(kWindows, 0),
+      .soil_numbers = 1,
+      .wide_directions = {Eigen::VectorXd::Ones(1)},
+      .follows = drive.follows};
+  EXPECT_EQ(likely_persistence(contest, drive.errors, {0}), 1);
+  contest.zones_known.push_back({.share = share, .columns = kOff * share});
+  EXPECT_EQ(likely_persistence(contest, drive.errors, {0}), 0.1);
 }
 
 }  // namespace
