@@ -19,6 +19,20 @@ std::string why_nothing_is_compared(const DriveDiagnosis& result) {
   return text;
 }
 
+/// How long zones must be for these drives to show them.
+std::string zones_shown_text(const std::vector<ZoneShown>& zones,
+                             const std::vector<MapSoil>& soils) {
+  const auto name_of = [&soils](int soil) { return soils[static_cast<std::size_t>(soil)].name; };
+  std::string text;
+  for (const ZoneShown& zone : zones) {
+    text += text.empty() ? "" : "; ";
+    text += zone.there ? name_of(*zone.there) : "a soil three standard deviations weaker";
+    if (zone.here) text += " in place of " + name_of(*zone.here);
+    text += zone.least_m ? fmt::format(": from {:.0f} m on", *zone.least_m) : ": no zone of it";
+  }
+  return text;
+}
+
 }  // namespace
 
 void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
@@ -36,6 +50,14 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
           "tow_drag"},
          why_nothing_is_compared(result),
          "a minute on the map with rim speed and steering of every wheel and the pose at 1 Hz"});
+  }
+  if (result.effects && !result.effects->zones_shown.empty()) {
+    result.silent.push_back(
+        {{"soil_zone"},
+         "shorter zones would not stand out of what chance gives at one of ten places or more: " +
+             zones_shown_text(result.effects->zones_shown, setup.map.soils()),
+         "torque of every wheel, and attitude by which the map's slopes are told from soil (a "
+         "window's mean to 0.1 deg)"});
   }
   if (!any_has(drives, "torque_")) {
     result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},

@@ -66,6 +66,7 @@ class EffectSearch {
       EffectFound strongest = fit_.strongest(seed_);
       if (!strongest.stands_out || static_cast<int>(found.size()) == kEffectsMost) {
         result.strongest_left = told(strongest);
+        result.zones_shown = zones_shown(strongest);
         break;
       }
       tell(stands_out_text(strongest));
@@ -155,6 +156,21 @@ class EffectSearch {
                           .noise = fit_.noise()[channel]});
     }
     return channels;
+  }
+
+  std::vector<ZoneShown> zones_shown(const EffectFound& sought_last) const {
+    double way_m = 0;
+    for (std::size_t i = 0; i < comparison_.size(); ++i) {
+      const DriveWindow& window = windows_[comparison_.window(i)];
+      way_m += window.speed_mps * window.duration_s() / static_cast<double>(comparison_.size());
+    }
+    std::vector<ZoneShown> shown;
+    for (const std::optional<int>& windows : fit_.shortest_zones_shown(sought_last)) {
+      const LikelySoil& likely = likely_[shown.size()];
+      shown.push_back({.here = likely.here, .there = likely.there, .least_m = {}});
+      if (windows) shown.back().least_m = *windows * way_m;
+    }
+    return shown;
   }
 
   VehicleFinding told(const EffectFound& effect) const {

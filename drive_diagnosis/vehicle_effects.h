@@ -43,11 +43,19 @@ struct VehicleFinding {
   std::optional<SoilZoneFound> zone;
 };
 
+/// How long a zone of another soil must be for these drives to show it at nine of ten places.
+struct ZoneShown {
+  std::optional<int> here;        ///< the map's soil that is said to lie there; nothing: any
+  std::optional<int> there;       ///< that lies there instead; nothing: one far weaker
+  std::optional<double> least_m;  ///< nothing: none is shown, however long
+};
+
 /// What the vehicle's windows say.
 struct VehicleEffects {
   std::vector<VehicleFinding> found;
-  VehicleFinding strongest_left;  ///< what did not stand out
-  UncertainVehicle vehicle;       ///< of the numbers that nobody knew well, what the drives say
+  VehicleFinding strongest_left;       ///< what did not stand out
+  std::vector<ZoneShown> zones_shown;  ///< beside what was found
+  UncertainVehicle vehicle;    ///< of the numbers that nobody knew well, what the drives say
   std::vector<MapSoil> soils;  ///< of the map, with what is left of the spread of those driven on
   int windows = 0;             ///< that were compared
   std::vector<std::string> channels;

@@ -349,4 +349,33 @@ EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed) {
   return Contest(contest, seed).strongest();
 }
 
+std::vector<std::optional<int>> shortest_zones_shown(const EffectContest& contest, double asked) {
+  constexpr double kOfPlaces = 0.9;
+  const Metric metric(free_columns(contest));
+  const ZoneGains zones(metric.products(contest.soil, contest.soil), contest.soil_numbers);
+  const std::size_t lengths = contest.follows.size() + 1;
+  std::vector<int> places(lengths);
+  std::vector<std::vector<int>> shown(contest.likely_soils.size(), places);
+  zones.each_stretch(contest.follows, free_of_zones(contest),
+                     [&](Eigen::Index first, Eigen::Index last, const Eigen::MatrixXd& length) {
+                       const auto windows = static_cast<std::size_t>(last - first + 1);
+                       ++places[windows];
+                       for (std::size_t i = 0; i < shown.size(); ++i) {
+                         const Eigen::VectorXd& soil = contest.likely_soils[i];
+                         const double along = soil.dot(length * soil);
+                         shown[i][windows] += gain_of_one(along, along, 1) > asked;
+                       }
+                     });
+  std::vector<std::optional<int>> shortest;
+  for (const std::vector<int>& of_soil : shown) {
+    std::optional<int>& least = shortest.emplace_back();
+    for (std::size_t windows = 1; windows < lengths && !least; ++windows) {
+      if (places[windows] > 0 && of_soil[windows] >= kOfPlaces * places[windows]) {
+        least = static_cast<int>(windows);
+      }
+    }
+  }
+  return shortest;
+}
+
 }  // namespace regoplan

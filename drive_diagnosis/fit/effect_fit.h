@@ -31,6 +31,11 @@ class EffectFit {
 
   /// The strongest effect of those that are not known yet, about the present fit.
   EffectFound strongest(std::uint64_t seed);
+  /// Of each likely soil, the fewest windows of a zone that the effect sought last would have been:
+  /// see `shortest_zones_shown`.
+  std::vector<std::optional<int>> shortest_zones_shown(const EffectFound& sought_last) const {
+    return regoplan::shortest_zones_shown(contest_, sought_last.asked);
+  }
   /// An effect is known from now on.
   void add(const EffectFound& effect);
   /// Moves to the most likely parameters, linearised anew about each until they stay: soils off

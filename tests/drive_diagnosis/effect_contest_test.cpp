@@ -141,6 +141,31 @@ TEST(StrongestEffect, AZoneIsAskedMoreThanChanceGivesSinceARecordingMayBeginOutO
   EXPECT_LT(zone.gain, zone.chance + kMostToSpare);
 }
 
+TEST(ShortestZonesShown, AreThoseThatStandOutWhereNothingScatters) {
+  constexpr Eigen::Index kWindows = 40, kFirst = 12;
+  constexpr double kSensitivity = 1, kAsked = 25;
+  constexpr double kSoil =
+      2.5;  // deviations by which the likely soil is off; the other is not seen
+  EffectContest contest{
+      .data = Eigen::VectorXd::Zero(kWindows),
+      .parameters = Eigen::MatrixXd::Zero(kWindows, 0),
+      .soil = kSensitivity * Eigen::MatrixXd::Identity(kWindows, kWindows),
+      .soil_numbers = 1,
+      .likely_soils = {Eigen::VectorXd::Constant(1, kSoil), Eigen::VectorXd::Constant(1, 0.01)},
+      .follows = std::vector<bool>(kWindows, true)};
+  const auto shortest = shortest_zones_shown(contest, kAsked);
+  ASSERT_EQ(shortest.size(), 2U);
+  ASSERT_TRUE(shortest[0]);
+  EXPECT_FALSE(shortest[1]);
+  const auto gain_of = [&](int windows) {
+    contest.data.setZero();
+    contest.data.segment(kFirst, windows).setConstant(kSoil * kSensitivity);
+    return strongest_effect(contest, 1).gain;
+  };
+  EXPECT_GT(gain_of(*shortest[0]), kAsked);
+  EXPECT_LT(gain_of(*shortest[0] - 1), kAsked);
+}
+
 TEST(StrongestEffect, NoiseThatIsToldTooWideHidesNothing) {
   const EffectFound wide = strongest_effect(with_a_fault(3.4, 1), 1);
   const EffectFound narrow = strongest_effect(with_a_fault(3.4, 0.75), 1);

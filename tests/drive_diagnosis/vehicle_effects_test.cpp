@@ -77,6 +77,16 @@ void expect_told_before_it_is_fitted(const std::vector<std::string>& told) {
   EXPECT_LT(first("stage: fitting what stands out"), static_cast<std::ptrdiff_t>(told.size()));
 }
 
+TEST(VehicleEffects, TellHowLongAZoneMustBeAndTorqueThatScattersHidesLongerOnes) {
+  const auto least_m = [](double torque_scatter) {
+    const Diagnosed null = diagnosed({.torque_scatter = torque_scatter, .seed = 1});
+    return null.effects.value().zones_shown.back().least_m.value_or(1e9);  // of one far weaker
+  };
+  const double quiet_m = least_m(0.03);
+  EXPECT_LE(quiet_m, 30);
+  EXPECT_GT(least_m(0.16), quiet_m);
+}
+
 TEST(VehicleEffects, AWeakZoneOfThirtyMetresIsFoundWhereItLiesAndToldBeforeItIsFitted) {
   for (std::uint64_t seed = 11; seed <= 13; ++seed) {
     const Diagnosed weak = diagnosed(
