@@ -130,18 +130,25 @@ void mend_yaw_units(const DriveSetup& setup, std::vector<DriveRecording>& drives
 void mend_torque_signs(const DriveSetup& setup, const DriveDiagnosisOptions& options,
                        std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
   if (!setup.vehicle || !any_has(drives, "torque_")) return;
-  const std::vector<std::string> reversed =
+  const std::vector<ReversedTorque> all =
       wheels_with_torque_reversed(drives, result.windows, setup.map, *setup.vehicle,
                                   setup.gravity_mps2, options.threads, options.stop);
-  for (const std::string& wheel : reversed) {
-    reverse_torque(wheel, drives, result.windows);
-    result.findings.push_back(
-        {.id = "sign",
-         .drive = "",
-         .text = fmt::format("torque_{}_nm: the vehicle's model comes far nearer to it with the "
-                             "other sign: taken so",
-                             wheel),
-         .mended = true});
+  for (const ReversedTorque& reversed : all) {
+    reverse_torque(reversed, drives, result.windows);
+    const auto tell_of = [&](const std::string& drive) {
+      result.findings.push_back(
+          {.id = "sign",
+           .drive = drive,
+           .text = fmt::format("torque_{}_nm: the vehicle's model comes far nearer to it with the "
+                               "other sign: taken so",
+                               reversed.wheel),
+           .mended = true});
+    };
+    if (reversed.drives.size() == drives.size()) {
+      tell_of("");
+    } else {
+      for (const std::size_t drive : reversed.drives) tell_of(drives[drive].drive_id);
+    }
   }
 }
 

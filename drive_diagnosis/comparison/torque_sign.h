@@ -10,18 +10,25 @@
 
 namespace regoplan {
 
-/// Names of the wheels whose torque is told with the other sign: the vehicle's model comes far
-/// nearer to it so (a quarter of the squares and less, over at least 12 windows). No payload, drag
-/// or soil turns a wheel's torque round.
-/// \throws Interrupted
-std::vector<std::string> wheels_with_torque_reversed(const std::vector<DriveRecording>& drives,
-                                                     const std::vector<DriveWindow>& windows,
-                                                     const TerrainMap& map, const Vehicle& vehicle,
-                                                     double gravity_mps2, int threads,
-                                                     const std::stop_token& stop);
+/// A wheel whose torque is told with the other sign, and the drives in which it is, in their order.
+struct ReversedTorque {
+  std::string wheel;
+  std::vector<std::size_t> drives;
+};
 
-/// Turns the sign of a wheel's torque in recordings and in the means of their windows.
-void reverse_torque(const std::string& wheel, std::vector<DriveRecording>& drives,
+/// The vehicle's model comes far nearer to such a torque with the other sign (a quarter of the
+/// squares and less). Each drive of at least 12 windows is judged by itself, as a logger may be
+/// mounted anew between two; shorter ones are judged together. No payload, drag or soil turns a
+/// wheel's torque round.
+/// \throws Interrupted
+std::vector<ReversedTorque> wheels_with_torque_reversed(const std::vector<DriveRecording>& drives,
+                                                        const std::vector<DriveWindow>& windows,
+                                                        const TerrainMap& map,
+                                                        const Vehicle& vehicle, double gravity_mps2,
+                                                        int threads, const std::stop_token& stop);
+
+/// Turns the sign of a wheel's torque in those recordings and in the means of their windows.
+void reverse_torque(const ReversedTorque& reversed, std::vector<DriveRecording>& drives,
                     std::vector<DriveWindow>& windows);
 
 }  // namespace regoplan

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "drive_diagnosis/drive_diagnosis.h"
 #include "tests/drive_diagnosis/simulated_drive.h"
 
@@ -12,7 +15,8 @@ namespace {
 DriveDiagnosis diagnosed_reversed(const std::vector<std::string>& wheels, SimulatedDrive how = {}) {
   std::vector<DriveRecording> drives{record(how, rolling_map())};
   std::vector<DriveWindow> none;
-  for (const std::string& wheel : wheels) reverse_torque(wheel, drives, none);
+  for (const std::string& wheel : wheels)
+    reverse_torque({.wheel = wheel, .drives = {0}}, drives, none);
   return diagnose_drives(
       std::move(drives),
       {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
@@ -35,6 +39,24 @@ TEST(TorqueSign, OfEveryWheelIsToldOfEach) {
       diagnosed_reversed({"front_left", "front_right", "rear_left", "rear_right"});
   EXPECT_EQ(diagnosis.findings.size(), 4u);
   EXPECT_EQ(diagnosis.verdict, DriveVerdict::kConsistent);
+}
+
+TEST(TorqueSign, IsJudgedDriveByDriveAsALoggerMayBeMountedAnewBetweenTwo) {
+  const TerrainMap map = rolling_map();
+  std::vector<DriveRecording> drives{record({.seed = 1}, map), record({.seed = 2}, map)};
+  std::vector<DriveWindow> windows = drive_windows(drives[0], 0, 5, 0.3);
+  std::ranges::copy(drive_windows(drives[1], 1, 5, 0.3), std::back_inserter(windows));
+  const ReversedTorque second{.wheel = "rear_left", .drives = {1}};
+  reverse_torque(second, drives, windows);
+  const auto reversed = [&] {
+    return wheels_with_torque_reversed(drives, windows, map, preset_vehicle("lrv"), 1.62, 2, {});
+  };
+  const std::vector<ReversedTorque> found = reversed();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].wheel, second.wheel);
+  EXPECT_EQ(found[0].drives, second.drives);
+  reverse_torque(found[0], drives, windows);
+  EXPECT_TRUE(reversed().empty());
 }
 
 TEST(TorqueSign, IsLeftAsItIsWhereFaultsOfTheVehicleExplainTheTorques) {
