@@ -109,7 +109,9 @@ ExitStatus run_diagnosis(const Options& options) {
   for (std::string& warning : doubtful_values(run.recording, run.setup.setup)) {
     recording.warnings.push_back(std::move(warning));
   }
-  for (const std::string& warning : recording.warnings) notify(warning, options.quiet);
+  for (const auto* warnings : {&run.setup.warnings, &recording.warnings}) {
+    for (const std::string& warning : *warnings) notify(warning, options.quiet);
+  }
   notify_of_left_out(run.recording.left_out, options.quiet);
   if (!recording.ignored.empty()) {
     notify(fmt::format("{}: {} kept and not used", options.recording,

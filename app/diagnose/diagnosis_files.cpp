@@ -133,6 +133,13 @@ Json left_out_json(const LeftOutRow& row) {
           {"allowed", row.cell.allowed}};
 }
 
+std::vector<std::string> notes(const DiagnosisRun& run) {
+  std::vector<std::string> all = run.setup.warnings;
+  const auto& found = run.diagnosis.notes;  // begins with the warnings of the recording
+  all.insert(all.end(), found.begin(), found.end());
+  return all;
+}
+
 constexpr std::array<std::pair<const char*, double RunResidual::*>, 7> kResidualColumns{{
     {"adjusted", &RunResidual::measured},
     {"noise", &RunResidual::noise},
@@ -150,7 +157,7 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
   const Recording& recording = run.recording.recording;
   return {{"verdict", name(diagnosis.verdict)},
           {"sentence", diagnosis.sentence},
-          {"notes", run.diagnosis.notes},
+          {"notes", notes(run)},
           {"mechanisms", list_json(diagnosis.claims, claim_json)},
           {"ranking", list_json(diagnosis.ranking,
                                 [](const ScoredCandidate& candidate) {

@@ -6,7 +6,6 @@
 #include "app/settings/settings_mapping.h"
 #include "app/settings/soil_settings.h"
 #include "planner/problem/gravity_range.h"
-#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 namespace {
@@ -26,7 +25,7 @@ std::map<Channel, double> read_noise(const SettingsNode& node) {
 }  // namespace
 
 SetupSettings read_setup(const SettingsNode& node) {
-  const SetupSettings read = read_mapping(node, [](SettingsMapping& mapping) {
+  return read_mapping(node, [](SettingsMapping& mapping) {
     SetupSettings settings;
     DiagnosisSetup& setup = settings.setup;
     setup.variant = read_variant(mapping.required("model"));
@@ -44,6 +43,7 @@ SetupSettings read_setup(const SettingsNode& node) {
     const SettingsNode& soil = mapping.required("soil");
     setup.soil =
         read_mapping(soil, [&](SettingsMapping& keys) { return read_soil(keys, setup.variant); });
+    settings.warnings = doubtful_units(soil, setup.soil.mean);
     if (const SettingsNode* name = mapping.optional("soil_name")) settings.soil_name = name->text();
     if (const SettingsNode* noise = mapping.optional("noise")) {
       setup.noise_standard_deviation = read_noise(*noise);
@@ -55,10 +55,6 @@ SetupSettings read_setup(const SettingsNode& node) {
     }
     return settings;
   });
-  // Every finding would be about the unit.
-  const std::vector<std::string> doubts = doubtful_units(*node.find("soil"), read.setup.soil.mean);
-  if (!doubts.empty()) throw InputError(doubts.front());
-  return read;
 }
 
 SetupSettings read_setup_file(const std::string& file) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/settings/settings_node.h"
 #include "diagnosis/diagnosis.h"
@@ -12,12 +13,12 @@ namespace regoplan {
 struct SetupSettings {
   DiagnosisSetup setup;
   std::optional<std::string> soil_name;  ///< for the corrected model: the soil of a map it replaces
+  std::vector<std::string> warnings;     ///< numbers whose unit is doubtful, a sentence each
 };
 
 /// Reads `{model, wheel: {radius_m, width_m}, gravity_mps2, soil: {<soil keys>}, soil_name, noise:
 /// {<channel>: standard deviation}, mechanisms: []}`: a model file will do, as long as it has no
 /// mechanisms. Noise counts where a recording has no replicates.
-/// \throws InputError also where a soil's number looks like one of another unit
 SetupSettings read_setup(const SettingsNode& node);
 SetupSettings read_setup_file(const std::string& file);
 

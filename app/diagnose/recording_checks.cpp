@@ -255,7 +255,7 @@ class Checks {
       exchanged += std::pow(fy - model_fx, 2) + std::pow(fx - model_fy, 2);
     }
     constexpr double kMuch = 3;
-    if (told < kMuch * kMuch * exchanged) return;
+    if (told <= kMuch * kMuch * exchanged) return;
     const auto rms = [&](double sum) { return std::sqrt(sum / static_cast<double>(pairs.size())); };
     warnings_.push_back(fmt::format(
         "{}: fx_n and fy_n lie {:.2g} of the load off the model, and {:.2g} with their columns "
@@ -263,26 +263,28 @@ class Checks {
         file_.file, rms(told), rms(exchanged)));
   }
 
-  /// Channels that follow the model times, or divided by, what a kilogram weighs.
+  /// Channels that follow the model divided by what a kilogram weighs.
   void check_kilograms() {
     constexpr double kAlike = 0.8;
-    const double near = std::log(1.15), kilogram_n = kStandardGravity_mps2;
+    constexpr int kFewest = 4;
+    const double near = std::log(1.15);
     for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
       double with_model = 0, own = 0, model = 0;
+      int measured = 0;
       for (std::size_t i = 0; i < runs().size(); ++i) {
         const double value = runs()[i].value(channel), expected = modelled(at_[i], channel);
         if (std::isnan(value) || !has_forces(at_[i].forces.status)) continue;
+        ++measured;
         with_model += value * expected;
         own += value * value;
         model += expected * expected;
       }
-      if (!(with_model > kAlike * std::sqrt(own * model))) continue;
+      if (measured < kFewest || !(with_model > kAlike * std::sqrt(own * model))) continue;
       const double factor = std::sqrt(own / model);
-      const bool small = std::abs(std::log(factor * kilogram_n)) < near;
-      if (!small && std::abs(std::log(factor / kilogram_n)) >= near) continue;
+      if (std::abs(std::log(factor * kStandardGravity_mps2)) >= near) continue;
       warnings_.push_back(fmt::format("{}: {} is {:.2g} times the model's; suspected: {}",
                                       file_.file, name(channel), factor,
-                                      small ? "kgf for N" : "load_n in kg"));
+                                      channel == Channel::kTorque ? "kgf m for N m" : "kgf for N"));
     }
   }
 

@@ -115,8 +115,9 @@ std::vector<std::string> doubtful_units(const SettingsNode& soil, const Soil& me
     const char *of_small, *of_large;  // what is suspected
   };
   constexpr double kShearModulusMax_m = 0.3;
+  constexpr double kNoMax = std::numeric_limits<double>::infinity();
   constexpr std::array<Doubt, 6> kDoubts{{
-      {"friction_angle_deg", 2, 60, "radians", "a slope in percent"},
+      {"friction_angle_deg", 2, kNoMax, "radians", ""},
       {"cohesion_pa", 10, 2e5, "kPa", "Pa taken for kPa"},
       {"density_kgpm3", 100, 5e3, "g/cm3", "N/m3"},
       {"kphi", 1e4, 1e8, "kN/m^(n+2)", "N/m^(n+2) taken for kN/m^(n+2)"},
@@ -128,18 +129,17 @@ std::vector<std::string> doubtful_units(const SettingsNode& soil, const Soil& me
     const auto* const doubt = std::ranges::find(kDoubts, parameter.name, &Doubt::key);
     if (doubt == kDoubts.end()) continue;
     const double value = mean.*parameter.member / parameter.file_unit;
-    const bool may_be_none = doubt->key == "cohesion_pa";
-    const bool small = value < doubt->usual_min && !(may_be_none && value == 0);
+    const bool small = value != 0 && value < doubt->usual_min;  // a soil may have no cohesion
     if (!small && value <= doubt->usual_max) continue;
     const std::string text = number_in_unit(mean.*parameter.member, parameter.file_unit);
     const SettingsNode* place = soil.find(doubt->key);
-    sentences.emplace_back(
-        (place ? *place : soil)
-            .error(fmt::format("{} is {} for a soil (usual: {} to {}{}); suspected: {}", text,
-                               small ? "small" : "large", doubt->usual_min, doubt->usual_max,
-                               may_be_none ? ", or 0" : "",
-                               small ? doubt->of_small : doubt->of_large))
-            .what());
+    const std::string usual = small ? fmt::format("from {} on", doubt->usual_min)
+                                    : fmt::format("up to {}", doubt->usual_max);
+    sentences.emplace_back((place ? *place : soil)
+                               .error(fmt::format("{} is {} for a soil (usual: {}); suspected: {}",
+                                                  text, small ? "small" : "large", usual,
+                                                  small ? doubt->of_small : doubt->of_large))
+                               .what());
   }
   return sentences;
 }

@@ -89,9 +89,10 @@ TEST(DiagnosisJson, WhatIsNotFiniteIsNull) {
 }
 
 TEST(DiagnosisJson, KeepsTheNotesOfReadingAndTheIgnoredColumns) {
-  const DiagnosisRun run = claimed_diagnosis();
+  DiagnosisRun run = claimed_diagnosis();
+  run.setup.warnings = {"of the setup"};
   const Json d = parsed(run);
-  EXPECT_EQ(d["notes"], Json({run.diagnosis.notes[0]}));
+  EXPECT_EQ(d["notes"], Json({"of the setup", run.diagnosis.notes[0]}));
   EXPECT_EQ(d["ignored_columns"], Json({"note", "corrected_fx_n"}));
   EXPECT_EQ(d["seed"], 7);
   EXPECT_EQ(d["interrupted"], false);

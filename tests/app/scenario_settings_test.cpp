@@ -214,7 +214,7 @@ TEST_F(ScenarioSettings, SoilsInAnotherUnitAreToldAsASetupTellsThem) {
     return std::ranges::any_of(notices, [&](const auto& n) { return n.ends_with(words); });
   };
   const char* const radians =
-      ".friction_angle_deg: 0.65 is small for a soil (usual: 2 to 60); suspected: radians";
+      ".friction_angle_deg: 0.65 is small for a soil (usual: from 2 on); suspected: radians";
   EXPECT_FALSE(told(scenario("gravity_mps2", "gravity_mps2").notices, radians));
   EXPECT_TRUE(told(scenario("friction_angle_deg: 35", "friction_angle_deg: 0.65").notices,
                    "map.soils.soils.mare" + std::string(radians)));

@@ -176,20 +176,20 @@ TEST(SoilSettings, NumbersThatLookLikeAnotherUnitAreToldSoilBySoil) {
   EXPECT_EQ(doubts("source: measured", "source: measured"), "0 sentences");
   EXPECT_EQ(doubts("cohesion_pa: 1000", "cohesion_pa: 0"), "0 sentences");
   EXPECT_EQ(doubts("{mean: 37.2, std: 1.5}", "{mean: 0.65, std: 0.03}"),
-            "soils.yaml:7: soils.sand.friction_angle_deg: 0.65 is small for a soil (usual: 2 to "
-            "60); suspected: "
-            "radians");
+            "soils.yaml:7: soils.sand.friction_angle_deg: 0.65 is small for a soil (usual: from 2 "
+            "on); suspected: radians");
+  EXPECT_EQ(doubts("{mean: 37.2, std: 1.5}", "{mean: 0, std: 0}"), "0 sentences");
   EXPECT_EQ(doubts("cohesion_pa: 1000", "cohesion_pa: 1"),
-            "soils.yaml:19: soils.firm.cohesion_pa: 1 is small for a soil (usual: 10 to 200000, or "
-            "0); suspected: kPa");
+            "soils.yaml:19: soils.firm.cohesion_pa: 1 is small for a soil (usual: from 10 on); "
+            "suspected: kPa");
   EXPECT_EQ(doubts("kphi: 8.14e5", "kphi: 814"),
-            "soils.yaml:9: soils.sand.kphi: 814 is small for a soil (usual: 10000 to 100000000); "
+            "soils.yaml:9: soils.sand.kphi: 814 is small for a soil (usual: from 10000 on); "
             "suspected: kN/m^(n+2)");
   EXPECT_EQ(doubts("density_kgpm3: 1600", "density_kgpm3: 1.6"),
-            "soils.yaml:14: soils.sand.density_kgpm3: 1.6 is small for a soil (usual: 100 to "
-            "5000); suspected: g/cm3");
+            "soils.yaml:14: soils.sand.density_kgpm3: 1.6 is small for a soil (usual: from 100 "
+            "on); suspected: g/cm3");
   EXPECT_EQ(doubts("kx0_m: .036", "kx0_m: 3.6"),
-            "soils.yaml:15: soils.sand.kx0_m: 3.6 is large for a soil (usual: 0 to 0.3); "
+            "soils.yaml:15: soils.sand.kx0_m: 3.6 is large for a soil (usual: up to 0.3); "
             "suspected: cm or mm");
 }
 
