@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace regoplan {
@@ -28,7 +29,8 @@ std::string zones_shown_text(const std::vector<ZoneShown>& zones,
     text += text.empty() ? "" : "; ";
     text += zone.there ? name_of(*zone.there) : "a soil three standard deviations weaker";
     if (zone.here) text += " in place of " + name_of(*zone.here);
-    text += zone.least_m ? fmt::format(": from {:.0f} m on", *zone.least_m) : ": no zone of it";
+    text +=
+        zone.least_m ? fmt::format(": from {:.0f} m on", *zone.least_m) : ": none that is sought";
   }
   return text;
 }
@@ -51,10 +53,15 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
          why_nothing_is_compared(result),
          "a minute on the map with rim speed and steering of every wheel and the pose at 1 Hz"});
   }
-  if (result.effects && !result.effects->zones_shown.empty()) {
+  const bool has_zone =
+      result.effects && std::ranges::any_of(result.effects->found, [](const VehicleFinding& found) {
+        return found.zone.has_value();
+      });
+  if (result.effects && !has_zone && !result.effects->zones_shown.empty()) {
     result.silent.push_back(
         {{"soil_zone"},
-         "shorter zones would not stand out of what chance gives at one of ten places or more: " +
+         "four of five zones of another soil would stand out at nine of ten places, if they are as "
+         "long as this or longer: " +
              zones_shown_text(result.effects->zones_shown, setup.map.soils()),
          "torque of every wheel, and attitude by which the map's slopes are told from soil (a "
          "window's mean to 0.1 deg)"});

@@ -43,11 +43,12 @@ struct VehicleFinding {
   std::optional<SoilZoneFound> zone;
 };
 
-/// How long a zone of another soil must be for these drives to show it at nine of ten places.
+/// How long a zone of another soil must be for these drives to show four of five at nine of ten
+/// places.
 struct ZoneShown {
   std::optional<int> here;        ///< the map's soil that is said to lie there; nothing: any
   std::optional<int> there;       ///< that lies there instead; nothing: one far weaker
-  std::optional<double> least_m;  ///< nothing: none is shown, however long
+  std::optional<double> least_m;  ///< nothing: none of those that are sought
 };
 
 /// What the vehicle's windows say.

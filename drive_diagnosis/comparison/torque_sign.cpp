@@ -15,32 +15,53 @@ std::string torque_of(const std::string& wheel) {
   return fmt::format("torque_{}_nm", wheel);
 }
 
-/// Compared windows of drives that are judged together.
-struct Judged {
-  std::vector<std::size_t> drives;
-  std::vector<Eigen::Index> rows;
-};
+constexpr std::size_t kFewestWindows = 12;
 
-std::vector<Judged> judged_together(const WindowComparison& comparison,
-                                    const std::vector<DriveWindow>& windows, std::size_t drives) {
-  constexpr std::size_t kFewest = 12;
-  std::vector<Judged> each(drives);
+/// Compared windows by drive.
+std::vector<std::vector<Eigen::Index>> rows_by_drive(const WindowComparison& comparison,
+                                                     const std::vector<DriveWindow>& windows,
+                                                     std::size_t drives) {
+  std::vector<std::vector<Eigen::Index>> rows(drives);
   for (std::size_t i = 0; i < comparison.size(); ++i) {
-    each[windows[comparison.window(i)].drive].rows.push_back(static_cast<Eigen::Index>(i));
+    rows[windows[comparison.window(i)].drive].push_back(static_cast<Eigen::Index>(i));
   }
-  std::vector<Judged> judged;
-  Judged short_ones;
-  for (std::size_t drive = 0; drive < drives; ++drive) {
-    each[drive].drives = {drive};
-    if (each[drive].rows.size() >= kFewest) {
-      judged.push_back(std::move(each[drive]));
+  return rows;
+}
+
+/// Whether a model comes far nearer to what is told with the other sign: as it is, and with what is
+/// the same in all windows taken off, as drag beside a slope that pushes may turn a torque round.
+bool is_reversed(const Eigen::VectorXd& told, const Eigen::VectorXd& model) {
+  constexpr double kShare = 0.25;
+  const Eigen::VectorXd less = told - model, more = told + model;
+  const auto varied = [](const Eigen::VectorXd& values) {
+    return (values.array() - values.mean()).matrix().squaredNorm();
+  };
+  return more.squaredNorm() < kShare * less.squaredNorm() && varied(more) < kShare * varied(less);
+}
+
+/// Drives in which a wheel's torque is reversed. Drives too short to say follow those that are long
+/// enough where these agree, and are judged together where there are none.
+std::vector<std::size_t> reversed_drives(const std::vector<std::vector<Eigen::Index>>& rows,
+                                         const Eigen::VectorXd& told,
+                                         const Eigen::VectorXd& model) {
+  std::vector<std::size_t> reversed, short_ones;
+  std::vector<Eigen::Index> short_rows;
+  std::size_t judged = 0;
+  for (std::size_t drive = 0; drive < rows.size(); ++drive) {
+    if (rows[drive].size() < kFewestWindows) {
+      if (!rows[drive].empty()) short_ones.push_back(drive);
+      std::ranges::copy(rows[drive], std::back_inserter(short_rows));
       continue;
     }
-    short_ones.drives.push_back(drive);
-    std::ranges::copy(each[drive].rows, std::back_inserter(short_ones.rows));
+    ++judged;
+    if (is_reversed(told(rows[drive]), model(rows[drive]))) reversed.push_back(drive);
   }
-  if (short_ones.rows.size() >= kFewest) judged.push_back(std::move(short_ones));
-  return judged;
+  const bool shorts_reversed = judged > 0 ? reversed.size() == judged
+                                          : short_rows.size() >= kFewestWindows &&
+                                                is_reversed(told(short_rows), model(short_rows));
+  if (shorts_reversed) std::ranges::copy(short_ones, std::back_inserter(reversed));
+  std::ranges::sort(reversed);
+  return reversed;
 }
 
 }  // namespace
@@ -50,24 +71,18 @@ std::vector<ReversedTorque> wheels_with_torque_reversed(const std::vector<DriveR
                                                         const TerrainMap& map,
                                                         const Vehicle& vehicle, double gravity_mps2,
                                                         int threads, const std::stop_token& stop) {
-  constexpr double kShare = 0.25;
   const WindowComparison comparison(drives, windows, map, vehicle, gravity_mps2, threads);
-  const std::vector<Judged> judged = judged_together(comparison, windows, drives.size());
-  if (judged.empty() || !comparison.has_torque()) return {};
+  if (comparison.size() < kFewestWindows || !comparison.has_torque()) return {};
+  const auto rows = rows_by_drive(comparison, windows, drives.size());
   const Eigen::MatrixXd model = comparison.predicted_as_said(stop);
-  const Eigen::MatrixXd less = comparison.measured() - model, more = comparison.measured() + model;
+  const Eigen::MatrixXd& told = comparison.measured();
   std::vector<ReversedTorque> result;
   for (const WheelMount& wheel : vehicle.wheels) {
     const auto channel = comparison.channel(torque_of(wheel.name));
     if (!channel) continue;
     const auto k = static_cast<Eigen::Index>(*channel);
-    ReversedTorque reversed{.wheel = wheel.name, .drives = {}};
-    for (const Judged& these : judged) {
-      if (more(these.rows, k).squaredNorm() < kShare * less(these.rows, k).squaredNorm()) {
-        std::ranges::copy(these.drives, std::back_inserter(reversed.drives));
-      }
-    }
-    std::ranges::sort(reversed.drives);
+    ReversedTorque reversed{.wheel = wheel.name,
+                            .drives = reversed_drives(rows, told.col(k), model.col(k))};
     if (!reversed.drives.empty()) result.push_back(std::move(reversed));
   }
   return result;

@@ -17,9 +17,9 @@ struct ReversedTorque {
 };
 
 /// The vehicle's model comes far nearer to such a torque with the other sign (a quarter of the
-/// squares and less). Each drive of at least 12 windows is judged by itself, as a logger may be
-/// mounted anew between two; shorter ones are judged together. No payload, drag or soil turns a
-/// wheel's torque round.
+/// squares and less), and so do its changes from window to window: drag on a descent turns a torque
+/// round, but not its changes. Each drive of at least 12 windows is judged by itself, as a logger
+/// may be mounted anew between two; shorter ones follow those where they agree.
 /// \throws Interrupted
 std::vector<ReversedTorque> wheels_with_torque_reversed(const std::vector<DriveRecording>& drives,
                                                         const std::vector<DriveWindow>& windows,

@@ -16,11 +16,16 @@ constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
 /// Twice nats beyond chance that a first effect is asked, and any other: what the fit of a known
 /// effect leaves looks like any. Recordings that begin out of balance gained 1.2 beyond chance
-/// where nothing was otherwise; whatever gained more had a cause that is cured
-/// (benchmarks/drives/HISTORY.md).
-constexpr double kToSpareFirst = 4, kToSpare = 12;
+/// where nothing was otherwise; zones that were not there gained up to 7.5, of causes that are
+/// cured (benchmarks/drives/HISTORY.md), as a cause that nobody knows yet may let them again.
+constexpr double kToSpareFirstFault = 4, kToSpareFirstZone = 8, kToSpare = 12;
 constexpr double kNarrowest = 0.7;  ///< of the noise that is told, what there may be
 constexpr std::size_t kShortest = 2;
+
+double spare(bool is_zone, bool is_first) {
+  if (!is_first) return kToSpare;
+  return is_zone ? kToSpareFirstZone : kToSpareFirstFault;
+}
 
 /// Inner products in the metric of noise and all that varies without a name (Woodbury's identity).
 class Metric {
@@ -317,12 +322,13 @@ class Contest {
         std::max(best.is_zone ? 1 : kNarrowest,
                  std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
     const bool is_first = contest_.zones_known.empty() && contest_.faults_known.empty();
-    best.asked = best.chance + (is_first ? kToSpareFirst : kToSpare);
+    best.asked = best.chance + spare(true, is_first);
     best.std *= wide;
     const double gain = best.gain / (wide * wide);
     best.sigmas = best.is_zone ? std::sqrt(std::max(0.0, gain)) : std::abs(best.size) / best.std;
-    best.stands_out =
-        gain > (best.is_zone ? best.asked : best.chance) && best.sigmas * best.sigmas > best.asked;
+    best.stands_out = best.is_zone ? gain > best.asked
+                                   : gain > best.chance && best.sigmas * best.sigmas >
+                                                               best.chance + spare(false, is_first);
     best.gain = gain;
   }
 
@@ -351,6 +357,8 @@ EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed) {
 
 std::vector<std::optional<int>> shortest_zones_shown(const EffectContest& contest, double asked) {
   constexpr double kOfPlaces = 0.9;
+  constexpr double kPower_sigmas = 0.84;  // of 80 %
+  const double needed = std::pow(std::sqrt(std::max(asked, 0.0)) + kPower_sigmas, 2);
   const Metric metric(free_columns(contest));
   const ZoneGains zones(metric.products(contest.soil, contest.soil), contest.soil_numbers);
   const std::size_t lengths = contest.follows.size() + 1;
@@ -363,14 +371,17 @@ std::vector<std::optional<int>> shortest_zones_shown(const EffectContest& contes
                        for (std::size_t i = 0; i < shown.size(); ++i) {
                          const Eigen::VectorXd& soil = contest.likely_soils[i];
                          const double along = soil.dot(length * soil);
-                         shown[i][windows] += gain_of_one(along, along, 1) > asked;
+                         shown[i][windows] += gain_of_one(along, along, 1) > needed;
                        }
                      });
   std::vector<std::optional<int>> shortest;
   for (const std::vector<int>& of_soil : shown) {
     std::optional<int>& least = shortest.emplace_back();
-    for (std::size_t windows = 1; windows < lengths && !least; ++windows) {
-      if (places[windows] > 0 && of_soil[windows] >= kOfPlaces * places[windows]) {
+    for (std::size_t windows = 1; windows < lengths; ++windows) {
+      if (places[windows] == 0) continue;
+      if (of_soil[windows] < kOfPlaces * places[windows]) {
+        least.reset();
+      } else if (!least) {
         least = static_cast<int>(windows);
       }
     }

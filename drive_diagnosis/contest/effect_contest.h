@@ -66,8 +66,8 @@ Eigen::VectorXd shares_between(double begins, double ends, std::size_t windows);
 /// contest: sound vehicles, soils within their spread, normal noise.
 EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed);
 
-/// Of each likely soil, the fewest windows that a zone of it must have to gain as much as is asked
-/// at nine of ten places, if nothing scattered; nothing: no zone of it would.
+/// Of each likely soil, the fewest windows from which on four of five zones of it gain as much as
+/// is asked, at nine of ten places; nothing: none do of the lengths at which zones are sought.
 std::vector<std::optional<int>> shortest_zones_shown(const EffectContest& contest, double asked);
 
 /// The most likely parameters and numbers of the known zones' soils, known faults and zones free.

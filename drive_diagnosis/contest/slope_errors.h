@@ -24,8 +24,8 @@ struct SlopeErrors {
 Eigen::MatrixXd slope_error_columns(const SlopeErrors& errors, const std::vector<bool>& follows,
                                     double persistent);
 
-/// How much of them persists, as what is measured in some channel makes likeliest; where it says
-/// nothing, all of it: other scatter of torques, which goes the same way, does.
+/// How much of them persists, as what is measured in some channels makes likeliest; where they say
+/// nothing, all of it, which takes the least for granted.
 /// \param contest zones and faults that it knows are free
 /// \param channels that are asked, of those that each window has
 double likely_persistence(const EffectContest& contest, const SlopeErrors& errors,

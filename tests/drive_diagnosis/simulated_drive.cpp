@@ -37,7 +37,7 @@ void add(DriveRecording& recording, const std::string& name, double value) {
 
 }  // namespace
 
-TerrainMap rolling_map() {
+TerrainMap map_of_heights(const std::function<double(int column, int row)>& height_m) {
   ElevationRaster elevation{.frame = {.columns = 320,
                                       .rows = 60,
                                       .west_m = 0,
@@ -47,14 +47,19 @@ TerrainMap rolling_map() {
                             .height_m = {}};
   for (int row = 0; row < 60; ++row) {
     for (int column = 0; column < 320; ++column) {
-      const double z_m = 1.2 * std::sin(column / 18.0) + 0.5 * std::sin(row / 9.0 + column / 31.0);
-      elevation.height_m.push_back(static_cast<float>(z_m));
+      elevation.height_m.push_back(static_cast<float>(height_m(column, row)));
     }
   }
   return TerrainMap(
       std::move(elevation), {},
       SoilCatalogue{.soils = {{"mare", "assumed", tested_soil()}}, .classes = {}, .unmapped = 0},
       {});
+}
+
+TerrainMap rolling_map() {
+  return map_of_heights([](int column, int row) {
+    return 1.2 * std::sin(column / 18.0) + 0.5 * std::sin(row / 9.0 + column / 31.0);
+  });
 }
 
 DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {

@@ -29,7 +29,9 @@ struct SimulatedDrive {
   std::uint64_t seed = 1;
 };
 
-/// 320 m by 60 m of rolling ground of one soil.
+/// 320 m by 60 m of one soil, a height for each square metre from the west and from the north.
+TerrainMap map_of_heights(const std::function<double(int column, int row)>& height_m);
+/// As much of rolling ground.
 TerrainMap rolling_map();
 
 /// Pose at 1 Hz within 2 cm and 1 deg, wheel speeds within 1 % at 10 Hz.

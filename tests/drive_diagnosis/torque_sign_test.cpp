@@ -59,6 +59,30 @@ TEST(TorqueSign, IsJudgedDriveByDriveAsALoggerMayBeMountedAnewBetweenTwo) {
   EXPECT_TRUE(reversed().empty());
 }
 
+TEST(TorqueSign, OfADriveTooShortToSayIsThatOfTheOthers) {
+  const TerrainMap map = rolling_map();
+  std::vector<DriveRecording> drives{record({.seed = 1}, map), record({.seed = 2}, map)};
+  std::vector<DriveWindow> windows = drive_windows(drives[0], 0, 5, 0.3);
+  const auto second = drive_windows(drives[1], 1, 5, 0.3);
+  std::ranges::copy(second.begin() + 8, second.begin() + 13, std::back_inserter(windows));
+  reverse_torque({.wheel = "rear_left", .drives = {0, 1}}, drives, windows);
+  const auto found =
+      wheels_with_torque_reversed(drives, windows, map, preset_vehicle("lrv"), 1.62, 2, {});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].drives, (std::vector<std::size_t>{0, 1}));
+}
+
+TEST(TorqueSign, OfWheelsThatDragDownADescentIsNotReversed) {
+  constexpr double kFall = 0.084;  // 4.8 deg
+  const TerrainMap map = map_of_heights([](int column, int) { return -kFall * column; });
+  SimulatedDrive dragging{.seed = 3};
+  dragging.deviation.wheel_drag_nm.fill(5);
+  const std::vector<DriveRecording> drives{record(dragging, map)};
+  const std::vector<DriveWindow> windows = drive_windows(drives[0], 0, 5, 0.3);
+  EXPECT_TRUE(wheels_with_torque_reversed(drives, windows, map, preset_vehicle("lrv"), 1.62, 2, {})
+                  .empty());
+}
+
 TEST(TorqueSign, IsLeftAsItIsWhereFaultsOfTheVehicleExplainTheTorques) {
   SimulatedDrive dragging{.seed = 21};
   dragging.deviation.wheel_drag_nm[1] = -8;  // pushed on
