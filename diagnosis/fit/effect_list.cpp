@@ -30,31 +30,30 @@ Coordinate positive(std::string name, double low, double high) {
           .spread = std::max(std::log(high / low) / 2, 0.3)};
 }
 
-/// A share of at most `most`, its odds lognormal.
+/// A share of at most `most`, its odds lognormal: its middle that of the usual range, one standard
+/// deviation below it the low end.
 Coordinate share(std::string name, double low, double high, double most) {
-  constexpr double kNearlyAll = 0.97;  // where the usual range ends at the whole
-  const auto log_odds = [&](double value) {
-    const double of_most = std::min(value / most, kNearlyAll);
-    return std::log(of_most / (1 - of_most));
-  };
+  const auto log_odds = [most](double value) { return std::log(value / (most - value)); };
+  const double middle = log_odds(std::sqrt(low * high));
   return {.name = std::move(name),
           .scale = Scale::kShare,
-          .centre = (log_odds(low) + log_odds(high)) / 2,
-          .spread = (log_odds(high) - log_odds(low)) / 2,
-          .min = 0,
+          .centre = middle,
+          .spread = std::max(middle - log_odds(low), 0.3),
           .max = most};
 }
 
-/// Prior of a mechanism's parameter: lognormal, or its odds are where there is a most that it can
-/// be, one standard deviation either way covering the usual range; normal about 0 where the range
-/// is symmetric.
+/// Prior of a mechanism's parameter: lognormal, one standard deviation either way covering the
+/// usual range; a share where there is a most that it can be; normal about 0 where the range is
+/// symmetric.
 Coordinate coordinate_of(const MechanismParameter& parameter) {
   const std::string name(parameter.name);
   if (parameter.low < 0) return {.name = name, .spread = parameter.high / 1.5};
   constexpr double kSmallShare = 30;  // of a range that begins at 0
   const double low = parameter.low > 0 ? parameter.low : parameter.high / kSmallShare;
-  return std::isfinite(parameter.most) ? share(name, low, parameter.high, parameter.most)
-                                       : positive(name, low, parameter.high);
+  if (std::isfinite(parameter.most)) return share(name, low, parameter.high, parameter.most);
+  Coordinate coordinate = positive(name, low, parameter.high);
+  coordinate.min = std::max(parameter.least, coordinate.min);
+  return coordinate;
 }
 
 struct Columns {

@@ -51,23 +51,25 @@ double quick_score(const FitProblem& problem, const CandidateFit& single, const 
   for (Eigen::Index i = 0; i < size; ++i) {
     x[single.x.size() + i] = effect.start[static_cast<std::size_t>(i)];
   }
-  const bool linear = size > 0 && std::ranges::none_of(effect.coordinates, [](const auto& c) {
-                        return c.is_positive();
-                      });
-  if (linear) x.tail(size).setConstant(0.5);
+  bool either_sign = false;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (effect.coordinates[static_cast<std::size_t>(i)].is_positive()) continue;
+    x[single.x.size() + i] = 0.5;
+    either_sign = true;
+  }
   const auto prediction = predict(problem.bed, problem.soil, pair, x);
   if (!prediction) return -INFINITY;
   Linearised model{.residual =
                        problem.bed.measured() - single.prediction + single.jacobian * single.x};
   model.jacobian.resize(single.jacobian.rows(), single.jacobian.cols() + 1);
   model.jacobian.leftCols(single.jacobian.cols()) = single.jacobian;
-  model.jacobian.rightCols(1) = (linear ? 2 : 1) * (*prediction - single.prediction);
+  model.jacobian.rightCols(1) = (either_sign ? 2 : 1) * (*prediction - single.prediction);
   const Posterior with = posterior_of(problem.bed, problem.discrepancy, model, settings);
   const double amount = with.x[with.x.size() - 1];
   const Eigen::MatrixXd covariance =
       with.precision.llt().solve(Eigen::MatrixXd::Identity(with.x.size(), with.x.size()));
   const double gain = amount * amount / covariance(with.x.size() - 1, with.x.size() - 1);
-  return !linear && amount < 0 ? -gain : gain;
+  return !either_sign && amount < 0 ? -gain : gain;
 }
 
 /// The discrepancy of half a run's noise over middling scales.

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kMostClasses = 3;
 
-std::optional<CandidateFit> fitted_alone(const CalibratedRecording& calibrated,
-                                         const Effect& effect, const CandidateFit* beside) {
+std::optional<CandidateFit> fitted_to_wide_noise(const CalibratedRecording& calibrated,
+                                                 const Effect& effect, const CandidateFit* beside) {
   constexpr int kSteps = 8;
   const FitProblem problem = calibrated.problem();
   Hypothesis names = beside == nullptr ? Hypothesis{} : beside->candidate;
@@ -92,8 +92,9 @@ std::vector<NameAlone> names_alone(const CalibratedRecording& calibrated,
   const double before =
       variances_off(bed, (beside == nullptr ? calibrated.base() : *beside).prediction);
   std::vector<std::optional<CandidateFit>> fits(effects.size());
-  parallel_for(fits.size(), threads,
-               [&](std::size_t i) { fits[i] = fitted_alone(calibrated, effects[i], beside); });
+  parallel_for(fits.size(), threads, [&](std::size_t i) {
+    fits[i] = fitted_to_wide_noise(calibrated, effects[i], beside);
+  });
   // What explains little where it was fitted explains no more where it was not.
   std::map<std::string, std::vector<std::pair<double, std::size_t>>> forms_of;
   for (std::size_t i = 0; i < fits.size(); ++i) {

@@ -31,9 +31,10 @@ struct MechanismParameter {
   std::string_view name;  ///< unit included
   double low, high;       ///< usual range; a value beyond is valid as long as it is finite
   double typical;
-  /// What it can be at most by what it stands for, such as the whole of a share: `diagnose` fits no
-  /// value beyond.
+  /// What it can be at most by what it stands for, such as the whole of a share, and at least, as
+  /// an exponent near 0 makes a step of a law: `diagnose` fits no value beyond.
   double most = std::numeric_limits<double>::infinity();
+  double least = -std::numeric_limits<double>::infinity();
 };
 
 /// One functional form of a mechanism.

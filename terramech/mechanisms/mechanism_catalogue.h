@@ -19,6 +19,10 @@ struct Definition {
   Effects (*act)(Effects, const Parameters&, const WheelState&);
 };
 
+/// Of a law whose curvature nobody knows.
+inline constexpr MechanismParameter kExponent{
+    .name = "p", .low = .5, .high = 2, .typical = 1, .least = .4};
+
 inline double driving(const WheelState& at) {
   return std::max(at.slip, 0.0);
 }

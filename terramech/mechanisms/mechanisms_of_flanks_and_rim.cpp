@@ -52,7 +52,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "ratio",
         "rim: tan(phi) of delta = ratio phi, cohesion c; bulldozing keeps the soil's",
         "Potyondy 1961, Geotechnique 11, 339-353: friction of soils on steel, delta/phi .54-.9",
-        {{"ratio", .5, .95, .75}}},
+        {{"ratio", .5, .95, .75, 1}}},
        [](E e, P p, S) {
          e.rim_friction_ratio = std::clamp(e.rim_friction_ratio * p[0], 0.0, 1.0);
          return e;
@@ -61,7 +61,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "no_adhesion",
         "as ratio, and the rim has a share of the soil's cohesion as adhesion",
         "Potyondy 1961, Geotechnique 11, 339-353",
-        {{"ratio", .5, .95, .75}, {"adhesion", 0, .6, .2}}},
+        {{"ratio", .5, .95, .75, 1}, {"adhesion", 0, .6, .2, 1}}},
        [](E e, P p, S) {
          e.rim_friction_ratio = std::clamp(e.rim_friction_ratio * p[0], 0.0, 1.0);
          e.rim_adhesion_share = std::clamp(e.rim_adhesion_share * p[1], 0.0, 1.0);

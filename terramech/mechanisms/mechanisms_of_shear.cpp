@@ -26,7 +26,7 @@ std::vector<Definition> of_shear() {
         "power",
         "kx, ky times 1 + m sin^p|beta|",
         "proxy; as linear, with one factor for both moduli",
-        {{"m", .5, 6, 2}, {"p", .5, 2, 1}}},
+        {{"m", .5, 6, 2}, kExponent}},
        [](E e, P p, S at) {
          const double factor = 1 + p[0] * std::pow(std::sin(at.beta_abs_rad), p[1]);
          e.soil.kx0_m *= factor;

@@ -104,7 +104,7 @@ std::vector<Definition> of_sinkage() {
         "power",
         "h = h0 (1 + kappa sin^p|beta|)",
         "proxy; as sine, where digging sets in late or tails off",
-        {{"kappa", .2, 2, .8}, {"p", .5, 2, 1}}},
+        {{"kappa", .2, 2, .8}, kExponent}},
        [](E e, P p, S at) {
          e.sinkage_factor *= 1 + p[0] * std::pow(std::sin(at.beta_abs_rad), p[1]);
          return e;
@@ -180,13 +180,13 @@ std::vector<Definition> of_sinkage() {
        }},
       {{"rear_contact",
         "power",
-        "lambda = lambda0 + l1 sgn(s) |s|^p + l2 |beta|^p",
+        "lambda = lambda0 + l1 sgn(s) |s|^p + l2 sin^p|beta|",
         "proxy; as linear, where soil fills in behind late or early",
-        {{"l1", .1, .8, .4}, {"l2_per_rad_p", 0, .8, .3}, {"p", .5, 2, 1}}},
+        {{"l1", .1, .8, .4}, {"l2", 0, .8, .3}, kExponent}},
        [](E e, P p, S at) {
          const double by_slip = std::copysign(std::pow(std::abs(at.slip), p[2]), at.slip);
-         e.soil.lambda = std::clamp(
-             e.soil.lambda + p[0] * by_slip + p[1] * std::pow(at.beta_abs_rad, p[2]), 0.0, 1.5);
+         const double by_angle = std::pow(std::sin(at.beta_abs_rad), p[2]);
+         e.soil.lambda = std::clamp(e.soil.lambda + p[0] * by_slip + p[1] * by_angle, 0.0, 1.5);
          return e;
        }},
       {{"max_stress_angle",
@@ -201,12 +201,13 @@ std::vector<Definition> of_sinkage() {
        }},
       {{"max_stress_angle",
         "power",
-        "theta_m/theta_f = a0 + a1 s + a2 |beta|^p",
+        "theta_m/theta_f = a0 + a1 s + a2 sin^p|beta|",
         "proxy; as linear, where the shift sets in late or tails off",
-        {{"a2_per_rad_p", -.6, .6, .15}, {"p", .5, 2, 1}}},
+        {{"a2", -.6, .6, .15}, kExponent}},
        [](E e, P p, S at) {
          const double edge = std::abs(e.soil.a1) + 1e-3;
-         e.soil.a0 = std::clamp(e.soil.a0 + p[0] * std::pow(at.beta_abs_rad, p[1]), edge, 1 - edge);
+         const double by_angle = std::pow(std::sin(at.beta_abs_rad), p[1]);
+         e.soil.a0 = std::clamp(e.soil.a0 + p[0] * by_angle, edge, 1 - edge);
          return e;
        }},
   };

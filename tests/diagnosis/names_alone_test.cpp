@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "diagnosis/fit/effect_list.h"
 #include "synthetic_bed.h"
@@ -53,6 +55,36 @@ TEST(NamesAlone, TheNameThatIsAtWorkExplainsMostHoweverConditionsAreHeldOut) {
   EXPECT_EQ(names.front().id, "sliding_sinkage");
   EXPECT_GT(names.front().share.share.low, 1.0 / 3.0);
   for (const NameAlone& name : names) EXPECT_FALSE(is_instrument(name.id));
+}
+
+TEST(NamesAlone, EachIsToldByOneFormAndReachesWhatItsBestFormDoes) {
+  const Tried tried(sliding());
+  const auto names = names_alone(*tried.calibrated, tried.effects, nullptr, 0.02, 2);
+  std::set<std::string> ids;
+  for (const NameAlone& name : names) {
+    EXPECT_TRUE(ids.insert(name.id).second) << name.id;
+    EXPECT_GE(name.reach, name.share.share.high);
+  }
+}
+
+/// What a name does is its own, whatever remainder it was fitted beside.
+TEST(NameShare, IsThatOfTheNameFittedWithNothingBesideIt) {
+  const Tried tried(sliding());
+  const CalibratedRecording& calibrated = *tried.calibrated;
+  const auto sinkage = std::ranges::find(tried.effects, "sliding_sinkage", &Effect::id);
+  ASSERT_NE(sinkage, tried.effects.end());
+  const FitProblem problem = calibrated.problem();
+  const Hypothesis name{{*sinkage}};
+  const auto beside = [&](std::size_t setting) {
+    const std::vector<std::size_t> settings(calibrated.bed().channels.size(), setting);
+    return fit_under(problem, name, settings, start_of(problem, name, nullptr), 12, 0).value();
+  };
+  const CandidateFit large = beside(discrepancy_settings().size() - 1), none = beside(0);
+  const auto share = [&](const CandidateFit& fit) {
+    return name_share(calibrated, fitted_alone(calibrated, fit), 2).share.explained;
+  };
+  EXPECT_NEAR(share(large), share(none), 1e-3);
+  EXPECT_GT(share(none), 1.0 / 3.0);
 }
 
 TEST(NamesAlone, SayNoClassOfWhatIsLikeNoMechanism) {
