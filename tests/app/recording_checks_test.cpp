@@ -115,7 +115,8 @@ TEST(RecordingChecks, ForcesInKilogramsAreSuspectedByTheFactor) {
   for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
     const std::vector<std::string> small = found_with(channel, 1 / 9.80665);
     ASSERT_EQ(small.size(), 1u) << name(channel);
-    expect_words(small[0], {std::string(name(channel)) + " is 0.1 times", "kgf for N"});
+    const char* unit = channel == Channel::kTorque ? "kgf m for N m" : "kgf for N";
+    expect_words(small[0], {std::string(name(channel)) + " is 0.1 times", unit});
     EXPECT_TRUE(found_with(channel, 0.2).empty()) << "no unit does that";
   }
 }
