@@ -6,6 +6,7 @@
 #include <string>
 
 #include "diagnosis/names/name_share.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
@@ -20,7 +21,13 @@ const CandidateFit* fit_of(const std::set<std::string>& ids, const std::vector<S
 
 void measure_shares(const CalibratedRecording& calibrated, const std::vector<ScoredId>& scored,
                     const CandidateFit& fit, int threads, std::vector<Claim>& claims) {
-  const auto alone = [&](const CandidateFit& names) { return fitted_alone(calibrated, names); };
+  // As they were where what noise alone makes of them would not be believed.
+  const auto alone = [&](const CandidateFit& names) {
+    CandidateFit refitted = fitted_alone(calibrated, names);
+    const bool is_believed =
+        objection(calibrated.problem(), refitted, Thresholds::kPlausibleFault).empty();
+    return is_believed ? refitted : names;
+  };
   const auto measured = [&](const CandidateFit& with, const std::optional<CandidateFit>& without) {
     return without ? added_share(calibrated, alone(with), *without, threads)
                    : name_share(calibrated, alone(with), threads);

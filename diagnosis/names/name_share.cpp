@@ -56,7 +56,7 @@ CandidateFit fitted_alone(const CalibratedRecording& calibrated, const Candidate
   const std::vector<std::size_t> noise_only(calibrated.bed().channels.size(), 0);
   const auto refitted =
       fit_under(calibrated.problem(), fit.candidate, noise_only, fit.x, kSteps, 0);
-  return refitted && objection(calibrated.problem(), *refitted).empty() ? *refitted : fit;
+  return refitted ? *refitted : fit;
 }
 
 NameShare name_share(const CalibratedRecording& calibrated, const CandidateFit& fit, int threads) {

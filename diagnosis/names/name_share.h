@@ -20,8 +20,7 @@ struct NameShare {
   std::optional<Channel> worsened;
 };
 
-/// Names fitted as if there was nothing beside them, a discrepancy taking part of what they do; as
-/// they were where what noise alone makes of them would not be believed.
+/// Names fitted as if there was nothing beside them: a discrepancy takes part of what they do.
 CandidateFit fitted_alone(const CalibratedRecording& calibrated, const CandidateFit& fit);
 
 NameShare name_share(const CalibratedRecording& calibrated, const CandidateFit& fit, int threads);
