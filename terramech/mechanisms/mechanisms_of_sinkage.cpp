@@ -159,7 +159,7 @@ std::vector<Definition> of_sinkage() {
          return e;
        }},
       {{"skid_branch",
-        "bow_wave",
+        "heap_ahead",
         "s < 0: Fx -= eta |s| b (gamma h^2 Kp/2 + 2 c h sqrt(Kp)), h = h0 (1 + k |s|)",
         "Wong & Reece 1967, part II (proxy): a braked wheel heaps up soil ahead and pushes it",
         {{"eta", .3, 6, 1.5}, {"sinkage", 0, 1, .3}}},
