@@ -8,7 +8,7 @@ include(GoogleTest)
 # that starts at once. Under sanitizers every suite is one: a program of theirs takes .1 s to start, and ends
 # with a search for leaks.
 set(app_long BenchmarkProgram DemoProgram Diagnose DiagnosisReportInTheBrowser DriveDiagnosisProgram
-             Evaluate Faults PlanReportInTheBrowser Schemas)
+             Evaluate Faults PlanReportInTheBrowser Schemas Slurm)
 set(planner_long All/EveryPlanner Evaluation Plan RelaxedProblem)
 set(drive_diagnosis_long ColumnsOfWheels TorqueSign VehicleEffects)
 set(journeys_long ALL)
