@@ -60,9 +60,8 @@ const MechanismForm& form_of(const Mechanism& mechanism) {
   for (const auto& parameter : mechanism.parameters) {
     const std::string& name = parameter.first;
     const double value = parameter.second;
-    const bool known = std::ranges::any_of(
-        form.parameters, [&](const MechanismParameter& p) { return p.name == name; });
-    if (!known) {
+    const auto known = std::ranges::find(form.parameters, name, &MechanismParameter::name);
+    if (known == form.parameters.end()) {
       std::vector<std::string_view> names;
       for (const MechanismParameter& p : form.parameters) names.push_back(p.name);
       throw InputError(
@@ -70,6 +69,8 @@ const MechanismForm& form_of(const Mechanism& mechanism) {
                       names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", "))));
     }
     if (!std::isfinite(value)) throw ValueError(name, value, "a finite number");
+    if (value < known->least)
+      throw ValueError(name, value, fmt::format("{} or more", known->least));
   }
   return form;
 }

@@ -319,6 +319,8 @@ TEST(Mechanism, NamesWhatItDoesNotKnow) {
   EXPECT_NE(message({"slip_sinkage", "exponent", {{"n3", 1}}}).find("n1"), std::string::npos);
   EXPECT_NE(message({"slip_sinkage", "exponent", {{"n1", std::nan("")}}}), "");
   EXPECT_EQ(message({"slip_sinkage", "", {{"n1", 0.2}}}), "");
+  EXPECT_NE(message({"rear_contact", "power", {{"p", -1}}}).find("0.4 or more"), std::string::npos);
+  EXPECT_EQ(message({"rear_contact", "power", {{"p", 0.4}}}), "");
   WheelModelSpec spec = wheel_specs::ishigami2007();
   spec.mechanisms = {{"magic", "", {}}};
   EXPECT_THROW(WheelModel{spec}, InputError);
