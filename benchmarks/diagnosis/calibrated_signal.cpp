@@ -10,19 +10,23 @@ namespace {
 std::optional<std::vector<FitRow>> noise_free_rows(const Rig& rig, const MeasurementNoise& noise,
                                                    const std::vector<DrawnEffect>& effects,
                                                    const std::vector<InstrumentFault>& faults) {
+  // Replicates that share their time are alike, so that their mean stands for them.
+  const int apart = rig.own_times ? rig.replicates : 1;
+  const double alike = static_cast<double>(rig.replicates) / apart;
   std::vector<FitRow> rows;
-  for (const RigCondition& condition : rig.conditions) {
-    const auto values = ideal_values(rig, condition, effects, faults);
-    if (!values) return std::nullopt;
-    FitRow row{.load_n = condition.load_n,
-               .slip_ratio = condition.slip_ratio,
-               .slip_angle_rad = condition.slip_angle_rad,
-               .value = *values};
-    for (std::size_t c = 0; c < kChannelCount; ++c) {
-      row.sigma[c] = noise_sigma(noise, static_cast<Channel>(c), (*values)[c]) /
-                     std::sqrt(static_cast<double>(rig.replicates));
+  for (int k = 0; k < apart; ++k) {
+    for (const RigCondition& condition : rig.conditions) {
+      const auto values = ideal_values(rig, rig.at_run(condition, k, rows.size()), effects, faults);
+      if (!values) return std::nullopt;
+      FitRow row{.load_n = condition.load_n,
+                 .slip_ratio = condition.slip_ratio,
+                 .slip_angle_rad = condition.slip_angle_rad,
+                 .value = *values};
+      for (std::size_t c = 0; c < kChannelCount; ++c) {
+        row.sigma[c] = noise_sigma(noise, static_cast<Channel>(c), (*values)[c]) / std::sqrt(alike);
+      }
+      rows.push_back(row);
     }
-    rows.push_back(row);
   }
   return rows;
 }

@@ -18,7 +18,7 @@ struct NamedStratum {
   Stratum stratum;
   std::string_view name;
 };
-constexpr std::array<NamedStratum, 10> kNames{{{Stratum::kNulls, "nulls"},
+constexpr std::array<NamedStratum, 12> kNames{{{Stratum::kNulls, "nulls"},
                                                {Stratum::kParameters, "parameters"},
                                                {Stratum::kInstruments, "instruments"},
                                                {Stratum::kOneEffect, "one_effect"},
@@ -27,7 +27,9 @@ constexpr std::array<NamedStratum, 10> kNames{{{Stratum::kNulls, "nulls"},
                                                {Stratum::kRutHidden, "rut_hidden"},
                                                {Stratum::kRutShown, "rut_shown"},
                                                {Stratum::kDrift, "drift"},
-                                               {Stratum::kLargeFaults, "large_faults"}}};
+                                               {Stratum::kLargeFaults, "large_faults"},
+                                               {Stratum::kDriftByRun, "drift_by_run"},
+                                               {Stratum::kNullsByRun, "nulls_by_run"}}};
 
 /// Everything that makes a recording, before it is recorded.
 struct Plan {
@@ -167,9 +169,26 @@ Plan planned(Random& random, const Needs& needs) {
   return plan;
 }
 
+/// Runs at times of their own, over days with or without nights between them; what the recording
+/// tells of it differs.
+Plan planned_by_run(Random& random, const Needs& needs) {
+  constexpr double kNight_s = 16 * 3600;
+  Plan plan = planned(random, needs);
+  plan.rig.own_times = true;
+  plan.rig.overnight_s = chance(random, 0.5) ? kNight_s : 0;
+  plan.rig.columns.time = chance(random, 0.5);
+  plan.rig.columns.day = chance(random, 0.7);
+  plan.noise.memory = chance(random, 0.5) ? uniform(random, 0.1, 0.3) : 0;
+  const bool tells_days =
+      plan.rig.columns.day || (plan.rig.columns.time && plan.rig.overnight_s > 0);
+  if (!tells_days)
+    plan.noise.day_offset = plan.noise.day_gain = 0;  // what they do has no time else
+  return plan;
+}
+
 std::optional<Plan> with_effect(Random& random, const TruthEffect& effect, double least_sigma,
-                                bool ruts_shown) {
-  Plan plan = planned(random, effect.needs);
+                                bool ruts_shown, bool by_run = false) {
+  Plan plan = by_run ? planned_by_run(random, effect.needs) : planned(random, effect.needs);
   if (ruts_shown) {
     plan.rig.channels.push_back(Channel::kRutLeft);
     plan.rig.channels.push_back(Channel::kRutRight);
@@ -224,10 +243,11 @@ std::optional<Plan> with_fault(Random& random, bool large, std::uint64_t turn) {
   return plan;
 }
 
-/// A gain that settles is an instrument's; what a bed remembers has no name.
+/// A gain that settles or drifts and a zero that jumps are an instrument's; what a bed remembers,
+/// and how it was prepared, has no name.
 void accept_in_course(TrueCause& cause) {
-  if (cause.id == "bed_memory") cause.accepted = {};
-  if (cause.id != "warm_up") return;
+  if (cause.id == "bed_memory" || cause.id == "bed_preparation") cause.accepted = {};
+  if (cause.id != "warm_up" && cause.id != "gain_drift" && cause.id != "zero_jump") return;
   cause.accepted = {"sensor_gain", "sensor_bias"};
   cause.instrument = true;
 }
@@ -259,6 +279,13 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
       if (plan) accept_in_course(plan->truth.causes.front());
       return plan;
     }
+    case Stratum::kDriftByRun: {
+      auto plan = with_effect(random, in_turn(effects_in_days(), turn), kClearSigma, false, true);
+      if (plan) accept_in_course(plan->truth.causes.front());
+      return plan;
+    }
+    case Stratum::kNullsByRun:
+      return planned_by_run(random, {});
     case Stratum::kRutHidden:
     case Stratum::kRutShown: {
       static const std::vector<TruthEffect> kRuts = rut_effects();

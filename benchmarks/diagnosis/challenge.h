@@ -20,6 +20,8 @@ enum class Stratum {
   kRutShown,     ///< rut asymmetry with rut depths
   kDrift,        ///< one effect that follows time, order or place, 8 sigma and more
   kLargeFaults,  ///< as kInstruments, larger than those, or a sensor that is turned
+  kDriftByRun,   ///< one effect that follows time or the day, every run at a time of its own
+  kNullsByRun,   ///< as kNulls, every run at a time of its own, noise with a memory in half of them
 };
 
 const std::vector<Stratum>& strata();

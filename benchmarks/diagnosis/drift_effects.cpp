@@ -69,4 +69,85 @@ const std::vector<TruthEffect>& drift_effects() {
   return all;
 }
 
+const std::vector<TruthEffect>& effects_in_days() {
+  static const std::vector<TruthEffect> all{
+      {"cohesion_drift",
+       "with the series",
+       "c (1 - a (1 - exp(-t/T))), T of a fifth to four fifths of the series",
+       .4,
+       .95,
+       false,
+       {.times = true},
+       [](P p, double a, double u) {
+         const double passed = p.at.time_s / p.at.series_s;
+         p.soil.cohesion_pa *= 1 - a * (1 - std::exp(-passed / (.2 + .6 * u)));
+         return p;
+       }},
+      {"cohesion_drift",
+       "sieved again",
+       "c (1 + a) from one day on: the bed was sieved or wetted anew",
+       .5,
+       1.5,
+       true,
+       {.loads = true, .times = true},
+       [](P p, double a, double u) {
+         const int from = u < .5 ? 1 : 2;
+         if (p.at.day >= from) p.soil.cohesion_pa *= a > 0 ? 1 + a : 1 / (1 - a);
+         return p;
+       }},
+      {"bed_preparation",
+       "one day",
+       "the bed of one day is packed denser or looser: stiffness by a share, strength by a third",
+       .15,
+       .6,
+       true,
+       {},
+       [](P p, double a, double u) {
+         if (p.at.day != static_cast<int>(2.999 * u)) return p;
+         p.stiffness *= 1 + a;
+         p.limit *= 1 + a / 3;
+         return p;
+       }},
+      {"warm_up",
+       "with the series",
+       "the amplifier's gain settles exponentially in the course of the series",
+       .06,
+       .25,
+       true,
+       {},
+       nullptr,
+       [](C c, const P& p, double a, double u) {
+         const double gain = 1 + a * std::exp(-p.at.time_s / p.at.series_s / (.1 + .4 * u));
+         c.fx_n *= gain;
+         c.fy_n *= gain;
+         return c;
+       }},
+      {"gain_drift",
+       "linear",
+       "the gain of one channel drifts in proportion to time",
+       .06,
+       .3,
+       true,
+       {.torque = true},
+       nullptr,
+       [](C c, const P& p, double a, double u) {
+         (u < .5 ? c.fx_n : c.torque_nm) *= 1 + a * p.at.time_s / p.at.series_s;
+         return c;
+       }},
+      {"zero_jump",
+       "one day",
+       "the zero of the drawbar pull is off on one day",
+       .03,
+       .1,
+       true,
+       {},
+       nullptr,
+       [](C c, const P& p, double a, double u) {
+         if (p.at.day == static_cast<int>(2.999 * u)) c.fx_n += a * p.at.load_n;
+         return c;
+       }},
+  };
+  return all;
+}
+
 }  // namespace regoplan::challenge

@@ -10,8 +10,6 @@
 namespace regoplan::challenge {
 namespace {
 
-constexpr int kDays = 3;
-
 std::size_t at(Channel channel) {
   return static_cast<std::size_t>(channel);
 }
@@ -79,6 +77,8 @@ std::optional<ChannelValues> ideal_values(const Rig& rig, const RigCondition& co
                         .speed_mps = condition.speed_mps,
                         .position_m = condition.position_m,
                         .time_s = condition.time_s,
+                        .series_s = rig.series_s(),
+                        .day = condition.day,
                         .previous_slip_ratio = condition.previous_slip_ratio}};
   for (const InstrumentFault& fault : faults) {
     if (fault.id == "slip_scale") p.at.slip_ratio = true_slip(p.at.slip_ratio, 1 + fault.amount);
@@ -132,12 +132,11 @@ std::optional<Recording> record(Random& random, const Rig& rig, const Measuremen
     }
   }
 
+  ChannelValues before{};
   Recording recording{.columns = rig.columns, .channels = rig.channels};
   for (std::size_t i = 0; i < plan.size(); ++i) {
-    const RigCondition& commanded = rig.conditions[plan[i].condition];
-    const auto day = rig.replicate_by_day ? static_cast<std::size_t>(plan[i].replicate)
-                                          : i * kDays / plan.size();
-    RigCondition run = commanded;
+    RigCondition run = rig.at_run(rig.conditions[plan[i].condition], plan[i].replicate, i);
+    const auto day = static_cast<std::size_t>(run.day);
     run.slip_ratio = as_in_file(run.slip_ratio + noise.slip_jitter * uniform(random, -1, 1));
     if (run.slip_angle_rad != 0)
       run.slip_angle_rad += noise.angle_jitter_rad * uniform(random, -1, 1);
@@ -166,6 +165,8 @@ std::optional<Recording> record(Random& random, const Rig& rig, const Measuremen
       const double common = is_force ? noise.common : 0;
       double scatter =
           std::sqrt(1 - common) * heavy_tailed(random, noise.tail_dof) + std::sqrt(common) * shared;
+      scatter = noise.memory * before[c] + std::sqrt(1 - noise.memory * noise.memory) * scatter;
+      before[c] = scatter;
       if (chance(random, noise.outliers)) scatter += sign(random) * uniform(random, 4, 9);
       row.measured[c] = as_in_file((*ideal)[c] * gain[day][c] + offset[day][c] + sigma * scatter);
     }

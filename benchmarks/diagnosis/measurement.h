@@ -31,6 +31,7 @@ struct MeasurementNoise {
   double load_error = 0;       ///< of the load cell from run to run, share: couples the channels
   double load_spread = 0;      ///< of the run's load about the commanded one, share; recorded
   double common = 0;           ///< correlation of the forces' noise
+  double memory = 0;           ///< correlation of a run's noise with that of the run before
   double slip_jitter = 0.003;  ///< within the tolerance of replicates
   double angle_jitter_rad = 0.002;
 };

@@ -210,6 +210,24 @@ std::vector<Channel> channels_measured(Random& random, const Needs& needs) {
 
 }  // namespace
 
+int Rig::day_of(int replicate, std::size_t order) const {
+  return replicate_by_day ? replicate : static_cast<int>(order * kDays / runs());
+}
+
+RigCondition Rig::at_run(const RigCondition& condition, int replicate, std::size_t order) const {
+  RigCondition run = condition;
+  run.day = day_of(replicate, order);
+  if (own_times) {
+    run.time_s = static_cast<double>(order) * kBetweenRuns_s + run.day * overnight_s;
+  }
+  return run;
+}
+
+double Rig::series_s() const {
+  if (!own_times) return static_cast<double>(conditions.size()) * kBetweenRuns_s;
+  return static_cast<double>(runs()) * kBetweenRuns_s + (kDays - 1) * overnight_s;
+}
+
 Needs operator|(const Needs& a, const Needs& b) {
   return {.side = a.side || b.side,
           .both_sides = a.both_sides || b.both_sides,
@@ -279,7 +297,7 @@ Rig draw_rig(Random& random, const Needs& needs) {
     before = condition.slip_ratio;
     condition.position_m = std::round(uniform(random, 0, 2) * 100) / 100;
     condition.time_s = time_s;
-    time_s += 900;  // between the runs of one bed
+    time_s += kBetweenRuns_s;
   }
   rig.channels = channels_measured(random, needs);
   if (levels.angle_deg.size() == 1) std::erase(rig.channels, Channel::kFy);

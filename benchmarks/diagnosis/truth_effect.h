@@ -61,6 +61,10 @@ const std::vector<TruthEffect>& unlisted_effects();
 /// Effects that follow time, the order of the runs or the place, and nothing that is set.
 const std::vector<TruthEffect>& drift_effects();
 
+/// Effects by which the days of a series differ, or that pass in its course, runs at times of their
+/// own: two or three days of replicates may look like a bed and sensors that vary by the day.
+const std::vector<TruthEffect>& effects_in_days();
+
 /// The wheel with the effects, one after the other.
 std::optional<TruthChannels> channels_with(const std::vector<DrawnEffect>& effects,
                                            const TruthPhysics& base);

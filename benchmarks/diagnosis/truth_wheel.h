@@ -17,6 +17,8 @@ struct TruthConditions {
   double speed_mps = 0.05;
   double position_m = 0;
   double time_s = 0;
+  double series_s = 1;  ///< how long the whole series of runs takes
+  int day = 0;          ///< from 0
   double wheel_angle_rad = 0;
   double previous_slip_ratio = 0;  ///< of the run before
 };

@@ -50,6 +50,21 @@ TEST(Challenge, DriftIsClearAndWhatABedRemembersHasNoName) {
   }
 }
 
+TEST(Challenge, WhatPassesInTheCourseOfDaysTellsReplicatesApart) {
+  for (std::uint64_t index = 0; index < 6; ++index) {
+    const Challenge made = generate(Stratum::kDriftByRun, 7, index);
+    EXPECT_GE(made.truth.signal.after, 8);
+    ASSERT_EQ(made.truth.causes.size(), 1);
+    EXPECT_EQ(made.truth.causes[0].accepted.empty(), made.truth.causes[0].id == "bed_preparation");
+    if (!made.recording.columns.time) continue;
+    double before_s = -1;
+    for (const WheelRun& run : made.recording.runs) {
+      EXPECT_GT(run.conditions.time_s, before_s) << run.run_id << " of case " << index;
+      before_s = run.conditions.time_s;
+    }
+  }
+}
+
 TEST(Challenge, TwoEffectsAreTwoNamesEachBeyondTheOther) {
   const Truth truth = generate(Stratum::kTwoEffects, 7, 1).truth;
   ASSERT_EQ(truth.causes.size(), 2);
