@@ -77,6 +77,22 @@ Recording with_times(Recording recording) {
   return recording;
 }
 
+/// Where times are recorded and no days: a pause of a night begins the next one.
+Recording with_days(Recording recording) {
+  constexpr double kNight_s = 6 * 3600;
+  if (!recording.columns.time || recording.columns.day) return recording;
+  std::vector<double> times_s;
+  for (const WheelRun& run : recording.runs) times_s.push_back(run.conditions.time_s);
+  std::ranges::sort(times_s);
+  for (WheelRun& run : recording.runs) {
+    run.day = 0;
+    for (std::size_t i = 1; i < times_s.size() && times_s[i] <= run.conditions.time_s; ++i) {
+      if (times_s[i] - times_s[i - 1] > kNight_s) ++run.day;
+    }
+  }
+  return recording;
+}
+
 /// A channel whose sign the wheel's motion tells: that of a number of the run, where it is clear.
 struct SignConvention {
   Channel channel;
@@ -352,7 +368,7 @@ ChannelData means_of(const std::vector<double>& day, const std::vector<Condition
 CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, std::size_t fewest,
                             std::stop_token stop) {
   CondensedRecording result;
-  Recording recording = with_times(raw);
+  Recording recording = with_days(with_times(raw));
   const WheelModel model({.variant = setup.variant,
                           .wheel = setup.wheel,
                           .soil = setup.soil.mean,

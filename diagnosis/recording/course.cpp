@@ -54,6 +54,19 @@ void add_stretches(const std::vector<WheelRun>& runs, std::vector<Column>& colum
   }
 }
 
+/// Each day apart from all others, where there are a few.
+void add_days(const std::vector<WheelRun>& runs, std::vector<Column>& columns) {
+  constexpr std::size_t kFewest = 2, kMost = 6;
+  std::set<double> days;
+  for (const WheelRun& run : runs) days.insert(run.day);
+  if (days.size() < kFewest || days.size() > kMost) return;
+  for (const double day : days) {
+    Column column{.name = "day", .low = day, .high = day};
+    for (const WheelRun& run : runs) column.value.push_back(run.day == day ? 1 : 0);
+    columns.push_back(std::move(column));
+  }
+}
+
 /// What the runs may follow; rows stand in the order of the runs.
 std::vector<Column> columns_of(const Recording& recording) {
   const std::vector<WheelRun>& runs = recording.runs;
@@ -73,6 +86,7 @@ std::vector<Column> columns_of(const Recording& recording) {
       columns);
   add("after_load_n", each([&](std::size_t i) { return runs[i == 0 ? 0 : i - 1].load_n; }),
       columns);
+  add_days(runs, columns);
   if (recording.columns.position) add_stretches(runs, columns);
   return columns;
 }

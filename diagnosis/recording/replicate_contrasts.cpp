@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/recording/thresholds.h"
+
 namespace regoplan {
 namespace {
 
@@ -32,9 +34,12 @@ ReplicateContrasts::ReplicateContrasts(const Recording& recording,
   }
   e_ = contrasts * rows_.value;
   const Eigen::MatrixXd within = contrasts * own.asDiagonal() * contrasts.transpose();
+  // By more than days usually do they differ for a reason, which a column may tell.
+  const double usual = usual_deviation(plain, {signal.begin(), signal.end()});
+  const double offset = std::min(plain.day_offset, Thresholds::kUsualDay_deviations * usual);
+  const double gain = std::min(plain.day_gain, Thresholds::kUsualDay_share);
   const Eigen::MatrixXd of_days =
-      (std::pow(plain.day_offset, 2) +
-       std::pow(plain.day_gain, 2) * (signal * signal.transpose()).array()) *
+      (offset * offset + gain * gain * (signal * signal.transpose()).array()) *
       rows_.same_day.array();
   const Eigen::MatrixXd days = contrasts * of_days * contrasts.transpose();
   const bool has_days = !plain.day_assumed && plain.day_offset + plain.day_gain > 0;

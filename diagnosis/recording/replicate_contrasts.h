@@ -9,7 +9,7 @@
 namespace regoplan {
 
 /// What replicates of one channel say of a trend, the noise model's parts held at those of a
-/// channel's plain noise, or its days given up for the trend.
+/// channel's plain noise, what days differ by at no more than is usual, or given up for the trend.
 class ReplicateContrasts {
  public:
   ReplicateContrasts(const Recording& recording, const std::vector<Condition>& conditions,

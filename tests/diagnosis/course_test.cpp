@@ -123,6 +123,53 @@ TEST(Course, IsFoundAndDoesNotWidenTheNoise) {
   EXPECT_LT(found.noise[0].constant, 1.25 * still);
 }
 
+/// Three rounds of replicates, each on a day of its own.
+/// \param firmer share by which drawbar pull and torque are larger on the second
+Recording on_three_days(std::uint64_t seed, double firmer) {
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record({}, setup, setup.soil.mean, {.conditions = 30, .day = 1}, seed);
+  recording.columns.day = true;
+  for (WheelRun& run : recording.runs) {
+    if (run.day != 1) continue;
+    run.measured[0] *= 1 + firmer;
+    run.measured[2] *= 1 + firmer;
+  }
+  return recording;
+}
+
+TEST(Course, OfDaysThatDifferAsMuchAsARunScattersIsNone) {
+  int followed = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    followed += condense(on_three_days(seed, 0), simulant_setup()).course.has_value();
+  }
+  EXPECT_LE(followed, 1);
+}
+
+TEST(Course, ADayWhoseBedIsFirmerIsNoScatterOfDays) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const CondensedRecording found = condense(on_three_days(seed, 0.15), simulant_setup());
+    ASSERT_TRUE(found.course.has_value()) << seed;
+    EXPECT_TRUE(found.course->in_time());
+    EXPECT_EQ(found.course->column, "day");
+    EXPECT_EQ(found.course->low, 1);
+    EXPECT_EQ(found.course->high, 1);
+    for (const ChannelNoise& noise : found.noise) EXPECT_LT(noise.day_gain, 0.05) << seed;
+  }
+}
+
+TEST(Course, WhereOnlyTimesAreToldANightBeginsTheNextDay) {
+  Recording recording = on_three_days(4, 0);
+  const std::vector<double> told = condense(recording, simulant_setup()).day;
+  recording.columns.day = false;
+  recording.columns.time = true;
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    WheelRun& run = recording.runs[i];
+    run.conditions.time_s = 86400 * run.day + 300 * static_cast<double>(i % 30);
+    run.day = 0;
+  }
+  EXPECT_EQ(condense(recording, simulant_setup()).day, told);
+}
+
 /// Replicates each at a place of its own, as a wheel that rolls on has them.
 /// \param firmer_n by which drawbar pull is larger on the second half of the bed
 Recording along_a_bed(std::uint64_t seed, double firmer_n) {
