@@ -193,4 +193,11 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
   }
 }
 
+std::string withheld_text(const SoilFitted& fitted, const MapSoil& said) {
+  return fmt::format(
+      "{} stays as the map has it: its numbers, fitted to the rest of what was driven on it, make "
+      "the stretches that were held out no likelier than the map's do ({:.2g} times as likely)",
+      said.name, std::exp(fitted.held_out_nats));
+}
+
 }  // namespace regoplan

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "drive_diagnosis/drive_diagnosis.h"
@@ -19,5 +20,8 @@ void claim_side_drag(DriveDiagnosis& result);
 /// \pre result.effects
 void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                    DriveDiagnosis& result);
+
+/// Why a soil that was driven on stays as the map has it.
+std::string withheld_text(const SoilFitted& fitted, const MapSoil& said);
 
 }  // namespace regoplan

@@ -93,10 +93,14 @@ class EffectSearch {
     const Eigen::MatrixXd corrected = fit_.predicted();
     result.rms_after = rms(comparison_.measured() - corrected);
     result.compared = compared(as_said, corrected);
-    const ContestFit outside = fit_.fit_outside_zones();
+    const OutsideZones outside = fit_.fit_outside_zones();
     result.vehicle =
-        estimated_vehicle(uncertain_, trials_, outside.parameters, outside.parameters_std);
-    result.soils = soils_left(outside);
+        estimated_vehicle(uncertain_, trials_, outside.fit.parameters, outside.fit.parameters_std);
+    result.soils_fitted = soils_fitted(outside);
+    result.soils = map_.soils();
+    for (const SoilFitted& fitted : result.soils_fitted) {
+      if (fitted.is_handed_back()) result.soils[fitted.soil].soil = fitted.estimate;
+    }
     return result;
   }
 
@@ -244,11 +248,20 @@ class EffectSearch {
     }
   }
 
-  /// The map's soils as a fit has them.
-  std::vector<MapSoil> soils_left(const ContestFit& fit) const {
-    return estimated_soils(map_.soils(), fit_.deviation(fit).soils,
-                           soil_stds(trials_, fit.parameters_std, map_.soils().size()),
-                           comparison_.soils_driven());
+  /// The map's soils that were driven on, as windows outside zones have them.
+  std::vector<SoilFitted> soils_fitted(const OutsideZones& outside) const {
+    const std::vector<MapSoil> estimated =
+        estimated_soils(map_.soils(), fit_.deviation(outside.fit).soils,
+                        soil_stds(trials_, outside.fit.parameters_std, map_.soils().size()),
+                        comparison_.soils_driven());
+    std::vector<SoilFitted> fitted;
+    for (std::size_t soil = 0; soil < outside.soils_held_out_nats.size(); ++soil) {
+      if (!comparison_.soils_driven()[soil]) continue;
+      fitted.push_back({.soil = soil,
+                        .estimate = estimated[soil].soil,
+                        .held_out_nats = outside.soils_held_out_nats[soil]});
+    }
+    return fitted;
   }
 
   /// The zone's soil: its map soil as it is estimated all along, with the zone's numbers on top.

@@ -51,13 +51,26 @@ struct ZoneShown {
   std::optional<double> least_m;  ///< nothing: none of those that are sought
 };
 
+/// A soil of the map that was driven on, as the drives tell it.
+struct SoilFitted {
+  std::size_t soil = 0;    ///< of the map
+  UncertainSoil estimate;  ///< with what is left of its spread
+  /// By how many nats numbers fitted to the other stretches of the drives make held-out stretches
+  /// likelier than the map's own make them.
+  double held_out_nats = 0;
+
+  /// What predicts the drives no better than the map does is nothing to plan with.
+  bool is_handed_back() const { return held_out_nats > 0; }
+};
+
 /// What the vehicle's windows say.
 struct VehicleEffects {
   std::vector<VehicleFinding> found;
   VehicleFinding strongest_left;       ///< what did not stand out
   std::vector<ZoneShown> zones_shown;  ///< beside what was found
-  UncertainVehicle vehicle;    ///< of the numbers that nobody knew well, what the drives say
-  std::vector<MapSoil> soils;  ///< of the map, with what is left of the spread of those driven on
+  UncertainVehicle vehicle;  ///< of the numbers that nobody knew well, what the drives say
+  std::vector<SoilFitted> soils_fitted;  ///< none where too few windows lie outside zones
+  std::vector<MapSoil> soils;  ///< of the map, those that are handed back as they are fitted
   int windows = 0;             ///< that were compared
   std::vector<std::string> channels;
   std::vector<double> noise;      ///< of each channel

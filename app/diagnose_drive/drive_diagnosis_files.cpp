@@ -12,6 +12,7 @@
 #include "app/diagnose_drive/drive_diagnosis_report.h"
 #include "app/io/csv_cells.h"
 #include "drive_diagnosis/corrected_world.h"
+#include "drive_diagnosis/drive_claims.h"
 #include "terramech/basics/angles.h"
 
 namespace regoplan {
@@ -59,9 +60,12 @@ Json soil_json(const UncertainSoil& soil) {
 Json soils_json(const DriveDiagnosisRun& run, const VehicleEffects& effects) {
   Json soils = Json::object();
   const std::vector<MapSoil>& map = run.setup.setup.map.soils();
-  for (std::size_t i = 0; i < std::min(map.size(), effects.soils.size()); ++i) {
-    const Json said = soil_json(map[i].soil), told = soil_json(effects.soils[i].soil);
-    if (said != told) soils[map[i].name] = {{"map", said}, {"drives", told}};
+  for (const SoilFitted& fitted : effects.soils_fitted) {
+    const MapSoil& said = map[fitted.soil];
+    Json& soil = soils[said.name] = {{"map", soil_json(said.soil)},
+                                     {"drives", soil_json(fitted.estimate)},
+                                     {"held_out_nats", fitted.held_out_nats}};
+    if (!fitted.is_handed_back()) soil["withheld"] = withheld_text(fitted, said);
   }
   return soils;
 }
@@ -308,6 +312,7 @@ std::string drive_diagnosis_summary(const DriveDiagnosisRun& run) {
   for (const DriveClaim& claim : diagnosis.claims) {
     text += fmt::format("  {}: {}\n", fmt::join(claim.equivalent, " | "), claim.text);
   }
+  for (const std::string& withheld : withheld_texts(run)) text += "  " + withheld + "\n";
   if (diagnosis.currents) {
     const HeldOutCurrents& held_out = diagnosis.currents->held_out;
     text += fmt::format(

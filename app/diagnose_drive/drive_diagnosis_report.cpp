@@ -10,6 +10,7 @@
 #include "app/page/report_assets.h"
 #include "app/page/report_map.h"
 #include "app/page/report_page.h"
+#include "drive_diagnosis/drive_claims.h"
 
 namespace regoplan {
 
@@ -36,6 +37,16 @@ std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis) {
   if (diagnosis.verdict != DriveVerdict::kUndecided || diagnosis.silent.empty()) return {};
   const SilentEffect& first = diagnosis.silent.front();
   return fmt::format("Why: {}. What would decide: {}.", first.why, first.drive);
+}
+
+std::vector<std::string> withheld_texts(const DriveDiagnosisRun& run) {
+  std::vector<std::string> texts;
+  if (!run.diagnosis.effects) return texts;
+  for (const SoilFitted& fitted : run.diagnosis.effects->soils_fitted) {
+    if (fitted.is_handed_back()) continue;
+    texts.push_back(withheld_text(fitted, run.setup.setup.map.soils()[fitted.soil]));
+  }
+  return texts;
 }
 
 namespace {
@@ -95,6 +106,7 @@ std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
   for (const DriveClaim& claim : run.diagnosis.claims) {
     lead.push_back(fmt::format("{}: {}.", fmt::join(claim.equivalent, " or "), claim.text));
   }
+  for (const std::string& withheld : withheld_texts(run)) lead.push_back(withheld + ".");
   return render({.title = "Diagnosis of drives",
                  .headline = drive_diagnosis_headline(run),
                  .lead = lead,

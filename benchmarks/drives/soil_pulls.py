@@ -4,8 +4,9 @@
 Paths of 315 m over bands of three soils, each number off its mean by as much as the map says that it
 may be, on ground whose heights err from the map's (independent simulator); in every other world (odd
 seeds) a stretch of 30 m hides a far weaker soil. A pull is what is told less the truth, in deviations
-that are told: of honest ones the root mean square is 1 and 95 % lie within 1.96. Folder and command
-may be given again: what is there already is not made anew.
+that are told: of honest ones the root mean square is 1 and 95 % lie within 1.96. Of the soils that
+are handed back some are further from the truth than the map's, by luck: how many of honest ones, is
+drawn. Folder and command may be given again: what is there already is not made anew.
 
     benchmarks/drives/soil_pulls.py build/release FOLDER FIRST_SEED LAST_SEED [--grades AB]
         [--program PROGRAM] [--told said] [--threads 1]
@@ -76,24 +77,26 @@ class Drive:
                  "scenario.yaml", "--threads", threads, "--out", said, "--quiet", "--force")
 
     def pulls(self, said):
-        """(soil, number, pull, pull of the map's number) of each soil that is told."""
+        """(soil, number, pull, pull of the map's number, deviation left of 1, whether it is handed
+        back) of each soil that is told."""
         truth = json.loads((self.folder / "truth.json").read_text())["soils"]
         file = self.folder / said / "diagnosis.json"
         if not file.exists():
             return
         for soil, numbers in json.loads(file.read_text()).get("soils", {}).items():
+            handed_back = "withheld" not in numbers
             for key, off in truth[soil].items():
                 known, told = numbers["map"][key], numbers["drives"][key]
                 there = known["mean"] + off["std"] * known["std"]
                 yield (soil, key, (told["mean"] - there) / told["std"], -off["std"],
-                       told["std"] / known["std"])
+                       told["std"] / known["std"], handed_back)
 
 
 def row(name, pulls):
     if not pulls:
         return
-    values = [pull for _, _, pull, _, _ in pulls]
-    known = [pull for _, _, _, pull, _ in pulls]
+    values = [pull[2] for pull in pulls]
+    known = [pull[3] for pull in pulls]
     rms = math.sqrt(statistics.fmean(p * p for p in values))
     within = statistics.fmean(abs(p) <= WITHIN_95 for p in values)
     # Nats by which what is told makes the truth likelier than the map's own numbers do.
@@ -105,6 +108,39 @@ def row(name, pulls):
     left = statistics.median(pull[4] for pull in pulls)
     print(f"| {name} | {len(values)} | {statistics.fmean(values):+.2f} | {rms:.2f} | {within:.2f} | "
           f"{max(map(abs, values)):.1f} | {left:.2f} | {off:.2f} ({prior:.2f}) | {nats:+.2f} |")
+
+
+def further_by_luck(left, chance):
+    """Whether a soil told as honestly as it is said to be comes out further off than the map's."""
+    told = known = 0
+    for std in (min(1, std) for std in left):
+        there = chance.gauss(0, 1)
+        mean = (1 - std * std) * there + std * math.sqrt(1 - std * std) * chance.gauss(0, 1)
+        told += (mean - there) ** 2
+        known += there ** 2
+    return told > known
+
+
+def soils_row(drives, said):
+    """How many soils are told further from the truth than the map's, and what becomes of them."""
+    draws, chance = 200, random.Random("luck")
+    told, further, by_luck, withheld, withheld_further = 0, 0, 0.0, 0, 0
+    for drive in drives:
+        pulls = list(drive.pulls(said))
+        for soil in SOILS:
+            of = [pull for pull in pulls if pull[0] == soil]
+            if not of:
+                continue
+            told += 1
+            is_further = sum((p * left) ** 2 - q * q for _, _, p, q, left, _ in of) > 0
+            further += is_further
+            by_luck += statistics.fmean(further_by_luck([pull[4] for pull in of], chance)
+                                        for _ in range(draws))
+            if not of[0][5]:
+                withheld += 1
+                withheld_further += is_further
+    print(f"soils told {told}, further from the truth than the map's {further} (of honest ones "
+          f"{by_luck:.1f}); withheld {withheld}, of these further {withheld_further}")
 
 
 def main():
@@ -135,6 +171,7 @@ def main():
         row(name, [pull for drive in drives if drive.seed % 2 == of
                    for pull in drive.pulls(options.told)])
     row("all", told)
+    soils_row(drives, options.told)
 
 
 if __name__ == "__main__":

@@ -146,4 +146,13 @@ std::vector<SoilNumbers> soil_stds(const std::vector<VehicleTrial>& trials,
   return left;
 }
 
+std::vector<std::size_t> trials_of_soil(const std::vector<VehicleTrial>& trials, std::size_t soil) {
+  std::vector<std::size_t> of_soil;
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const std::vector<SoilNumbers>& of = trials[i].deviation.soils;
+    if (soil < of.size() && of[soil] != SoilNumbers{}) of_soil.push_back(i);
+  }
+  return of_soil;
+}
+
 }  // namespace regoplan

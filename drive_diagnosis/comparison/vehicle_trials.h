@@ -42,4 +42,7 @@ UncertainVehicle estimated_vehicle(const UncertainVehicle& said,
 std::vector<SoilNumbers> soil_stds(const std::vector<VehicleTrial>& trials,
                                    const Eigen::VectorXd& stds, std::size_t soils);
 
+/// Indices of the trials that a soil's numbers are.
+std::vector<std::size_t> trials_of_soil(const std::vector<VehicleTrial>& trials, std::size_t soil);
+
 }  // namespace regoplan

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "drive_diagnosis/contest/held_out_stretches.h"
+
 namespace regoplan {
 namespace {
 
@@ -291,17 +293,31 @@ ContestFit EffectFit::nothing_known() const {
           .zones_covariance = {}};
 }
 
-ContestFit EffectFit::fit_outside_zones() {
+OutsideZones EffectFit::fit_outside_zones() {
   WindowSet in_zones = comparison_.touching(zones());
-  if (in_zones.empty()) return fit_;
-  if (comparison_.size() - in_zones.size() < kFewestOutside) return nothing_known();
+  if (comparison_.size() - in_zones.size() < kFewestOutside) {
+    return {.fit = nothing_known(), .soils_held_out_nats = {}};
+  }
   const Settled here{.fit = fit_, .shifts = shifts_};
   silent_ = std::move(in_zones);
-  settle();
-  ContestFit outside = fit_;
+  if (silent_.empty()) {
+    linearise();
+  } else {
+    settle();
+  }
+  OutsideZones outside{.fit = fit_, .soils_held_out_nats = soils_held_out_nats()};
   silent_.clear();
   go_on_from(here);
   return outside;
+}
+
+std::vector<double> EffectFit::soils_held_out_nats() const {
+  std::vector<double> nats;
+  for (std::size_t soil = 0; soil < map_.soils().size(); ++soil) {
+    const std::vector<std::size_t> numbers = trials_of_soil(trials_, soil);
+    nats.push_back(held_out_nats(contest_, numbers, comparison_.measured().cols()));
+  }
+  return nats;
 }
 
 void EffectFit::settle_with(EffectFound& effect) {

@@ -18,6 +18,15 @@
 
 namespace regoplan {
 
+/// What windows that no zone touches say.
+struct OutsideZones {
+  ContestFit fit;
+  /// Of each soil of the map, by how many nats its numbers as they are fitted to the others make
+  /// stretches likelier than as they are said to be; see `held_out_nats`. Empty where the windows
+  /// are too few to be fitted.
+  std::vector<double> soils_held_out_nats;
+};
+
 /// Fits all that may be otherwise to a drive's windows, linearised anew about each fit: parameters
 /// of a sound vehicle and its soils, and the faults and zones that were found.
 class EffectFit {
@@ -53,7 +62,7 @@ class EffectFit {
   /// as they are said to be. In a zone the ground is far from what the model is good at (wheels
   /// sink deep, its borders are not as sharp as a window is short), and what misfits there would be
   /// taken up by soils and numbers that all other windows share.
-  ContestFit fit_outside_zones();
+  OutsideZones fit_outside_zones();
   /// How far each channel scatters.
   const std::vector<double>& noise() const { return noise_; }
   /// Indices of soils' numbers that vary.
@@ -93,6 +102,7 @@ class EffectFit {
   ContestFit nothing_known() const;
   Eigen::VectorXd values_of(const SoilNumbers& numbers) const;
   std::vector<Eigen::VectorXd> differences_among_soils_driven() const;
+  std::vector<double> soils_held_out_nats() const;
   std::vector<WindowZone> zones() const;
   Linearised linearise();
   Linearised linearise(PredictedWindows here);

@@ -33,5 +33,11 @@ TEST(DriveClaims, AZoneIsToldByTheChanceOfNoneAndByOneIntervalOfItsSoil) {
   EXPECT_LT(diagnosis.where.at(0).p_value, 1e-6);
 }
 
+TEST(DriveClaims, WhyASoilStaysAsTheMapHasItIsToldInASentence) {
+  const std::string text = withheld_text({.held_out_nats = std::log(0.5)}, {.name = "mare"});
+  EXPECT_EQ(count_of("mare stays as the map has it", text), 1) << text;
+  EXPECT_EQ(count_of("0.5 times as likely", text), 1) << text;
+}
+
 }  // namespace
 }  // namespace regoplan

@@ -131,7 +131,9 @@ TEST(VehicleEffects, SoilsBesideAZoneAreToldAsSurelyAsTheyAreKnown) {
   ASSERT_TRUE(weak.effects);
   ASSERT_EQ(weak.effects->found.size(), 1u) << said(*weak.effects);
   ASSERT_TRUE(weak.effects->found[0].zone) << said(*weak.effects);
-  const UncertainSoil there = rolling_map().soils()[0].soil, told = weak.effects->soils[0].soil;
+  ASSERT_EQ(weak.effects->soils_fitted.size(), 1u);
+  const UncertainSoil there = rolling_map().soils()[0].soil;
+  const UncertainSoil told = weak.effects->soils_fitted[0].estimate;
   double squares = 0;
   int count = 0;
   for (const SoilParameter& number : soil_parameters()) {
@@ -143,6 +145,24 @@ TEST(VehicleEffects, SoilsBesideAZoneAreToldAsSurelyAsTheyAreKnown) {
   }
   EXPECT_GE(count, 4);
   EXPECT_LT(squares, 1);
+}
+
+TEST(VehicleEffects, ASoilIsHandedBackWhereItPredictsTheDriveBetterThanTheMapDoes) {
+  const double map_kphi = rolling_map().soils()[0].soil.mean.kphi;
+  const auto kphi_after = [&](double weakness, bool is_handed_back) {
+    const Diagnosed drive =
+        diagnosed({.weakness = [weakness](double) { return weakness; }, .seed = 1});
+    const VehicleEffects& effects = drive.effects.value();
+    EXPECT_EQ(effects.soils_fitted.size(), 1u);
+    const SoilFitted& fitted = effects.soils_fitted.at(0);
+    EXPECT_EQ(fitted.is_handed_back(), is_handed_back) << fitted.held_out_nats;
+    EXPECT_NE(fitted.estimate.mean.kphi, map_kphi);
+    EXPECT_EQ(effects.soils.at(0).soil.mean.kphi,
+              is_handed_back ? fitted.estimate.mean.kphi : map_kphi);
+    return effects.soils.at(0).soil.mean.kphi;
+  };
+  EXPECT_LT(kphi_after(1.5, true), map_kphi);
+  kphi_after(0, false);
 }
 
 TEST(VehicleEffects, AWheelThatDragsIsNamed) {
