@@ -138,6 +138,9 @@ GDALDatasetUniquePtr open_raster(const std::string& file) {
   }
   GDALDatasetUniquePtr dataset(GDALDataset::Open(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY));
   if (dataset == nullptr) {
+    if (std::filesystem::is_directory(file, ignored)) {
+      fail_raster(file, "is a folder, and no raster that GDAL can read");
+    }
     fail_with_gdal(file, network_rasters_allowed()
                              ? "is not a raster that GDAL can read"
                              : "is not a raster that GDAL can read (formats that also take "

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
@@ -78,6 +79,7 @@ double number(std::string_view text, const Column& column, const std::string& fi
 }  // namespace
 
 std::vector<Rock> read_rocks(const std::string& file) {
+  if (std::filesystem::is_directory(file)) throw InputError(file + ": is a folder");
   std::ifstream stream(file);
   std::string text;
   if (!stream || !std::getline(stream, text)) {

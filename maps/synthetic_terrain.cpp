@@ -19,28 +19,6 @@ namespace {
 /// What hangs on the seed separately, so that a change of one leaves the others alone.
 enum Stream : std::uint64_t { kCraters, kGround, kTexture, kRocks, kRockPatches, kZones };
 
-void validate(const SyntheticTerrainSettings& settings) {
-  require("cell_m", settings.cell_m, {.min = 0.01, .max = 100});
-  require("width_m", settings.width_m,
-          {.min = 16 * settings.cell_m, .max = 20000 * settings.cell_m});
-  require("height_m", settings.height_m,
-          {.min = 16 * settings.cell_m, .max = 20000 * settings.cell_m});
-  // A crater of fewer cells has neither rim nor floor.
-  require("crater_diameter_min_m", settings.crater_diameter_min_m,
-          {.min = 4 * settings.cell_m, .max = 5000});
-  require("crater_diameter_max_m", settings.crater_diameter_max_m,
-          {.min = settings.crater_diameter_min_m, .max = 5000});
-  require("crater_density_scale", settings.crater_density_scale, {.min = 0, .max = 4});
-  require("roughness_m", settings.roughness_m, {.min = 0, .max = 100});
-  require("rock_coverage", settings.rock_coverage, {.min = 0, .max = 0.3});
-  require("rock_diameter_min_m", settings.rock_diameter_min_m, {.min = 0.05, .max = 20});
-  require("rock_diameter_max_m", settings.rock_diameter_max_m,
-          {.min = settings.rock_diameter_min_m,
-           .max = std::min({20.0, settings.width_m / 2, settings.height_m / 2})});
-  require("soil_zones", settings.soil_zones, {.min = 1, .max = 100});
-  require("soil_zone_size_m", settings.soil_zone_size_m, {.min = 2 * settings.cell_m, .max = 1e6});
-}
-
 /// `value(x_m, y_m)` at the centre of every cell.
 template <typename Number, typename Value>
 std::vector<Number> over_cells(const GridFrame& frame, Value value) {
@@ -191,6 +169,28 @@ std::vector<std::int32_t> make_zones(const SyntheticTerrainSettings& settings,
 }
 
 }  // namespace
+
+void validate(const SyntheticTerrainSettings& settings) {
+  require("cell_m", settings.cell_m, {.min = 0.01, .max = 100});
+  require("width_m", settings.width_m,
+          {.min = 16 * settings.cell_m, .max = 20000 * settings.cell_m});
+  require("height_m", settings.height_m,
+          {.min = 16 * settings.cell_m, .max = 20000 * settings.cell_m});
+  // A crater of fewer cells has neither rim nor floor.
+  require("crater_diameter_min_m", settings.crater_diameter_min_m,
+          {.min = 4 * settings.cell_m, .max = 5000});
+  require("crater_diameter_max_m", settings.crater_diameter_max_m,
+          {.min = settings.crater_diameter_min_m, .max = 5000});
+  require("crater_density_scale", settings.crater_density_scale, {.min = 0, .max = 4});
+  require("roughness_m", settings.roughness_m, {.min = 0, .max = 100});
+  require("rock_coverage", settings.rock_coverage, {.min = 0, .max = 0.3});
+  require("rock_diameter_min_m", settings.rock_diameter_min_m, {.min = 0.05, .max = 20});
+  require("rock_diameter_max_m", settings.rock_diameter_max_m,
+          {.min = settings.rock_diameter_min_m,
+           .max = std::min({20.0, settings.width_m / 2, settings.height_m / 2})});
+  require("soil_zones", settings.soil_zones, {.min = 1, .max = kSoilZonesMax});
+  require("soil_zone_size_m", settings.soil_zone_size_m, {.min = 2 * settings.cell_m, .max = 1e6});
+}
 
 SyntheticTerrain make_synthetic_terrain(const SyntheticTerrainSettings& settings) {
   validate(settings);

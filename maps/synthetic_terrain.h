@@ -31,7 +31,12 @@ struct SyntheticTerrain {
   std::vector<Rock> rocks;
 };
 
+inline constexpr int kSoilZonesMax = 100;
+
 /// \throws ValueError naming a setting out of its range
+void validate(const SyntheticTerrainSettings& settings);
+
+/// \throws ValueError as `validate` does
 SyntheticTerrain make_synthetic_terrain(const SyntheticTerrainSettings& settings);
 
 }  // namespace regoplan

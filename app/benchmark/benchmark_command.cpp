@@ -180,7 +180,7 @@ Command benchmark_command(CLI::App& parser, const OwnPlanners& own) {
       ->capture_default_str();
   parser.add_option("--processes", options->processes, "runs at once; default: all cores")
       ->type_name("N")
-      ->check(in_range({.min = 1, .max = kThreadsMax}));
+      ->check(whole_in_range({.min = 1, .max = kThreadsMax}));
   add_force_flag(parser, options->out);
   add_network_flag(parser);
   add_output_flags(parser, options->json, options->quiet);

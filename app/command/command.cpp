@@ -12,26 +12,48 @@
 #include "app/io/printable_text.h"
 
 namespace regoplan {
+namespace {
+
+/// An empty value is shown as such: a slip of the hand (an unset variable of a script).
+std::string not_valid(const std::string& text, const std::string& allowed) {
+  return fmt::format("{} is not valid (allowed: {})", text.empty() ? "\"\"" : text, allowed);
+}
+
+/// The whole text as a whole number in digits; nothing where it is anything else or does not fit.
+std::optional<std::int64_t> whole_number(std::string_view text) {
+  std::int64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [read, failed] = std::from_chars(text.data(), end, value);
+  return failed == std::errc() && read == end ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
 
 CLI::Validator in_range(const ValueRange& allowed) {
   return {[allowed](std::string& text) {
             const std::optional<double> value = parse_number(text);
-            return value && allowed.contains(*value)
+            return value && allowed.contains(*value) ? std::string()
+                                                     : not_valid(text, allowed.text());
+          },
+          ""};
+}
+
+CLI::Validator whole_in_range(const ValueRange& allowed) {
+  return {[allowed](std::string& text) {
+            const std::optional<std::int64_t> value = whole_number(text);
+            return value && allowed.contains(static_cast<double>(*value))
                        ? std::string()
-                       : fmt::format("{} is not valid (allowed: {})", text, allowed.text());
+                       : not_valid(text, "a whole number, " + allowed.text());
           },
           ""};
 }
 
 CLI::Validator a_seed() {
   return {[](std::string& text) {
-            std::int64_t seed = -1;
-            const char* end = text.data() + text.size();
-            const auto [read, failed] = std::from_chars(text.data(), end, seed);
-            return failed == std::errc() && read == end && seed >= 0
+            const std::optional<std::int64_t> seed = whole_number(text);
+            return seed && *seed >= 0
                        ? std::string()
-                       : fmt::format("{} is not valid (allowed: a whole number, 0 to {})", text,
-                                     INT64_MAX);
+                       : not_valid(text, fmt::format("a whole number, 0 to {}", INT64_MAX));
           },
           ""};
 }
@@ -40,8 +62,7 @@ CLI::Validator one_of(std::vector<std::string> words) {
   return {[words = std::move(words)](std::string& text) {
             return std::ranges::find(words, text) != words.end()
                        ? std::string()
-                       : fmt::format("{} is not valid (allowed: {})", text,
-                                     fmt::join(words, " | "));
+                       : not_valid(text, fmt::format("{}", fmt::join(words, " | ")));
           },
           ""};
 }

@@ -44,6 +44,9 @@ Command add_compare_command(CLI::App& program);
 /// An option takes finite numbers in this range only.
 CLI::Validator in_range(const ValueRange& allowed);
 
+/// An option takes whole numbers in this range only, in digits: what CLI11 makes an integer of.
+CLI::Validator whole_in_range(const ValueRange& allowed);
+
 /// An option takes a seed only: a whole number that a scenario could hold too.
 CLI::Validator a_seed();
 

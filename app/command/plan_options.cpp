@@ -51,17 +51,17 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
       .add_option("--iterations", overrides.iterations,
                   "of each planner run, in place of a time: the result is then reproducible")
       ->type_name("N")
-      ->check(in_range({.min = 1}))
+      ->check(whole_in_range({.min = 1, .max = kIterationsMax}))
       ->excludes(time);
   parser
       .add_option("--candidates", overrides.candidates,
                   else_as("how many paths to look for", defaults.candidates))
       ->type_name("N")
-      ->check(in_range({.min = 1, .max = 100}));
+      ->check(whole_in_range({.min = 1, .max = 100}));
   add_improve_flags(parser, overrides);
   parser.add_option("--threads", overrides.threads, "default: all cores; changes no result")
       ->type_name("N")
-      ->check(in_range({.min = 1, .max = kThreadsMax}));
+      ->check(whole_in_range({.min = 1, .max = kThreadsMax}));
 }
 
 void add_network_flag(CLI::App& parser) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -13,6 +14,7 @@
 #include <new>
 
 #include "app/io/interrupt.h"
+#include "app/io/number_text.h"
 #include "app/io/printable_text.h"
 #include "terramech/basics/input_error.h"
 
@@ -59,20 +61,53 @@ std::string help_call(const CLI::App& program) {
   return call + " --help";
 }
 
-/// An empty name is a slip of the hand (an unset variable of a script), whatever would become of
-/// it.
-void refuse_empty_names(const CLI::App& app) {
-  for (const CLI::Option* option : app.get_options()) {
-    const std::string type = option->get_type_name();
-    const bool names_folder = type == "DIR";
-    const bool names_file = type.starts_with("FILE") || type.find('.') != std::string::npos;
-    if (!names_folder && !names_file) continue;
-    const std::vector<std::string>& given = option->results();
-    if (std::ranges::none_of(given, &std::string::empty)) continue;
-    throw InputError(fmt::format("{}: empty, names no {}", option->get_name(),
-                                 names_folder ? "folder" : "file"));
+/// What a name that is given stands for, as the help writes it: `SETUP.yaml`, `DIR`, `FILE`.
+std::string placeholder(const CLI::Option& option) {
+  return option.get_positional() ? option.get_name() : option.get_type_name();
+}
+
+/// In words, with the file of the folder that somebody may have meant.
+std::string folder_for_file(const std::string& folder, std::string wanted) {
+  std::string own_name = wanted;
+  std::ranges::transform(own_name, own_name.begin(),
+                         [](unsigned char c) { return std::tolower(c); });
+  if (std::filesystem::exists(std::filesystem::path(folder) / own_name)) {
+    wanted = (std::filesystem::path(folder) / own_name).string();
   }
-  for (const CLI::App* called : app.get_subcommands()) refuse_empty_names(*called);
+  return fmt::format("{} is a folder (allowed: a file, such as {})", folder, wanted);
+}
+
+/// An empty name is a slip of the hand (an unset variable of a script), and so is a folder where a
+/// file is wanted, whatever would become of it. A raster (`FILE`) may be a folder to GDAL, and a
+/// word beside which a file may be named (`A|B|FILE.yaml`) means itself.
+void refuse_slips_of_names(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string wanted = placeholder(*option);
+    const bool names_folder = wanted == "DIR";
+    const bool names_plain_file = wanted.find('.') != std::string::npos;
+    if (!names_folder && !names_plain_file && wanted != "FILE") continue;
+    for (const std::string& given : option->results()) {
+      if (given.empty()) {
+        throw InputError(fmt::format("{}: empty, names no {}", option->get_name(),
+                                     names_folder ? "folder" : "file"));
+      }
+      std::error_code none;
+      if (names_plain_file && wanted.find('|') == std::string::npos &&
+          std::filesystem::is_directory(given, none)) {
+        throw InputError(option->get_name() + ": " + folder_for_file(given, wanted));
+      }
+    }
+  }
+  for (const CLI::App* called : app.get_subcommands()) refuse_slips_of_names(*called);
+}
+
+/// What was left of the command line: the option that there is none of, which may have taken what
+/// follows it for something else.
+std::string unexpected(const CLI::App& program, const CLI::ExtrasError& bad) {
+  const std::vector<std::string> left = program.remaining(true);
+  const auto option = std::ranges::find_if(
+      left, [](const std::string& text) { return text.starts_with('-') && !parse_number(text); });
+  return option == left.end() ? bad.what() : fmt::format("unknown option {}", *option);
 }
 
 int run(CLI::App& program, const std::vector<Command>& commands, int argc,
@@ -87,10 +122,12 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc,
     const bool unknown = argc > 1 && argv[1][0] != '-' && program.get_subcommands().empty();
     const std::string what = unknown ? fmt::format("unknown command {}", argv[1]) : bad.what();
     return fail(fmt::format("{} ({})", what, help_call(program)));
+  } catch (const CLI::ExtrasError& bad) {
+    return fail(fmt::format("{} ({})", unexpected(program, bad), help_call(program)));
   } catch (const CLI::ParseError& bad) {
     return fail(fmt::format("{} ({})", bad.what(), help_call(program)));
   }
-  refuse_empty_names(program);
+  refuse_slips_of_names(program);
   const auto command = std::ranges::find_if(
       commands, [](const Command& candidate) { return candidate.parser->parsed(); });
   return command->run();

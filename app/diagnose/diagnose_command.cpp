@@ -184,7 +184,7 @@ Command add_diagnose_command(CLI::App& program) {
       ->capture_default_str();
   parser->add_option("--threads", options->threads, "default: all cores; changes no result")
       ->type_name("N")
-      ->check(in_range({.min = 1, .max = kThreadsMax}));
+      ->check(whole_in_range({.min = 1, .max = kThreadsMax}));
   add_force_flag(*parser, options->folder);
   add_output_flags(*parser, options->json, options->quiet);
   return {parser, [options] { return run_diagnosis(*options); }};

@@ -45,14 +45,14 @@ SensorSuite sensors_named(const std::string& name) {
   return read_sensors(file);
 }
 
-DriveSettings settings_of(const Options& options, const PlanningProblem& problem) {
+DriveSettings settings_of(const Options& options, const PlanningProblem& problem,
+                          const std::shared_ptr<FollowerPipe>& pipe) {
   DriveSettings settings{
       .follower = {.kind = follower_named(options.follower)},
       .deviation_max_m = options.deviation_max_m.value_or(default_deviation_max_m(problem.vehicle)),
       .seed = problem.search.seed,
       .stop = stop_on_interrupt()};
-  if (options.follower_fds) {
-    const auto pipe = std::make_shared<FollowerPipe>(*options.follower_fds, settings.stop);
+  if (pipe) {
     settings.follower.kind = FollowerKind::kOwn;
     settings.follower.own = [pipe](const FollowerView& view) { return (*pipe)(view); };
   }
@@ -82,6 +82,10 @@ std::string summary(const DriveRecord& record, double computed_in_s) {
 }
 
 ExitStatus run(const Options& options) {
+  const std::shared_ptr<FollowerPipe> pipe =
+      options.follower_fds
+          ? std::make_shared<FollowerPipe>(*options.follower_fds, stop_on_interrupt())
+          : nullptr;
   require_writable_folder(options.folder);
   const Scenario scenario = read_scenario(options.scenario, options.overrides);
   const GivenPath given = read_path(options.path, scenario.problem, scenario.problem.speed_max_mps);
@@ -94,7 +98,7 @@ ExitStatus run(const Options& options) {
                      .truth_text = truth_text,
                      .sensors = options.sensors.value_or(""),
                      .ends_in_goal = leads_to_the_goal(given.path, problem.goal),
-                     .settings = settings_of(options, problem)};
+                     .settings = settings_of(options, problem, pipe)};
   const TrueWorld world = true_world(problem, record);
   require_results_fit(options.folder, drive_result_names(record.page));
   for (const std::string& notice : scenario.notices) notify(notice, options.quiet);

@@ -191,7 +191,7 @@ Command add_evaluate_command(CLI::App& program) {
       ->check(one_of({followers.begin(), followers.end()}));
   parser->add_option("--draws", request.soil_draws, "of the soils")
       ->type_name("N")
-      ->check(in_range({.min = 2, .max = 1e6}))
+      ->check(whole_in_range({.min = 2, .max = 1e6}))
       ->capture_default_str();
   parser->add_option("--seed", options->overrides.seed, "of all that is drawn")
       ->type_name("N")
@@ -199,7 +199,7 @@ Command add_evaluate_command(CLI::App& program) {
   parser
       ->add_option("--threads", options->overrides.threads, "default: all cores; changes no result")
       ->type_name("N")
-      ->check(in_range({.min = 1, .max = kThreadsMax}));
+      ->check(whole_in_range({.min = 1, .max = kThreadsMax}));
   add_chart_options(*parser, *options);
   add_force_flag(*parser, request.folder);
   add_network_flag(*parser);

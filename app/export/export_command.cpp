@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -79,7 +80,13 @@ ExitStatus run_export(const ExportOptions& options) {
   for (const ResultFolder* folder : {&options.nav2, &options.qgis}) {
     if (!folder->path.empty()) require_writable_folder(*folder);
   }
-  const EarlierPlan plan = read_earlier_plan((options.result / "plan.json").string());
+  const std::filesystem::path plan_file = options.result / "plan.json";
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(plan_file, none)) {
+    throw InputError(fmt::format("RESULT: {}: no result of plan (allowed: a folder with plan.json)",
+                                 options.result.string()));
+  }
+  const EarlierPlan plan = read_earlier_plan(plan_file.string());
   nlohmann::ordered_json written = nlohmann::ordered_json::object();
   if (!options.nav2.path.empty()) written["nav2"] = export_nav2(options, plan);
   if (!options.qgis.path.empty()) written["qgis"] = export_qgis(options, plan);

@@ -37,10 +37,10 @@ std::string option_name(std::string field) {
 }
 
 /// \param given options that stand on the command line
-SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings,
-                              const std::vector<std::string>& given) {
+void require_valid(const SyntheticTerrainSettings& settings,
+                   const std::vector<std::string>& given) {
   try {
-    return make_synthetic_terrain(settings);
+    validate(settings);
   } catch (const ValueError& bad) {
     const std::string option = option_name(bad.field());
     if (given.empty() || std::ranges::find(given, option) != given.end()) {
@@ -54,6 +54,7 @@ SyntheticTerrain make_terrain(const SyntheticTerrainSettings& settings,
 }
 
 ExitStatus run_map_make(const MapMakeOptions& options) {
+  require_valid(options.terrain, options.given);  // before any file is read or made
   require_writable_folder(options.out);
   SoilCatalogue soils =
       read_soil_catalogue(read_settings(options.soils), WheelVariant::kIshigami2007);
@@ -65,7 +66,7 @@ ExitStatus run_map_make(const MapMakeOptions& options) {
     }
   }
   require_results_fit(options.out, map_folder_names());
-  SyntheticTerrain terrain = make_terrain(options.terrain, options.given);
+  SyntheticTerrain terrain = make_synthetic_terrain(options.terrain);
   const TerrainMap map(std::move(terrain.elevation), std::move(terrain.classes), std::move(soils),
                        std::move(terrain.rocks));
   if (!write_map_folder(map, options.stub, options.out, stop_on_interrupt())) return kInterrupted;
@@ -109,7 +110,7 @@ Command add_map_make_command(CLI::App& map) {
   number("--soil-zone-size-m", &Settings::soil_zone_size_m, "typical width of a zone");
   parser->add_option("--soil-zones", options->terrain.soil_zones, "class codes 1 to N")
       ->type_name("N")
-      ->check(in_range({.min = 1, .max = 1000}))
+      ->check(whole_in_range({.min = 1, .max = kSoilZonesMax}))
       ->capture_default_str();
   parser->add_option("--soils", options->soils, "soils of the zones; default: lunar soils")
       ->type_name("FILE.yaml");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -62,6 +63,7 @@ EarlierPlan earlier_plan_of(const Json& json, const std::filesystem::path& file)
 }  // namespace
 
 EarlierPlan read_earlier_plan(const std::string& file) {
+  if (!std::filesystem::exists(file)) throw InputError(file + ": no such file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file + ": cannot be read");
   EarlierPlan earlier;

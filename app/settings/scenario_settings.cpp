@@ -88,7 +88,7 @@ Search read_search(const SettingsNode& node) {
     const SettingsNode* iterations = mapping.optional("iterations");
     if (time && iterations) throw iterations->error("either time_s or iterations, not both");
     if (time) search.time_s = time->number(kAbove0);
-    if (iterations) search.iterations = iterations->integer(1, 2000000000);
+    if (iterations) search.iterations = iterations->integer(1, kIterationsMax);
     if (const SettingsNode* seed = mapping.optional("seed")) {
       search.seed = static_cast<std::uint64_t>(seed->integer(0, INT64_MAX));
     }

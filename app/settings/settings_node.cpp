@@ -261,11 +261,12 @@ SettingsNode parse_settings(const std::string& text, const std::string& file) {
 
 std::string settings_text(const std::string& file) {
   if (!std::filesystem::exists(file)) throw SettingsError(file + ": no such file");
+  if (std::filesystem::is_directory(file)) throw SettingsError(file + ": is a folder");
   std::ifstream stream(file, std::ios::binary);
   // One byte more tells a file that is too long; a pipe does not say its size.
   std::string text(kBytesMax + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (std::filesystem::is_directory(file) || stream.bad() || !stream.is_open()) {
+  if (stream.bad() || !stream.is_open()) {
     throw SettingsError(file + ": cannot be read");
   }
   text.resize(static_cast<std::size_t>(stream.gcount()));

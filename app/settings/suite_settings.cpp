@@ -188,7 +188,7 @@ Suite read_suite(const std::string& file, const std::vector<std::string>& own_pl
     suite.seeds = read_seeds(mapping.required("seeds"));
     suite.bounds.time_s = mapping.number("time_s", {.min = 0, .max = 1e6, .min_excluded = true});
     if (const SettingsNode* iterations = mapping.optional("iterations")) {
-      suite.bounds.iterations = iterations->integer(1, 2000000000);
+      suite.bounds.iterations = iterations->integer(1, kIterationsMax);
     }
     suite.bounds.memory_mb = mapping.number_or("memory_mb", {.min = 16, .max = 1e7}, 2048);
     suite.bounds.progress_interval_s =

@@ -67,7 +67,7 @@ void validate(const Search& search) {
     require("planner.time_s", *search.time_s, *search.time_s > 0, "above 0");
   } else {
     require("planner.iterations", static_cast<double>(*search.iterations),
-            *search.iterations > 0 && *search.iterations <= 2000000000, "1 to 2e9");
+            *search.iterations > 0 && *search.iterations <= kIterationsMax, "1 to 2e9");
   }
   require("planner.candidates", search.candidates,
           search.candidates >= 1 && search.candidates <= 100, "1 to 100");

@@ -51,6 +51,8 @@ struct Objective {
   bool operator==(const Objective&) const = default;
 };
 
+inline constexpr std::int64_t kIterationsMax = 2000000000;
+
 /// How to search. Exactly one of `time_s` and `iterations` bounds it: wall-clock seconds for the
 /// whole search, or iterations of each planner run.
 struct Search {

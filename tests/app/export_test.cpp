@@ -172,7 +172,7 @@ TEST_F(Export, RefusesWhatIsNoResult) {
                  {"export: --nav2 DIR or --qgis DIR is needed"});
   expect_refusal(run_program(folder_, "export '" + folder_.path("nav2") + "' --nav2 '" +
                                           folder_.path("other") + "'"),
-                 {"nav2/plan.json: cannot be read"});
+                 {"RESULT: ", "nav2: no result of plan (allowed: a folder with plan.json)"});
 }
 
 }  // namespace

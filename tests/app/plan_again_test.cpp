@@ -98,7 +98,7 @@ TEST_F(PlanAgain, IsRefusedWhereNothingSaysHowItCameAbout) {
   folder_.write("other.json", "{\"status\": \"feasible\"}");
   expect_refusal(plan("--again" + quoted("other.json"), "again"),
                  {"other.json: is no plan.json that says how it came about"});
-  expect_refusal(plan("--again" + quoted("absent.json"), "again"), {"absent.json: cannot be read"});
+  expect_refusal(plan("--again" + quoted("absent.json"), "again"), {"absent.json: no such file"});
   expect_refusal(plan("", "again"), {"one of SCENARIO.yaml and --again PLAN.json is needed"});
   expect_refusal(plan(quoted("scenario.yaml") + "--again" + quoted("first/plan.json"), "again"),
                  {"one of SCENARIO.yaml and --again PLAN.json is needed"});

@@ -62,6 +62,42 @@ TEST_F(Faults, AnEmptyNameOfAFileOrFolderIsTold) {
   }
 }
 
+TEST_F(Faults, AFolderWhereAFileIsWantedIsTold) {
+  std::filesystem::create_directory(folder_.path("empty"));
+  for (const std::string arguments :
+       {"plan empty --out o", "plan --again empty --out o", "plan s.yaml --model empty --out o",
+        "evaluate empty p.csv --out o", "evaluate s.yaml empty --out o",
+        "evaluate s.yaml --manoeuvres empty --out o", "drive empty p.csv --out o",
+        "drive s.yaml empty --out o", "drive s.yaml p.csv --truth empty --out o",
+        "diagnose empty --setup s.yaml --out o", "diagnose r.csv --setup empty --out o",
+        "diagnose r.csv --setup s.yaml --reference empty --out o",
+        "diagnose r.csv --scenario empty --out o", "wheel empty --model m.yaml",
+        "wheel c.csv --model empty", "wheel c.csv --model m.yaml --out empty",
+        "map make --soils empty --out o", "benchmark empty --out o"}) {
+    expect_refusal(run(arguments, "cd" + file("") + "&& "),
+                   {"empty is a folder (allowed: a file, such as "});
+    EXPECT_FALSE(std::filesystem::exists(folder_.path("o"))) << arguments;
+  }
+  // A folder that holds the file by its own name: that may be what was meant.
+  expect_refusal(run("plan" + file("") + "--out o"),
+                 {"SCENARIO.yaml: ",
+                  "is a folder (allowed: a file, such as " + folder_.path("scenario.yaml") + ")"});
+  expect_refusal(run("map info" + file("empty")),
+                 {"empty: is a folder, and no raster that GDAL can read"});
+}
+
+TEST_F(Faults, AFileWhereAFolderIsWantedIsTold) {
+  folder_.write("file", "");
+  for (const std::string arguments :
+       {"plan scenario.yaml --out file", "map make --out file", "demo --out file",
+        "wheel --figures file", "export result --nav2 file",
+        "diagnose r.csv --setup s --out file"}) {
+    expect_refusal(run(arguments, "cd" + file("") + "&& "), {"file: not a folder"});
+  }
+  expect_refusal(run("export file --nav2 o", "cd" + file("") + "&& "),
+                 {"RESULT: file: no result of plan (allowed: a folder with plan.json)"});
+}
+
 TEST_F(Faults, OutputThatIsLostIsAnError) {
   for (const std::string& arguments :
        {"wheel" + file("c.csv") + "--model" + file("m.yaml"), "map info" + file("dem.tif"),

@@ -282,6 +282,46 @@ TEST_F(Program, ABadMapSettingIsNamedAsItsOption) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("m")));
 }
 
+TEST_F(Program, ABadNumberIsToldBeforeFilesAreReadOrFolders) {
+  folder_.write("file", "");
+  const std::string lost = " --soils none.yaml --out" + quoted("file");
+  for (const auto& [given, error] :
+       {std::pair{"--crater-density-scale -5", "-5 is not valid (allowed: 0 to 4)"},
+        std::pair{"--rock-coverage 2", "2 is not valid (allowed: 0 to 0.3)"},
+        std::pair{"--soil-zones 0", "0 is not valid (allowed: a whole number, 1 to 100)"},
+        std::pair{"--width-m inf", "inf is not valid"}}) {
+    expect_refusal(run("map make " + std::string(given) + lost), {error});
+  }
+}
+
+TEST_F(Program, ACountThatIsNoWholeNumberIsToldWithItsRange) {
+  for (const auto& [command, option, allowed] :
+       {std::tuple{"plan none.yaml --out o", "--iterations", "1 to 2000000000"},
+        std::tuple{"plan none.yaml --out o", "--candidates", "1 to 100"},
+        std::tuple{"demo", "--threads", "1 to 256"},
+        std::tuple{"evaluate none.yaml none.csv --out o", "--draws", "2 to 1000000"},
+        std::tuple{"evaluate none.yaml none.csv --out o", "--threads", "1 to 256"},
+        std::tuple{"diagnose none.csv --out o", "--threads", "1 to 256"},
+        std::tuple{"benchmark none.yaml --out o", "--processes", "1 to 256"},
+        std::tuple{"map make --out o", "--soil-zones", "1 to 100"}}) {
+    for (const std::string value :
+         {"1e3", "2.5", "abc", "0", "-1", "nan", "99999999999999999999"}) {
+      expect_refusal(run(std::string(command) + " " + option + "=" + value),
+                     {std::string(option) + ": " + value +
+                      " is not valid (allowed: a whole number, " + allowed + ")"});
+    }
+    expect_refusal(run(std::string(command) + " " + option + " ''"),
+                   {std::string(option) + ": \"\" is not valid"});
+  }
+}
+
+TEST_F(Program, AnUnknownOptionIsNamedWhateverFollowsIt) {
+  expect_refusal(run("map make --craters -5 --out o"),
+                 {"unknown option --craters (regoplan map make --help)"});
+  expect_refusal(run("plan --iteratons 4 s.yaml --out o"),
+                 {"unknown option --iteratons (regoplan plan --help)"});
+}
+
 TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
   const ProgramRun gain = run("mechanisms sensor_gain");
   EXPECT_EQ(gain.status, 0) << gain.errors;

@@ -176,8 +176,7 @@ TEST(SettingsNode, AFileThatCannotBeReadIsAnError) {
   const ScratchFolder folder;
   EXPECT_EQ(error_text([&] { read_settings(folder.path("none.yaml")); }),
             folder.path("none.yaml") + ": no such file");
-  EXPECT_EQ(error_text([&] { read_settings(folder.path("")); }),
-            folder.path("") + ": cannot be read");
+  EXPECT_EQ(error_text([&] { read_settings(folder.path("")); }), folder.path("") + ": is a folder");
   EXPECT_EQ(error_text([&] { read_settings(folder.write("e.yaml", "")); }),
             folder.path("e.yaml") + ": empty");
 }

@@ -53,6 +53,7 @@ TEST(RockFiles, ErrorsNameFileLineColumnAndValue) {
   EXPECT_TRUE(says("x_m,y_m,radius_m,height_m,x_m\n", "r.csv:1: column x_m stands 2 times"));
   EXPECT_TRUE(says("", "is empty"));
   EXPECT_NE(refusal(folder.path("none.csv")).find("none.csv: cannot be read"), std::string::npos);
+  EXPECT_EQ(refusal(folder.path("")), folder.path("") + ": is a folder");
 }
 
 TEST(RockFiles, NothingIsLeftWhereNothingCanBeWritten) {
