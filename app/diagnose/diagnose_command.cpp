@@ -47,6 +47,13 @@ void notify_of_left_out(const std::vector<LeftOutRow>& rows, bool quiet) {
       quiet);
 }
 
+/// What is odd about a recording, which is left without channels whose unit is in question.
+std::vector<std::string> checked(RecordingFile& file, const DiagnosisSetup& setup) {
+  std::vector<std::string> told = doubtful_values(file, setup);
+  if (const auto left_out = leave_out_kilograms(file, setup)) told.push_back(*left_out);
+  return told;
+}
+
 /// `diagnose` knows runs, not files: its errors get the file in front.
 Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options) {
   try {
@@ -97,7 +104,7 @@ ExitStatus run_diagnosis(const Options& options) {
   Recording& recording = run.recording.recording;
   for (const std::string& reference : options.references) {
     run.references.push_back(read_recording(reference));
-    for (const std::string& warning : doubtful_values(run.references.back(), run.setup.setup)) {
+    for (const std::string& warning : checked(run.references.back(), run.setup.setup)) {
       recording.warnings.push_back(fmt::format("{}: {}", reference, warning));
     }
     if (run.references.back().cells == run.recording.cells) {
@@ -106,7 +113,7 @@ ExitStatus run_diagnosis(const Options& options) {
     }
     notify_of_left_out(run.references.back().left_out, options.quiet);
   }
-  for (std::string& warning : doubtful_values(run.recording, run.setup.setup)) {
+  for (std::string& warning : checked(run.recording, run.setup.setup)) {
     recording.warnings.push_back(std::move(warning));
   }
   for (const auto* warnings : {&run.setup.warnings, &recording.warnings}) {

@@ -1,6 +1,7 @@
 #include "app/diagnose/recording_checks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -100,6 +101,31 @@ class Checks {
     check_kilograms();
     check_speed();
     return std::move(warnings_);
+  }
+
+  /// Channels that follow the model divided by what a kilogram weighs, each with its factor.
+  std::vector<std::pair<Channel, double>> in_kilograms() const {
+    std::vector<std::pair<Channel, double>> found;
+    constexpr double kAlike = 0.8;
+    constexpr int kFewest = 4;
+    const double near = std::log(1.15);
+    for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
+      double with_model = 0, own = 0, model = 0;
+      int measured = 0;
+      for (std::size_t i = 0; i < runs().size(); ++i) {
+        const double value = runs()[i].value(channel), expected = modelled(at_[i], channel);
+        if (std::isnan(value) || !has_forces(at_[i].forces.status)) continue;
+        ++measured;
+        with_model += value * expected;
+        own += value * value;
+        model += expected * expected;
+      }
+      if (measured < kFewest || !(with_model > kAlike * std::sqrt(own * model))) continue;
+      const double factor = std::sqrt(own / model);
+      if (std::abs(std::log(factor * kStandardGravity_mps2)) < near)
+        found.push_back({channel, factor});
+    }
+    return found;
   }
 
  private:
@@ -263,25 +289,8 @@ class Checks {
         file_.file, rms(told), rms(exchanged)));
   }
 
-  /// Channels that follow the model divided by what a kilogram weighs.
   void check_kilograms() {
-    constexpr double kAlike = 0.8;
-    constexpr int kFewest = 4;
-    const double near = std::log(1.15);
-    for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
-      double with_model = 0, own = 0, model = 0;
-      int measured = 0;
-      for (std::size_t i = 0; i < runs().size(); ++i) {
-        const double value = runs()[i].value(channel), expected = modelled(at_[i], channel);
-        if (std::isnan(value) || !has_forces(at_[i].forces.status)) continue;
-        ++measured;
-        with_model += value * expected;
-        own += value * value;
-        model += expected * expected;
-      }
-      if (measured < kFewest || !(with_model > kAlike * std::sqrt(own * model))) continue;
-      const double factor = std::sqrt(own / model);
-      if (std::abs(std::log(factor * kStandardGravity_mps2)) >= near) continue;
+    for (const auto& [channel, factor] : in_kilograms()) {
       warnings_.push_back(fmt::format("{}: {} is {:.2g} times the model's; suspected: {}",
                                       file_.file, name(channel), factor,
                                       channel == Channel::kTorque ? "kgf m for N m" : "kgf for N"));
@@ -313,6 +322,28 @@ class Checks {
 std::vector<std::string> doubtful_values(const RecordingFile& recording,
                                          const DiagnosisSetup& setup) {
   return Checks(recording, setup).run_all();
+}
+
+std::optional<std::string> leave_out_kilograms(RecordingFile& recording,
+                                               const DiagnosisSetup& setup) {
+  constexpr std::size_t kNoChance = 2;
+  std::vector<std::string_view> columns;
+  std::vector<Channel>& channels = recording.recording.channels;
+  const auto in_question = Checks(recording, setup).in_kilograms();
+  if (in_question.size() < kNoChance) return std::nullopt;
+  for (const auto& [channel, factor] : in_question) {
+    columns.push_back(name(channel));
+    std::erase(channels, channel);
+    for (WheelRun& run : recording.recording.runs) {
+      run.measured[static_cast<std::size_t>(channel)] = WheelRun::kNotMeasured;
+    }
+  }
+  std::string left_out = fmt::format(
+      "{}: {} are left out: as kgf (kgf m) they say nothing of the physics; remedy: 9.80665 times "
+      "their numbers",
+      recording.file, fmt::join(columns, ", "));
+  if (channels.empty()) throw InputError(left_out + "; no other channel is measured");
+  return left_out;
 }
 
 }  // namespace regoplan

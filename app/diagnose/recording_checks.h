@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,12 @@ namespace regoplan {
 /// \throws InputError naming file, line, column, value, range and the unit that is suspected
 std::vector<std::string> doubtful_values(const RecordingFile& recording,
                                          const DiagnosisSetup& setup);
+
+/// Leaves out forces and torque where two of them and more follow the model divided by what a
+/// kilogram weighs: whatever physics would be said to be missing would be that of a unit. One alone
+/// stays, as an amplifier on another range would do that. \returns what is told of it
+/// \throws InputError where no channel is left
+std::optional<std::string> leave_out_kilograms(RecordingFile& recording,
+                                               const DiagnosisSetup& setup);
 
 }  // namespace regoplan

@@ -121,6 +121,36 @@ TEST(RecordingChecks, ForcesInKilogramsAreSuspectedByTheFactor) {
   }
 }
 
+TEST(RecordingChecks, SeveralForcesInKilogramsAreLeftOutAndOneAloneStays) {
+  const auto in_kilograms = [](std::initializer_list<Channel> channels) {
+    return changed([&](WheelRun& run) {
+      for (const Channel channel : channels) scale(run, channel, 1 / 9.80665);
+    });
+  };
+  RecordingFile forces = in_kilograms({Channel::kFx, Channel::kFy});
+  const RecordingFile before = forces;
+  const std::optional<std::string> told = leave_out_kilograms(forces, simulant());
+  ASSERT_TRUE(told);
+  expect_words(*told, {"r.csv: fx_n, fy_n are left out", "9.80665 times"});
+  EXPECT_EQ(forces.recording.channels, (std::vector{Channel::kTorque, Channel::kSinkage}));
+  for (std::size_t i = 0; i < forces.recording.runs.size(); ++i) {
+    const WheelRun& run = forces.recording.runs[i];
+    EXPECT_TRUE(std::isnan(run.value(Channel::kFx)) && std::isnan(run.value(Channel::kFy)));
+    EXPECT_EQ(run.value(Channel::kTorque), before.recording.runs[i].value(Channel::kTorque));
+  }
+  // An amplifier on another range does that to one channel: a sensor is then named.
+  RecordingFile amplifier = in_kilograms({Channel::kFx});
+  EXPECT_FALSE(leave_out_kilograms(amplifier, simulant()));
+  EXPECT_EQ(amplifier.recording.channels, before.recording.channels);
+
+  RecordingFile nothing_else = in_kilograms({Channel::kFx, Channel::kFy});
+  nothing_else.recording.channels = {Channel::kFx, Channel::kFy};
+  EXPECT_NE(error_text([&] {
+              leave_out_kilograms(nothing_else, simulant());
+            }).find("no other channel is measured"),
+            std::string::npos);
+}
+
 TEST(RecordingChecks, ASideForceThatOpposesTheConventionIsReported) {
   const auto warnings =
       doubtful_values(changed([](WheelRun& run) { scale(run, Channel::kFy, -1); }), simulant());
