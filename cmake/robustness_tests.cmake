@@ -1,7 +1,7 @@
 # A little of the campaigns of benchmarks/robustness with every run of the tests: mutated input for
 # each reader, and a few kills of the commands that are quick.
 # Sanitizers see what a release would only suffer: they get the time, a release shows that it runs.
-set(mutation_s 1)
+set(mutation_s 0.3)
 if(REGOPLAN_DEV)
   set(mutation_s 3)
 endif()

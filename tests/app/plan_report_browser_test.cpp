@@ -19,13 +19,27 @@ class PlanReportInTheBrowser : public InTheBrowser {
   PlanResult result_ = report_test_result(problem_);
 };
 
-TEST_F(PlanReportInTheBrowser, DrawsEveryCandidateWithoutAnError) {
+/// Titles of the sections that are seen.
+std::vector<std::string> sections_of(const std::string& page) {
+  static const std::regex section(R"(<section([^>]*)>\s*<h2[^>]*>([^<]*)</h2>)");
+  std::vector<std::string> titles;
+  for (std::sregex_iterator at(page.begin(), page.end(), section), end; at != end; ++at) {
+    if (at->str(1).find("hidden") == std::string::npos) titles.push_back(at->str(2));
+  }
+  return titles;
+}
+
+TEST_F(PlanReportInTheBrowser, DrawsEveryCandidateAndSectionWithoutAnError) {
   const std::string page = drawn(result_);
   expect_drawn_without_error(page);
   for (const Candidate& candidate : result_.candidates)
     EXPECT_NE(page.find("Follow candidate " + std::to_string(candidate.rank) + " in the charts"),
               std::string::npos);
   EXPECT_NE(page.find("the replay is rejected for cornering after 21.4 s"), std::string::npos);
+  const std::vector<std::string> sections = sections_of(page);
+  for (const char* title : {"Along the path", "What carries the answer"}) {
+    EXPECT_NE(std::ranges::find(sections, title), sections.end()) << title;
+  }
 }
 
 TEST_F(PlanReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {
@@ -48,21 +62,7 @@ TEST_F(PlanReportInTheBrowser, DrawsAnAnswerWithoutAnyPath) {
   expect_drawn_without_error(drawn(nothing));
 }
 
-/// Titles of the sections that are seen.
-std::vector<std::string> sections_of(const std::string& page) {
-  static const std::regex section(R"(<section([^>]*)>\s*<h2[^>]*>([^<]*)</h2>)");
-  std::vector<std::string> titles;
-  for (std::sregex_iterator at(page.begin(), page.end(), section), end; at != end; ++at) {
-    if (at->str(1).find("hidden") == std::string::npos) titles.push_back(at->str(2));
-  }
-  return titles;
-}
-
 TEST_F(PlanReportInTheBrowser, HasNoSectionThatSaysNothing) {
-  const std::vector<std::string> whole = sections_of(drawn(result_));
-  for (const char* title : {"Along the path", "What carries the answer"}) {
-    EXPECT_NE(std::ranges::find(whole, title), whole.end()) << title;
-  }
   PlanResult nothing;
   nothing.status = PlanStatus::kUndecided;
   nothing.rejected[0] = 3;

@@ -231,17 +231,6 @@ TEST(Diagnose, AForceAgainstTheConventionIsTurnedAndReported) {
   }
 }
 
-TEST(Diagnose, IsTheSameWhateverTheThreads) {
-  const Diagnosis one = diagnosed(digging_by_slip(), 8, {.conditions = 20}, {.threads = 1});
-  const Diagnosis two = diagnosed(digging_by_slip(), 8, {.conditions = 20}, {.threads = 2});
-  EXPECT_EQ(one.sentence, two.sentence);
-  ASSERT_EQ(one.ranking.size(), two.ranking.size());
-  for (std::size_t i = 0; i < one.ranking.size(); ++i) {
-    EXPECT_EQ(one.ranking[i].id, two.ranking[i].id);
-    EXPECT_EQ(one.ranking[i].probability, two.ranking[i].probability);
-  }
-}
-
 TEST(Diagnose, StopsWhenToldAndSaysSo) {
   std::stop_source source;
   source.request_stop();

@@ -68,7 +68,7 @@ void expect_to_stop_whenever_asked(const Work& work) {
   const double whole_s = seconds_since(begun);
   EXPECT_FALSE(whole.interrupted);
   int interrupted = 0;
-  for (const double share : {0.0, 0.03, 0.2, 0.5, 0.8, 0.9}) {
+  for (const double share : {0.0, 0.03, 0.2, 0.5, 0.85}) {
     const Diagnosis found = stopped_after(share * whole_s, work);
     if (!found.interrupted) continue;  // faster than the first time
     ++interrupted;

@@ -76,8 +76,10 @@ TEST(Plan, SearchesUnderEveryDriveLawAndWithWheelsThatRollFreely) {
                             +[](Vehicle& v) { v.wheels[0].driven = v.wheels[1].driven = false; }}) {
     PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
     change(problem.vehicle);
-    problem.goal.x_m = 25;
+    // Laws without tables of supply are solved at every state: the shorter the way, the better.
+    problem.goal.x_m = 18;
     problem.search.iterations = 300;
+    problem.search.soil_draws = 2;
     const PlanResult result = planned(problem);
     ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
     EXPECT_TRUE(result.candidates.front().verified.passed);
