@@ -16,8 +16,9 @@ bool is_instrument(const std::string& id) {
 }
 
 bool follows_course(const std::string& column) {
-  static const std::vector<std::string> columns{
-      "time_s", "day", "run_order", "warm_up", "position_m", "after_slip_ratio", "after_load_n"};
+  static const std::vector<std::string> columns{"time_s",           "day",         "on_day",
+                                                "run_order",        "warm_up",     "position_m",
+                                                "after_slip_ratio", "after_load_n"};
   return std::ranges::count(columns, column) > 0;
 }
 

@@ -278,10 +278,12 @@ std::vector<CourseKind> course_kinds(const Recording& recording, const Usable& u
 }
 
 std::string course_note(const Course& course, const std::vector<ChannelNoise>& noise) {
+  const std::string told = course.column == "on_day"
+                               ? fmt::format("differ on day {:.0f} of the recording", course.low)
+                               : fmt::format("follow {}", course.column);
   std::string text = fmt::format(
-      "replicates do not scatter only: they follow {} ({}; {:.0f} nats over days and scatter "
-      "alone)",
-      course.column, course.kind, course.gain_nats);
+      "replicates do not scatter only: they {} ({}; {:.0f} nats over usual days and scatter alone)",
+      told, course.kind, course.gain_nats);
   for (std::size_t c = 0; c < noise.size(); ++c) {
     double low = INFINITY, high = -INFINITY;
     for (const double t : course.trend[c]) {

@@ -75,6 +75,7 @@ std::string range_words(const std::string& column, double from, double to) {
   if (column == "run_order") {  // runs count from 1, as the rows of the recording do
     return fmt::format("run {:.0f} to {:.0f}", std::ceil(from) + 1, std::floor(to) + 1);
   }
+  if (column == "on_day") return fmt::format("day {:.0f} of the recording", from);
   Quantity quantity = quantity_of(column);
   if (quantity.unit == "s") {
     quantity = time_in_its_unit(quantity, std::max(std::abs(from), std::abs(to)));

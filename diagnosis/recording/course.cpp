@@ -60,8 +60,10 @@ void add_days(const std::vector<WheelRun>& runs, std::vector<Column>& columns) {
   std::set<double> days;
   for (const WheelRun& run : runs) days.insert(run.day);
   if (days.size() < kFewest || days.size() > kMost) return;
+  double count = 0;
   for (const double day : days) {
-    Column column{.name = "day", .low = day, .high = day};
+    ++count;
+    Column column{.name = "on_day", .low = count, .high = count};
     for (const WheelRun& run : runs) column.value.push_back(run.day == day ? 1 : 0);
     columns.push_back(std::move(column));
   }

@@ -11,13 +11,14 @@ namespace regoplan {
 /// How replicates change in the course of a recording, or from place to place: what would else be
 /// taken for scatter.
 struct Course {
-  /// `time_s`, `day`, `run_order`, `warm_up`, `after_slip_ratio`, `after_load_n`, `position_m`
+  /// `time_s`, `day`, `on_day`, `run_order`, `warm_up`, `after_slip_ratio`, `after_load_n`,
+  /// `position_m`
   std::string column;
   std::string kind;      ///< what changes: `offset`, `gain`, `cohesion`, `strength`, `stiffness`
   double gain_nats = 0;  ///< over days and scatter alone, all channels
   std::vector<double> value;  ///< of the column, per run, from 0 to 1
   /// What 0 and 1 stand for, in the column's unit; of `position_m` where the stretch lies on which
-  /// it is 1.
+  /// it is 1; of `on_day` which day of the recording it is, counted from 1.
   double low = 0, high = 0;
   std::vector<std::vector<double>> trend;  ///< per channel and run, as estimate_noise() takes it
 

@@ -150,9 +150,9 @@ TEST(Course, ADayWhoseBedIsFirmerIsNoScatterOfDays) {
     const CondensedRecording found = condense(on_three_days(seed, 0.15), simulant_setup());
     ASSERT_TRUE(found.course.has_value()) << seed;
     EXPECT_TRUE(found.course->in_time());
-    EXPECT_EQ(found.course->column, "day");
-    EXPECT_EQ(found.course->low, 1);
-    EXPECT_EQ(found.course->high, 1);
+    EXPECT_EQ(found.course->column, "on_day");
+    EXPECT_EQ(found.course->low, 2) << "days count from 1";
+    EXPECT_EQ(found.course->high, 2);
     for (const ChannelNoise& noise : found.noise) EXPECT_LT(noise.day_gain, 0.05) << seed;
   }
 }

@@ -96,6 +96,12 @@ TEST(Sentence, CountsRunsAsTheRowsOfARecordingDo) {
   expect_says(sentence_of(diagnosis), {"at run 33 to 48"});
 }
 
+TEST(Sentence, SaysOnWhichDayReplicatesDiffer) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.front().region = {{"on_day", {2, 2}}};
+  expect_says(sentence_of(diagnosis), {"at day 2 of the recording"});
+}
+
 TEST(Sentence, DoesNotChargeANameWithWhatARefusedCorrectionLeaves) {
   Diagnosis diagnosis = named();
   diagnosis.share_explained = -0.02;

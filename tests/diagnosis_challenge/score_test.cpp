@@ -35,7 +35,7 @@ TEST(Score, TimeOrderAndPlaceAreTheCourseAndSlipIsNot) {
   Outcome outcome = saying("unexplained", {});
   outcome.located_in = {"slip_ratio", "load_n"};
   EXPECT_FALSE(score({}, outcome).located_in_course);
-  for (const std::string column : {"time_s", "day", "run_order", "position_m"}) {
+  for (const std::string column : {"time_s", "day", "on_day", "run_order", "position_m"}) {
     outcome.located_in = {"slip_ratio", column};
     EXPECT_TRUE(score({}, outcome).located_in_course) << column;
   }
