@@ -164,12 +164,14 @@ std::string figures_of(const Truth& truth) {
 bool is_good(const Scored& s) {
   switch (s.truth->stratum) {
     case Stratum::kNulls:
+    case Stratum::kNullsByRun:
       return s.score.silent;
     case Stratum::kParameters:
       return s.score.is_parameters;
     case Stratum::kUnlisted:
       return s.score.unexplained;
     case Stratum::kDrift:
+    case Stratum::kDriftByRun:
       return s.truth->causes.front().accepted.empty() ? s.score.unexplained : s.score.right;
     default:
       return s.score.right;
@@ -240,7 +242,10 @@ std::string signal_table(const std::vector<Scored>& all) {
       "\n## As asked, by signal after calibration (the weakest cause)\n\n"
       "| stratum | 5-8 sigma | 8-15 | 15-40 | above |\n|---|---|---|---|---|\n";
   for (const Stratum stratum : strata()) {
-    if (stratum == Stratum::kNulls || stratum == Stratum::kParameters) continue;
+    if (stratum == Stratum::kNulls || stratum == Stratum::kNullsByRun ||
+        stratum == Stratum::kParameters) {
+      continue;
+    }
     text += fmt::format("| {} |", name(stratum));
     for (std::size_t i = 0; i + 1 < kSignalBins.size(); ++i) {
       int good = 0, cases = 0;
@@ -321,8 +326,10 @@ std::vector<Measure> measures(const std::vector<CaseResult>& results, const std:
   const auto right = [](const Scored& s) { return s.score.right; };
   const auto exact = [](const Scored& s) { return s.score.exact; };
   using enum Stratum;
-  count(kNulls, "false missing physics", true, 0.02,
-        [](const Scored& s) { return !s.score.silent; });
+  for (const Stratum nulls : {kNulls, kNullsByRun}) {
+    count(nulls, "false missing physics", true, 0.02,
+          [](const Scored& s) { return !s.score.silent; });
+  }
   count(kParameters, "`parameters`", false, 0.9,
         [](const Scored& s) { return s.score.is_parameters; });
   count(kInstruments, "named (class counts)", false, 0.85, right);
@@ -351,10 +358,12 @@ std::vector<Measure> measures(const std::vector<CaseResult>& results, const std:
   count(kRutHidden, "named, or a class that asks for rut depths", false, 0.9,
         [](const Scored& s) { return s.score.right && (s.score.exact || s.score.asks_for_ruts); });
   count(kRutShown, "named", false, 0.9, exact);
-  count(kDrift, "located in time, order or place", false, 0.9,
-        [](const Scored& s) { return s.score.located_in_course; });
-  count(kDrift, "named or class; `unexplained` where it has no name", false, 0.75, is_good);
-  count(kDrift, "`parameters`", true, 0, [](const Scored& s) { return s.score.is_parameters; });
+  for (const Stratum drift : {kDrift, kDriftByRun}) {
+    count(drift, "located in time, order or place", false, 0.9,
+          [](const Scored& s) { return s.score.located_in_course; });
+    count(drift, "named or class; `unexplained` where it has no name", false, 0.75, is_good);
+    count(drift, "`parameters`", true, 0, [](const Scored& s) { return s.score.is_parameters; });
+  }
   Measure worse{.stratum = "all", .what = "corrected worse than calibrated", .at_most = true};
   for (const Scored& s : all) {
     worse.trials += is_corrected(s);
