@@ -186,13 +186,17 @@ Plan planned_by_run(Random& random, const Needs& needs) {
   return plan;
 }
 
+/// Both edges of the rut are measured.
+Plan planned_with_ruts(Random& random, const Needs& needs) {
+  Plan plan = planned(random, needs);
+  plan.rig.channels.push_back(Channel::kRutLeft);
+  plan.rig.channels.push_back(Channel::kRutRight);
+  return plan;
+}
+
 std::optional<Plan> with_effect(Random& random, const TruthEffect& effect, double least_sigma,
-                                bool ruts_shown, bool by_run = false) {
-  Plan plan = by_run ? planned_by_run(random, effect.needs) : planned(random, effect.needs);
-  if (ruts_shown) {
-    plan.rig.channels.push_back(Channel::kRutLeft);
-    plan.rig.channels.push_back(Channel::kRutRight);
-  }
+                                Plan (*planned_for)(Random&, const Needs&) = planned) {
+  Plan plan = planned_for(random, effect.needs);
   plan.effects = {drawn(random, effect)};
   const auto signal = signal_of(plan.rig, plan.noise, plan.effects, {});
   if (!signal || !(signal->after >= least_sigma)) return std::nullopt;
@@ -269,18 +273,19 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
     case Stratum::kLargeFaults:
       return with_fault(random, stratum == Stratum::kLargeFaults, turn);
     case Stratum::kOneEffect:
-      return with_effect(random, in_turn(listed_effects(), turn), kOneEffectSigma, false);
+      return with_effect(random, in_turn(listed_effects(), turn), kOneEffectSigma);
     case Stratum::kTwoEffects:
       return with_two_effects(random, in_turn(listed_effects(), turn));
     case Stratum::kUnlisted:
-      return with_effect(random, in_turn(unlisted_effects(), turn), kClearSigma, false);
+      return with_effect(random, in_turn(unlisted_effects(), turn), kClearSigma);
     case Stratum::kDrift: {
-      auto plan = with_effect(random, in_turn(drift_effects(), turn), kClearSigma, false);
+      auto plan = with_effect(random, in_turn(drift_effects(), turn), kClearSigma);
       if (plan) accept_in_course(plan->truth.causes.front());
       return plan;
     }
     case Stratum::kDriftByRun: {
-      auto plan = with_effect(random, in_turn(effects_in_days(), turn), kClearSigma, false, true);
+      auto plan =
+          with_effect(random, in_turn(effects_in_days(), turn), kClearSigma, planned_by_run);
       if (plan) accept_in_course(plan->truth.causes.front());
       return plan;
     }
@@ -290,7 +295,7 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
     case Stratum::kRutShown: {
       static const std::vector<TruthEffect> kRuts = rut_effects();
       return with_effect(random, kRuts[turn % kRuts.size()], kClearSigma,
-                         stratum == Stratum::kRutShown);
+                         stratum == Stratum::kRutShown ? planned_with_ruts : planned);
     }
   }
   return std::nullopt;

@@ -84,11 +84,13 @@ Recording with_days(Recording recording) {
   std::vector<double> times_s;
   for (const WheelRun& run : recording.runs) times_s.push_back(run.conditions.time_s);
   std::ranges::sort(times_s);
+  std::vector<double> mornings_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i) {
+    if (times_s[i] - times_s[i - 1] > kNight_s) mornings_s.push_back(times_s[i]);
+  }
   for (WheelRun& run : recording.runs) {
-    run.day = 0;
-    for (std::size_t i = 1; i < times_s.size() && times_s[i] <= run.conditions.time_s; ++i) {
-      if (times_s[i] - times_s[i - 1] > kNight_s) ++run.day;
-    }
+    const auto later = std::ranges::upper_bound(mornings_s, run.conditions.time_s);
+    run.day = static_cast<double>(later - mornings_s.begin());
   }
   return recording;
 }
@@ -278,7 +280,7 @@ std::vector<CourseKind> course_kinds(const Recording& recording, const Usable& u
 }
 
 std::string course_note(const Course& course, const std::vector<ChannelNoise>& noise) {
-  const std::string told = course.column == "on_day"
+  const std::string told = course.on_one_day()
                                ? fmt::format("differ on day {:.0f} of the recording", course.low)
                                : fmt::format("follow {}", course.column);
   std::string text = fmt::format(

@@ -26,6 +26,8 @@ struct Course {
   bool in_time() const { return !after_run() && !in_place(); }
   /// Whether it follows what the run before was.
   bool after_run() const { return column == "after_slip_ratio" || column == "after_load_n"; }
+  /// Whether replicates of one day differ from those of all others.
+  bool on_one_day() const { return column == "on_day"; }
   /// Whether replicates on some stretch of the bed differ from those elsewhere.
   bool in_place() const { return column == "position_m"; }
 };
