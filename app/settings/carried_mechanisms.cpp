@@ -13,6 +13,7 @@ struct OfTestBed {
   std::string_view id;
   bool is_left_out;  ///< else it stays and changes nothing
   std::string_view words;
+  std::string_view form = {};  ///< where not all forms of it are of a test bed
 };
 
 constexpr std::array kOfTestBed{
@@ -26,6 +27,8 @@ constexpr std::array kOfTestBed{
               "soil that wheels have passed already; a plan has one pass of each wheel"},
     OfTestBed{"cohesion_drift", false,
               "a course over time; a plan has the soil of the course's beginning"},
+    OfTestBed{"soil_change", true, "a day of the test bed; soils lie where the map says",
+              "for_a_time"},
 };
 
 }  // namespace
@@ -34,7 +37,9 @@ std::vector<std::string> leave_test_bed_behind(std::vector<Mechanism>& mechanism
                                                const std::string& file) {
   std::vector<std::string> notices;
   std::erase_if(mechanisms, [&](const Mechanism& mechanism) {
-    const auto* of_bed = std::ranges::find(kOfTestBed, mechanism.id, &OfTestBed::id);
+    const auto* of_bed = std::ranges::find_if(kOfTestBed, [&](const OfTestBed& known) {
+      return known.id == mechanism.id && (known.form.empty() || known.form == mechanism.form);
+    });
     if (of_bed == kOfTestBed.end()) return false;
     notices.push_back(fmt::format("{}: {} {}: {}", file, mechanism.id,
                                   of_bed->is_left_out ? "is left out" : "changes nothing here",

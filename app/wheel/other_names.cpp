@@ -16,16 +16,17 @@ const std::vector<OtherName>& other_names() {
       {"sensor_bias",
        kInstrument,
        "a column is off by a constant: told = true + bias; form settling: by less and less from "
-       "the "
-       "first time on, drifting: by more and more up to the last",
+       "the first time on, drifting: by more and more up to the last, on_one_day: from from_s to "
+       "to_s only",
        kChannels,
-       {{"bias", "of the column"}, {"settling_time_s", "s"}}},
+       {{"bias", "of the column"}, {"settling_time_s", "s"}, {"from_s, to_s", "s"}}},
       {"sensor_gain",
        kInstrument,
        "a column is off by a factor: told = (1 + gain) true; form settling: by less and less from "
-       "the first time on, drifting: by more and more up to the last",
+       "the first time on, drifting: by more and more up to the last, on_one_day: from from_s to "
+       "to_s only",
        kChannels,
-       {{"gain", ""}, {"settling_time_s", "s"}}},
+       {{"gain", ""}, {"settling_time_s", "s"}, {"from_s, to_s", "s"}}},
       {"sensor_crosstalk",
        kInstrument,
        "a share of one column shows in another (form `fx_n into fy_n`), or the sensor of both "

@@ -247,10 +247,11 @@ std::optional<Plan> with_fault(Random& random, bool large, std::uint64_t turn) {
   return plan;
 }
 
-/// A gain that settles or drifts and a zero that jumps are an instrument's; what a bed remembers,
-/// and how it was prepared, has no name.
+/// A gain that settles or drifts and a zero that jumps are an instrument's; a bed that was prepared
+/// otherwise is other soil; what a bed remembers has no name.
 void accept_in_course(TrueCause& cause) {
-  if (cause.id == "bed_memory" || cause.id == "bed_preparation") cause.accepted = {};
+  if (cause.id == "bed_memory") cause.accepted = {};
+  if (cause.id == "bed_preparation") cause.accepted = {"soil_change"};
   if (cause.id != "warm_up" && cause.id != "gain_drift" && cause.id != "zero_jump") return;
   cause.accepted = {"sensor_gain", "sensor_bias"};
   cause.instrument = true;

@@ -136,14 +136,14 @@ const std::vector<TruthEffect>& effects_in_days() {
        }},
       {"zero_jump",
        "one day",
-       "the zero of the drawbar pull is off on one day",
+       "the zero of the drawbar pull is off on one day, by a share of the middle load",
        .03,
        .1,
        true,
        {},
        nullptr,
        [](C c, const P& p, double a, double u) {
-         if (p.at.day == static_cast<int>(2.999 * u)) c.fx_n += a * p.at.load_n;
+         if (p.at.day == static_cast<int>(2.999 * u)) c.fx_n += a * p.at.middle_load_n;
          return c;
        }},
   };

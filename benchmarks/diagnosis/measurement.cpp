@@ -71,6 +71,7 @@ std::optional<ChannelValues> ideal_values(const Rig& rig, const RigCondition& co
                  .soil = rig.soil,
                  .gravity_mps2 = rig.setup.gravity_mps2,
                  .at = {.load_n = condition.load_n,
+                        .middle_load_n = rig.middle_load_n,
                         .slip_ratio = condition.slip_ratio,
                         .slip_angle_rad = condition.slip_angle_rad,
                         .pass = condition.pass,

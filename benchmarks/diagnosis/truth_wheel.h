@@ -10,7 +10,8 @@ namespace regoplan::challenge {
 
 /// What a wheel on a test bed goes through in one run.
 struct TruthConditions {
-  double load_n = 0;  ///< that the soil really carries
+  double load_n = 0;         ///< that the soil really carries
+  double middle_load_n = 0;  ///< of the series
   double slip_ratio = 0;
   double slip_angle_rad = 0;
   int pass = 1;

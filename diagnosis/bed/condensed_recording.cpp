@@ -306,6 +306,38 @@ void place_in_time(const Course& course, std::vector<Condition>& conditions) {
   }
 }
 
+/// Where no times are told: as if the runs had followed each other evenly, a round of replicates a
+/// day.
+void assume_times(const std::vector<Condition>& conditions, Recording& recording) {
+  std::size_t rounds = 1;
+  for (const Condition& at : conditions) rounds = std::max(rounds, at.runs.size());
+  const auto step_s =
+      kDay_s * static_cast<double>(rounds) / static_cast<double>(recording.runs.size());
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    recording.runs[i].conditions.time_s = static_cast<double>(i) * step_s;
+  }
+}
+
+bool tells_times(const Recording& recording) {
+  return recording.columns.time || std::ranges::any_of(recording.runs, [&](const WheelRun& run) {
+           return run.conditions.time_s != recording.runs.front().conditions.time_s;
+         });
+}
+
+/// When the day was that a course tells from all others; nothing where days have no times.
+std::optional<Span> day_apart_s(const Recording& recording, const Usable& usable,
+                                const Course& course) {
+  if (!course.on_one_day()) return std::nullopt;
+  Span all, day;
+  for (const std::size_t run : usable.runs) {
+    const double time_s = recording.runs[run].conditions.time_s;
+    all.take(time_s);
+    if (course.value[run] > 0) day.take(time_s);
+  }
+  if (!(all.width() > 0)) return std::nullopt;
+  return day;
+}
+
 /// Moves every run to the mean of what it follows.
 void take_off(const Course& course, const std::vector<ChannelNoise>& noise,
               std::vector<ChannelRuns>& channels) {
@@ -424,8 +456,15 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   }
   if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
   if (result.course && result.course->in_time()) {
-    grouped = group(recording, usable, model, blocks_of(*result.course));
+    if (!tells_times(recording)) {
+      assume_times(replicated.conditions, recording);
+      result.notes.emplace_back(
+          "the recording tells no times: runs are taken to follow each other evenly, a round of "
+          "replicates a day");
+    }
+    grouped = group(recording, usable, model, blocks_of(*result.course, result.day));
     place_in_time(*result.course, grouped.conditions);
+    bed.day_apart_s = day_apart_s(recording, usable, *result.course);
   } else if (result.course && result.course->after_run()) {
     take_off(*result.course, result.noise, grouped.channels);
   }

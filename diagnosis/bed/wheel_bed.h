@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "diagnosis/bed/span.h"
 #include "diagnosis/recording/condition_groups.h"
 #include "diagnosis/recording/setup.h"
 
@@ -31,6 +32,8 @@ struct TestBed {
   DiagnosisSetup setup;
   std::vector<Condition> conditions;
   std::vector<ChannelData> channels;
+  /// From the first to the last time of the day whose replicates differ from those of all others.
+  std::optional<Span> day_apart_s = {};
   WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise
   std::stop_token stop = {};  ///< all work on this bed throws Interrupted once it says so
 

@@ -12,7 +12,8 @@ bool has_one_form(const Effect& effect) {
 }
 
 bool is_told_by_time(const Effect& effect) {
-  return effect.id == "cohesion_drift" || effect.course != FaultCourse::kConstant;
+  return effect.id == "cohesion_drift" || effect.form == "for_a_time" ||
+         effect.course != FaultCourse::kConstant;
 }
 
 }  // namespace regoplan

@@ -23,6 +23,20 @@ Span span_of(const TestBed& bed, const auto& column) {
   return span;
 }
 
+/// When the later of two states began, where the day apart is the first or the last.
+std::optional<double> step_s(const TestBed& bed) {
+  if (!bed.day_apart_s) return std::nullopt;
+  Span before, after;  // of the day, or of what is not
+  for (const Condition& at : bed.conditions) {
+    const double time_s = at.conditions.time_s;
+    if (time_s < bed.day_apart_s->low) before.take(time_s);
+    if (time_s > bed.day_apart_s->high) after.take(time_s);
+  }
+  if (after.width() < 0) return bed.day_apart_s->low;
+  if (before.width() < 0) return after.low;
+  return std::nullopt;
+}
+
 Coordinate positive(std::string name, double low, double high) {
   return {.name = std::move(name),
           .scale = Scale::kLogarithmic,
@@ -58,19 +72,25 @@ Coordinate coordinate_of(const MechanismParameter& parameter) {
 
 struct Columns {
   bool pass = false, speed = false, position = false, time = false, skid = false, driving = false,
-       angle = false, lugs = true, part = false, difference = false;
+       angle = false, lugs = true, part = false, difference = false, day_apart = false,
+       day_at_an_end = false;
 };
 
-bool can_bear(std::string_view id, const Columns& columns) {
+bool can_bear(const MechanismForm& form, const Columns& columns) {
+  const std::string_view id = form.id;
+  // Of a soil that differs the other soil is recorded: by a reference, or by other days.
+  if (form.form == "for_a_time") return columns.day_apart && !columns.difference;
+  if (id == "soil_change") return columns.difference;
   if (id == "multi_pass") return columns.pass;
   if (id == "rate_dependence") return columns.speed;
   if (id == "soil_zone") return columns.position;
+  if (id == "cohesion_drift" && form.form == "step")
+    return columns.day_at_an_end && !columns.difference;
   if (id == "cohesion_drift") return columns.time;
   if (id == "skid_branch") return columns.skid;
   if (id == "slip_sinkage") return columns.driving;
   // Of a wheel that only drives straight ahead it is slip_sinkage.
   if (id == "sliding_sinkage") return columns.angle || columns.skid;
-  if (id == "soil_change") return columns.difference;
   if (id == "grousers") return columns.lugs;
   const std::set<std::string_view> kSideways{
       "lateral_digging", "rut_asymmetry",    "shear_modulus_slip_angle", "coupled_shear",
@@ -113,6 +133,11 @@ class EffectList {
         effect.fixed["to_m"] = to;
         push(effect);
       }
+    } else if (form.form == "for_a_time") {
+      std::erase_if(effect.coordinates, [](const Coordinate& c) { return c.name.ends_with("_s"); });
+      for (Coordinate& c : effect.coordinates) c.centre = 0;
+      effect.fixed = on_day_apart();
+      push(effect);
     } else if (form.id == "slope_tilt") {
       // along x and y apart: the heading of a test bed's wheel is not recorded
       effect.coordinates = {Coordinate{.name = "tilt_rad", .spread = 0.06}};
@@ -120,6 +145,11 @@ class EffectList {
         effect.fixed["direction_rad"] = direction;
         push(effect);
       }
+    } else if (form.id == "cohesion_drift" && form.form == "step") {
+      std::erase_if(effect.coordinates, [](const Coordinate& c) { return c.name != "factor"; });
+      effect.coordinates.front().centre = 0;
+      effect.fixed = {{"from_s", *step_s(bed_)}};
+      push(effect);
     } else if (form.id == "cohesion_drift") {
       const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
       effect.coordinates = form.form == "linear"
@@ -229,7 +259,12 @@ class EffectList {
     return std::nullopt;
   }
 
-  /// A bias or gain of these channels that settles or drifts, where the recording tells the time.
+  std::map<std::string, double> on_day_apart() const {
+    return {{"from_s", bed_.day_apart_s->low}, {"to_s", bed_.day_apart_s->high}};
+  }
+
+  /// A bias or gain of these channels that settles, drifts or is there on the day apart, where the
+  /// recording tells the time.
   void add_changing(const std::string& id, const std::vector<std::size_t>& channels) {
     if (!columns_.time || columns_.difference) return;
     const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
@@ -242,6 +277,13 @@ class EffectList {
                   .also = {channels.begin() + 1, channels.end()}};
     std::string names;
     for (const std::size_t c : channels) names += " " + std::string(name(bed_.channels[c].channel));
+    if (columns_.day_apart) {
+      Effect on_day = effect;
+      on_day.form = "on_one_day" + names;
+      on_day.course = FaultCourse::kOnOneDay;
+      on_day.fixed = on_day_apart();
+      push(on_day);
+    }
     effect.form = "drifting" + names;
     effect.course = FaultCourse::kDrifting;
     push(effect);
@@ -285,11 +327,13 @@ std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, 
       .angle = angle.high > 0.03,
       .lugs = bed.setup.lug_height_m.value_or(1) > 0,
       .part = of != EffectsOf::kRecording,
-      .difference = of == EffectsOf::kDifference};
+      .difference = of == EffectsOf::kDifference,
+      .day_apart = bed.day_apart_s.has_value(),
+      .day_at_an_end = step_s(bed).has_value()};
   EffectList list(bed, columns);
   for (const MechanismForm& form : mechanism_forms()) {
     if (form.form == "carried_soil" && !columns.part) continue;
-    if (can_bear(form.id, columns)) list.add_mechanism(form);
+    if (can_bear(form, columns)) list.add_mechanism(form);
   }
   list.add_instruments();
   return list.take();

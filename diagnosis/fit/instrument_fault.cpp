@@ -13,12 +13,17 @@ Eigen::ArrayXd course_of(const TestBed& bed, const Effect& effect, std::size_t c
   const ChannelData& data = bed.channels[channel];
   Eigen::ArrayXd course = Eigen::ArrayXd::Ones(data.mean.size());
   if (effect.course == FaultCourse::kConstant) return course;
-  const double first = effect.fixed.at("first_time_s"), last = effect.fixed.at("last_time_s");
+  const auto number = [&](const char* name) { return effect.fixed.at(name); };
   for (Eigen::Index i = 0; i < course.size(); ++i) {
     const std::size_t at = data.conditions[static_cast<std::size_t>(i)];
-    const double passed = bed.conditions[at].conditions.time_s - first;
+    const double time_s = bed.conditions[at].conditions.time_s;
+    if (effect.course == FaultCourse::kOnOneDay) {
+      course[i] = time_s >= number("from_s") && time_s <= number("to_s") ? 1 : 0;
+      continue;
+    }
+    const double passed = time_s - number("first_time_s");
     course[i] = effect.course == FaultCourse::kDrifting
-                    ? passed / (last - first)
+                    ? passed / (number("last_time_s") - number("first_time_s"))
                     : std::exp(-passed / effect.coordinates[1].value(x[1]));
   }
   return course;

@@ -74,14 +74,16 @@ std::vector<Condition> group_conditions(const Recording& recording,
   const std::vector<double> slip_before = slips_before(recording.runs);
   for (Condition& group : groups) {
     const double share = 1.0 / static_cast<double>(group.runs.size());
-    group.conditions.time_s = 0;
+    // What is added to the first time, so that the mean of equal times is that time.
+    const double first_s = recording.runs[group.runs.front()].conditions.time_s;
+    group.conditions.time_s = first_s;
     group.day = recording.runs[group.runs.front()].day;
     for (const std::size_t r : group.runs) {
       const WheelRun& run = recording.runs[r];
       group.load_n += share * run.load_n;
       group.slip_ratio += share * run.slip_ratio;
       group.slip_angle_rad += share * run.slip_angle_rad;
-      group.conditions.time_s += share * run.conditions.time_s;
+      group.conditions.time_s += share * (run.conditions.time_s - first_s);
       group.after_slip_ratio += share * slip_before[r];
       group.one_day = group.one_day && run.day == recording.runs[group.runs.front()].day;
     }

@@ -184,18 +184,19 @@ std::optional<Course> course_of(const Recording& recording,
   return best;
 }
 
-std::vector<int> blocks_of(const Course& course) {
+std::vector<int> blocks_of(const Course& course, const std::vector<double>& day) {
   constexpr std::size_t kMostDays = 6, kQuarters = 4;
-  const std::set<double> values(course.value.begin(), course.value.end());
+  const std::vector<double>& along = course.on_one_day() ? day : course.value;
+  const std::set<double> values(along.begin(), along.end());
   const bool days = values.size() <= kMostDays;
   std::vector<int> block;
-  for (const double value : course.value) {
+  for (const double value : along) {
     if (days) {
       block.push_back(static_cast<int>(std::distance(values.begin(), values.find(value))));
     } else {
-      const auto before = std::ranges::count_if(course.value, [&](double v) { return v < value; });
+      const auto before = std::ranges::count_if(along, [&](double v) { return v < value; });
       block.push_back(
-          static_cast<int>(static_cast<std::size_t>(before) * kQuarters / course.value.size()));
+          static_cast<int>(static_cast<std::size_t>(before) * kQuarters / along.size()));
     }
   }
   return block;

@@ -46,7 +46,8 @@ std::optional<Course> course_of(const Recording& recording,
                                 const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup,
                                 const std::stop_token& stop = {});
 
-/// Runs in blocks of the course: days where there are at most six, else quarters.
-std::vector<int> blocks_of(const Course& course);
+/// Runs in blocks of the course: days where there are at most six or the course is one of them,
+/// else quarters. \param day of each run
+std::vector<int> blocks_of(const Course& course, const std::vector<double>& day);
 
 }  // namespace regoplan

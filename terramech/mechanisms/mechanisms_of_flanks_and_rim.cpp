@@ -89,6 +89,20 @@ std::vector<Definition> of_flanks_and_rim() {
          e.soil.ky0_m *= p[2];
          return e;
        }},
+      {{"soil_change",
+        "for_a_time",
+        "from <= time <= to: k times a, c and tan(phi) times b",
+        "another preparation of the bed; told by the replicates of other days",
+        {{"from_s", 0, 1e6, 0},
+         {"to_s", 0, 1e6, 8.64e4},
+         {"stiffness", .3, 3, 1},
+         {"limit", .7, 1.4, 1}}},
+       [](E e, P p, S at) {
+         if (at.conditions.time_s < p[0] || at.conditions.time_s > p[1]) return e;
+         e.stiffness *= p[2];
+         e.limit *= p[3];
+         return e;
+       }},
   };
 }
 // NOLINTEND(bugprone-easily-swappable-parameters, readability-function-size)

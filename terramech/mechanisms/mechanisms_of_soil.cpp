@@ -141,6 +141,15 @@ std::vector<Definition> of_soil() {
          e.soil.cohesion_pa *= p[0] + (1 - p[0]) * std::exp(-at.conditions.time_s / p[1]);
          return e;
        }},
+      {{"cohesion_drift",
+        "step",
+        "from <= time: c = a c0",
+        "soil that was wetted or sieved anew (proxy)",
+        {{"from_s", 0, 1e6, 1e4}, {"factor", .2, 3, .5}}},
+       [](E e, P p, S at) {
+         if (at.conditions.time_s >= p[0]) e.soil.cohesion_pa *= p[1];
+         return e;
+       }},
   };
 }
 // NOLINTEND(bugprone-easily-swappable-parameters, readability-function-size)

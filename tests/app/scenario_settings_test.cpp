@@ -135,17 +135,20 @@ TEST_F(ScenarioSettings, WhatAModelSaysOfItsTestBedIsLeftBehind) {
   const std::string model = folder_.write(
       "m.yaml", replaced(replaced(kSimulantModel, "soil_name: simulant\n", ""), "mechanisms: []",
                          "mechanisms: [{id: slope_tilt}, {id: grousers}, {id: load_transfer}, "
-                         "{id: slip_scale}, {id: soil_zone}, {id: multi_pass}]"));
+                         "{id: slip_scale}, {id: soil_zone}, {id: multi_pass}, "
+                         "{id: soil_change, form: for_a_time}, {id: soil_change}]"));
   const Scenario read = scenario("200", "201", {.model_file = model});
-  ASSERT_EQ(read.problem.mechanisms.size(), 2u);
-  EXPECT_EQ(read.problem.mechanisms.front().id, "grousers");
-  EXPECT_EQ(read.problem.mechanisms.back().id, "multi_pass");
+  ASSERT_EQ(read.problem.mechanisms.size(), 3u);
+  EXPECT_EQ(read.problem.mechanisms[0].id, "grousers");
+  EXPECT_EQ(read.problem.mechanisms[1].id, "multi_pass");
+  EXPECT_EQ(read.problem.mechanisms[2].id, "soil_change");
+  EXPECT_EQ(read.problem.mechanisms[2].form, "");
   const auto told = [&](const std::string& words) {
     return std::ranges::count_if(read.notices, [&](const std::string& notice) {
       return notice.find(words) != std::string::npos;
     });
   };
-  EXPECT_EQ(told("is left out"), 4);
+  EXPECT_EQ(told("is left out"), 5);
   EXPECT_EQ(told("slope_tilt is left out"), 1);
   EXPECT_EQ(told("multi_pass changes nothing here"), 1);
 }

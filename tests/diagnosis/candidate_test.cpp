@@ -214,5 +214,71 @@ TEST_F(ChangingFault, AZeroThatSettlesOrDriftsIsAddedWhateverIsMeasured) {
   EXPECT_FALSE(has_one_form(settling));
 }
 
+/// Three days of replicates, the zero of the drawbar pull off on the second.
+class FaultOfADay : public testing::Test {
+ protected:
+  Recording on_three_days() const {
+    Recording made = record({}, setup, setup.soil.mean, {.conditions = 30}, 1);
+    for (WheelRun& run : made.runs) run.measured[0] += run.day == 1 ? kZero_n : 0;
+    return made;
+  }
+  bool is_of_the_day(std::size_t c, Eigen::Index i) const {
+    return bed.conditions[bed.channels[c].conditions[static_cast<std::size_t>(i)]].day == 1;
+  }
+
+  static constexpr double kZero_n = 10;
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = on_three_days();
+  const TestBed bed = condense(recording, setup).bed;
+  const std::vector<Effect> effects = effects_for(bed, recording);
+};
+
+TEST_F(FaultOfADay, IsLookedForBetweenTheTimesOfThatDay) {
+  ASSERT_TRUE(bed.day_apart_s.has_value());
+  EXPECT_NEAR(bed.day_apart_s->low, 86400, 1);
+  EXPECT_NEAR(bed.day_apart_s->high, 86400, 1);
+}
+
+TEST_F(FaultOfADay, AZeroOrGainIsThereOnThatDayOnly) {
+  for (const std::string id : {"sensor_bias", "sensor_gain"}) {
+    const Effect& zero = fault(effects, id, "on_one_day fx_n");
+    const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
+    const Eigen::VectorXd after = *predict(bed, {}, {{zero}}, Eigen::VectorXd::Ones(1));
+    const double spread = zero.coordinates.front().spread;
+    for (Eigen::Index i = 0; i < bed.channels[0].mean.size(); ++i) {
+      const double there = is_of_the_day(0, i) ? spread : 0;
+      EXPECT_NEAR(after[i] - before[i], id == "sensor_bias" ? there : there * before[i], 1e-9);
+    }
+    EXPECT_TRUE(is_told_by_time(zero));
+    EXPECT_FALSE(has_one_form(zero));
+  }
+}
+
+TEST_F(FaultOfADay, ABedMayHaveBeenAnotherOnThatDayOnly) {
+  const Effect& other_bed = fault(effects, "soil_change", "for_a_time");
+  ASSERT_EQ(other_bed.coordinates.size(), 2);
+  const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
+  constexpr double kIntegration_n = 1e-4;  // by which the two ways to integrate agree
+  const Eigen::VectorXd alike = *predict(bed, {}, {{other_bed}}, Eigen::VectorXd::Zero(2));
+  EXPECT_LT((alike - before).cwiseAbs().maxCoeff(), kIntegration_n);
+  const Eigen::VectorXd after = *predict(bed, {}, {{other_bed}}, Eigen::VectorXd::Ones(2));
+  for (Eigen::Index i = 0; i < bed.channels[0].mean.size(); ++i) {
+    const double change = std::abs(after[i] - before[i]);
+    EXPECT_EQ(change > kIntegration_n, is_of_the_day(0, i)) << change;
+  }
+  EXPECT_TRUE(is_told_by_time(other_bed));
+}
+
+TEST_F(FaultOfADay, IsLookedForOnlyWhereADayDiffers) {
+  Recording alike = recording;
+  for (WheelRun& run : alike.runs) run.measured[0] -= run.day == 1 ? kZero_n : 0;
+  const TestBed without = condense(alike, setup).bed;
+  EXPECT_FALSE(without.day_apart_s.has_value());
+  for (const Effect& effect : effects_for(without, alike)) {
+    EXPECT_NE(effect.id, "soil_change");
+    EXPECT_NE(effect.course, FaultCourse::kOnOneDay);
+  }
+}
+
 }  // namespace
 }  // namespace regoplan
