@@ -16,14 +16,14 @@ const std::vector<OtherName>& other_names() {
       {"sensor_bias",
        kInstrument,
        "a column is off by a constant: told = true + bias; form settling: by less and less from "
-       "the first time on, drifting: by more and more up to the last, on_one_day: from from_s to "
+       "the first time on, drifting: by more and more up to the last, for_a_time: from from_s to "
        "to_s only",
        kChannels,
        {{"bias", "of the column"}, {"settling_time_s", "s"}, {"from_s, to_s", "s"}}},
       {"sensor_gain",
        kInstrument,
        "a column is off by a factor: told = (1 + gain) true; form settling: by less and less from "
-       "the first time on, drifting: by more and more up to the last, on_one_day: from from_s to "
+       "the first time on, drifting: by more and more up to the last, for_a_time: from from_s to "
        "to_s only",
        kChannels,
        {{"gain", ""}, {"settling_time_s", "s"}, {"from_s, to_s", "s"}}},

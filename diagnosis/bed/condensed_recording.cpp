@@ -8,6 +8,9 @@
 #include <set>
 #include <string_view>
 
+#include "diagnosis/recording/course_note.h"
+#include "diagnosis/recording/run_times.h"
+#include "diagnosis/recording/thresholds.h"
 #include "diagnosis/recording/untold_days.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
@@ -16,8 +19,6 @@
 
 namespace regoplan {
 namespace {
-
-constexpr double kDay_s = 86400;
 
 using ChannelValues = std::array<double, kChannelCount>;
 
@@ -65,34 +66,6 @@ void note_left_out(const Usable& usable, std::vector<std::string>& notes) {
                     "not judged",
                     usable.without_forces));
   }
-}
-
-/// The day as a time where no time is recorded.
-Recording with_times(Recording recording) {
-  if (recording.runs.empty()) return recording;
-  double first = INFINITY;
-  for (const WheelRun& run : recording.runs) first = std::min(first, run.day);
-  if (recording.columns.time) return recording;
-  for (WheelRun& run : recording.runs) run.conditions.time_s = (run.day - first) * kDay_s;
-  return recording;
-}
-
-/// Where times are recorded and no days: a pause of a night begins the next one.
-Recording with_days(Recording recording) {
-  constexpr double kNight_s = 6 * 3600;
-  if (!recording.columns.time || recording.columns.day) return recording;
-  std::vector<double> times_s;
-  for (const WheelRun& run : recording.runs) times_s.push_back(run.conditions.time_s);
-  std::ranges::sort(times_s);
-  std::vector<double> mornings_s;
-  for (std::size_t i = 1; i < times_s.size(); ++i) {
-    if (times_s[i] - times_s[i - 1] > kNight_s) mornings_s.push_back(times_s[i]);
-  }
-  for (WheelRun& run : recording.runs) {
-    const auto later = std::ranges::upper_bound(mornings_s, run.conditions.time_s);
-    run.day = static_cast<double>(later - mornings_s.begin());
-  }
-  return recording;
 }
 
 /// A channel whose sign the wheel's motion tells: that of a number of the run, where it is clear.
@@ -279,24 +252,6 @@ std::vector<CourseKind> course_kinds(const Recording& recording, const Usable& u
   return kinds;
 }
 
-std::string course_note(const Course& course, const std::vector<ChannelNoise>& noise) {
-  const std::string told = course.on_one_day()
-                               ? fmt::format("differ on day {:.0f} of the recording", course.low)
-                               : fmt::format("follow {}", course.column);
-  std::string text = fmt::format(
-      "replicates do not scatter only: they {} ({}; {:.0f} nats over usual days and scatter alone)",
-      told, course.kind, course.gain_nats);
-  for (std::size_t c = 0; c < noise.size(); ++c) {
-    double low = INFINITY, high = -INFINITY;
-    for (const double t : course.trend[c]) {
-      low = std::min(low, noise[c].trend * t);
-      high = std::max(high, noise[c].trend * t);
-    }
-    text += fmt::format("{} {} by {:.3g}", c == 0 ? ":" : ",", name(noise[c].channel), high - low);
-  }
-  return text;
-}
-
 /// Each condition stands where its runs do in the mean.
 void place_in_time(const Course& course, std::vector<Condition>& conditions) {
   for (Condition& at : conditions) {
@@ -306,36 +261,15 @@ void place_in_time(const Course& course, std::vector<Condition>& conditions) {
   }
 }
 
-/// Where no times are told: as if the runs had followed each other evenly, a round of replicates a
-/// day.
-void assume_times(const std::vector<Condition>& conditions, Recording& recording) {
-  std::size_t rounds = 1;
-  for (const Condition& at : conditions) rounds = std::max(rounds, at.runs.size());
-  const auto step_s =
-      kDay_s * static_cast<double>(rounds) / static_cast<double>(recording.runs.size());
-  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
-    recording.runs[i].conditions.time_s = static_cast<double>(i) * step_s;
-  }
-}
-
-bool tells_times(const Recording& recording) {
-  return recording.columns.time || std::ranges::any_of(recording.runs, [&](const WheelRun& run) {
-           return run.conditions.time_s != recording.runs.front().conditions.time_s;
-         });
-}
-
-/// When the day was that a course tells from all others; nothing where days have no times.
-std::optional<Span> day_apart_s(const Recording& recording, const Usable& usable,
-                                const Course& course) {
-  if (!course.on_one_day()) return std::nullopt;
-  Span all, day;
+/// When it was that replicates differ from all others; nothing where they follow something else.
+std::optional<Span> time_apart_s(const Recording& recording, const Usable& usable,
+                                 const Course& course) {
+  if (!course.for_a_time()) return std::nullopt;
+  Span apart;
   for (const std::size_t run : usable.runs) {
-    const double time_s = recording.runs[run].conditions.time_s;
-    all.take(time_s);
-    if (course.value[run] > 0) day.take(time_s);
+    if (course.value[run] > 0) apart.take(recording.runs[run].conditions.time_s);
   }
-  if (!(all.width() > 0)) return std::nullopt;
-  return day;
+  return apart;
 }
 
 /// Moves every run to the mean of what it follows.
@@ -446,8 +380,15 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
     recording = std::move(untold->rounds.recording);
   }
   for (const WheelRun& run : recording.runs) result.day.push_back(run.day);
-  result.course = course_of(recording, replicated.conditions, replicated.channels,
-                            course_kinds(recording, usable, replicated, setup, stop), setup, stop);
+  result.course =
+      likeliest_course(recording, replicated.conditions, replicated.channels,
+                       course_kinds(recording, usable, replicated, setup, stop), setup, stop);
+  if (result.course && !(result.course->gain_nats > Thresholds::kCourse_nats)) {
+    if (result.course->gain_nats > Thresholds::kDoubtfulCourse_nats) {
+      result.notes.push_back(doubtful_course_note(*result.course));
+    }
+    result.course.reset();
+  }
   for (std::size_t c = 0; c < replicated.channels.size(); ++c) {
     const ChannelRuns& runs = replicated.channels[c];
     result.noise.push_back(
@@ -457,14 +398,14 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
   if (result.course && result.course->in_time()) {
     if (!tells_times(recording)) {
-      assume_times(replicated.conditions, recording);
+      recording = with_even_times(std::move(recording), replicated.conditions);
       result.notes.emplace_back(
           "the recording tells no times: runs are taken to follow each other evenly, a round of "
           "replicates a day");
     }
-    grouped = group(recording, usable, model, blocks_of(*result.course, result.day));
+    grouped = group(recording, usable, model, blocks_of(*result.course));
     place_in_time(*result.course, grouped.conditions);
-    bed.day_apart_s = day_apart_s(recording, usable, *result.course);
+    bed.time_apart_s = time_apart_s(recording, usable, *result.course);
   } else if (result.course && result.course->after_run()) {
     take_off(*result.course, result.noise, grouped.channels);
   }

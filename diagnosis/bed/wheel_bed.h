@@ -32,8 +32,8 @@ struct TestBed {
   DiagnosisSetup setup;
   std::vector<Condition> conditions;
   std::vector<ChannelData> channels;
-  /// From the first to the last time of the day whose replicates differ from those of all others.
-  std::optional<Span> day_apart_s = {};
+  /// When it was that replicates differ from those of all other times, if ever.
+  std::optional<Span> time_apart_s = {};
   WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise
   std::stop_token stop = {};  ///< all work on this bed throws Interrupted once it says so
 

@@ -234,13 +234,13 @@ std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording) 
     const double deviation = recording.noise[c].constant * std::sqrt(4 / std::max(runs, 1.0));
     if (std::abs(effect) / deviation <= most) continue;
     most = std::abs(effect) / deviation;
-    clearest = MismatchRegion{
-        .channel = recording.bed.channels[c].channel,
-        .region = {{course.column,
-                    {course.low + 2.0 / 3 * (course.high - course.low), course.high}}},
-        .effect = effect,
-        .ci95 = {effect - 1.96 * deviation, effect + 1.96 * deviation},
-        .p_value = std::exp(-course.gain_nats)};
+    const double from =
+        course.is_stretch ? course.low : course.low + 2.0 / 3 * (course.high - course.low);
+    clearest = MismatchRegion{.channel = recording.bed.channels[c].channel,
+                              .region = {{course.column, {from, course.high}}},
+                              .effect = effect,
+                              .ci95 = {effect - 1.96 * deviation, effect + 1.96 * deviation},
+                              .p_value = std::exp(-course.gain_nats)};
   }
   return clearest;
 }

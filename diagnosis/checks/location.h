@@ -17,9 +17,9 @@ namespace regoplan {
 std::vector<MismatchRegion> locate(const CondensedRecording& recording, const FitRemainder& fit,
                                    std::uint64_t seed);
 
-/// The last third of a course that replicates follow, in its own column: by how much the channel in
-/// which it is clearest lies there off the first third, its noise at hand. Nothing without a
-/// course.
+/// The last third, or the stretch, of a course that replicates follow, in its own column: by how
+/// much the channel in which it is clearest lies there off the first third, or all else, its noise
+/// at hand. Nothing without a course.
 std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording);
 
 }  // namespace regoplan

@@ -22,7 +22,7 @@ enum class FaultCourse {
   kConstant,  ///< 1
   kSettling,  ///< exp(-(time - first time)/settling_time_s): an amplifier that warms up
   kDrifting,  ///< t
-  kOnOneDay,  ///< 1 from `from_s` to `to_s`, else 0: a zero that was set anew
+  kForATime,  ///< 1 from `from_s` to `to_s`, else 0: a zero that was set anew
 };
 
 /// One form of one thing that may be wrong: a mechanism of the wheel or a fault of an instrument.

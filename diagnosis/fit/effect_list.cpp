@@ -23,16 +23,16 @@ Span span_of(const TestBed& bed, const auto& column) {
   return span;
 }
 
-/// When the later of two states began, where the day apart is the first or the last.
+/// When the later of two states began, where the time apart is the first or the last.
 std::optional<double> step_s(const TestBed& bed) {
-  if (!bed.day_apart_s) return std::nullopt;
-  Span before, after;  // of the day, or of what is not
+  if (!bed.time_apart_s) return std::nullopt;
+  Span before, after;
   for (const Condition& at : bed.conditions) {
     const double time_s = at.conditions.time_s;
-    if (time_s < bed.day_apart_s->low) before.take(time_s);
-    if (time_s > bed.day_apart_s->high) after.take(time_s);
+    if (time_s < bed.time_apart_s->low) before.take(time_s);
+    if (time_s > bed.time_apart_s->high) after.take(time_s);
   }
-  if (after.width() < 0) return bed.day_apart_s->low;
+  if (after.width() < 0) return bed.time_apart_s->low;
   if (before.width() < 0) return after.low;
   return std::nullopt;
 }
@@ -72,20 +72,20 @@ Coordinate coordinate_of(const MechanismParameter& parameter) {
 
 struct Columns {
   bool pass = false, speed = false, position = false, time = false, skid = false, driving = false,
-       angle = false, lugs = true, part = false, difference = false, day_apart = false,
-       day_at_an_end = false;
+       angle = false, lugs = true, part = false, difference = false, time_apart = false,
+       two_states = false;
 };
 
 bool can_bear(const MechanismForm& form, const Columns& columns) {
   const std::string_view id = form.id;
   // Of a soil that differs the other soil is recorded: by a reference, or by other days.
-  if (form.form == "for_a_time") return columns.day_apart && !columns.difference;
+  if (form.form == "for_a_time") return columns.time_apart && !columns.difference;
   if (id == "soil_change") return columns.difference;
   if (id == "multi_pass") return columns.pass;
   if (id == "rate_dependence") return columns.speed;
   if (id == "soil_zone") return columns.position;
   if (id == "cohesion_drift" && form.form == "step")
-    return columns.day_at_an_end && !columns.difference;
+    return columns.two_states && !columns.difference;
   if (id == "cohesion_drift") return columns.time;
   if (id == "skid_branch") return columns.skid;
   if (id == "slip_sinkage") return columns.driving;
@@ -136,7 +136,7 @@ class EffectList {
     } else if (form.form == "for_a_time") {
       std::erase_if(effect.coordinates, [](const Coordinate& c) { return c.name.ends_with("_s"); });
       for (Coordinate& c : effect.coordinates) c.centre = 0;
-      effect.fixed = on_day_apart();
+      effect.fixed = in_time_apart();
       push(effect);
     } else if (form.id == "slope_tilt") {
       // along x and y apart: the heading of a test bed's wheel is not recorded
@@ -259,11 +259,11 @@ class EffectList {
     return std::nullopt;
   }
 
-  std::map<std::string, double> on_day_apart() const {
-    return {{"from_s", bed_.day_apart_s->low}, {"to_s", bed_.day_apart_s->high}};
+  std::map<std::string, double> in_time_apart() const {
+    return {{"from_s", bed_.time_apart_s->low}, {"to_s", bed_.time_apart_s->high}};
   }
 
-  /// A bias or gain of these channels that settles, drifts or is there on the day apart, where the
+  /// A bias or gain of these channels that settles, drifts or is there in the time apart, where the
   /// recording tells the time.
   void add_changing(const std::string& id, const std::vector<std::size_t>& channels) {
     if (!columns_.time || columns_.difference) return;
@@ -277,12 +277,12 @@ class EffectList {
                   .also = {channels.begin() + 1, channels.end()}};
     std::string names;
     for (const std::size_t c : channels) names += " " + std::string(name(bed_.channels[c].channel));
-    if (columns_.day_apart) {
-      Effect on_day = effect;
-      on_day.form = "on_one_day" + names;
-      on_day.course = FaultCourse::kOnOneDay;
-      on_day.fixed = on_day_apart();
-      push(on_day);
+    if (columns_.time_apart) {
+      Effect for_a_time = effect;
+      for_a_time.form = "for_a_time" + names;
+      for_a_time.course = FaultCourse::kForATime;
+      for_a_time.fixed = in_time_apart();
+      push(for_a_time);
     }
     effect.form = "drifting" + names;
     effect.course = FaultCourse::kDrifting;
@@ -328,8 +328,8 @@ std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, 
       .lugs = bed.setup.lug_height_m.value_or(1) > 0,
       .part = of != EffectsOf::kRecording,
       .difference = of == EffectsOf::kDifference,
-      .day_apart = bed.day_apart_s.has_value(),
-      .day_at_an_end = step_s(bed).has_value()};
+      .time_apart = bed.time_apart_s.has_value(),
+      .two_states = step_s(bed).has_value()};
   EffectList list(bed, columns);
   for (const MechanismForm& form : mechanism_forms()) {
     if (form.form == "carried_soil" && !columns.part) continue;

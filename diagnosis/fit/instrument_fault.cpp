@@ -17,7 +17,7 @@ Eigen::ArrayXd course_of(const TestBed& bed, const Effect& effect, std::size_t c
   for (Eigen::Index i = 0; i < course.size(); ++i) {
     const std::size_t at = data.conditions[static_cast<std::size_t>(i)];
     const double time_s = bed.conditions[at].conditions.time_s;
-    if (effect.course == FaultCourse::kOnOneDay) {
+    if (effect.course == FaultCourse::kForATime) {
       course[i] = time_s >= number("from_s") && time_s <= number("to_s") ? 1 : 0;
       continue;
     }

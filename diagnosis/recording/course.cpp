@@ -15,35 +15,43 @@ namespace {
 
 struct Column {
   std::string name;
-  std::vector<double> value;  // per run, scaled to [0, 1]
+  std::vector<double> along;  // per run
+  std::vector<double> value;  // per run, from 0 to 1
   double low = 0, high = 0;
   double cost_nats = 0;  // of having been chosen among others of its name
+  bool is_stretch = false;
 };
 
 void add(std::string name, std::vector<double> value, std::vector<Column>& columns) {
   const auto [low, high] = std::ranges::minmax(value);
   if (!(high > low)) return;
+  std::vector<double> along = value;
   for (double& v : value) v = (v - low) / (high - low);
-  columns.push_back({std::move(name), std::move(value), low, high});
+  columns.push_back({.name = std::move(name),
+                     .along = std::move(along),
+                     .value = std::move(value),
+                     .low = low,
+                     .high = high});
 }
 
-/// Stretches between any two sixteenths of the runs along the bed, and from one to its end.
-void add_stretches(const std::vector<WheelRun>& runs, std::vector<Column>& columns) {
+/// Stretches between any two sixteenths of the runs along a column, and from one to its end.
+/// \param along of each run
+void add_stretches(const std::string& name, const std::vector<double>& along,
+                   std::vector<Column>& columns) {
   constexpr std::size_t kParts = 16;
-  std::vector<double> along_m;
-  for (const WheelRun& run : runs) along_m.push_back(run.conditions.position_m);
-  std::ranges::sort(along_m);
-  std::vector<double> edges_m;
-  for (std::size_t k = 1; k < kParts; ++k) edges_m.push_back(along_m[runs.size() * k / kParts]);
-  edges_m.push_back(std::nextafter(along_m.back(), INFINITY));
-  edges_m.erase(std::unique(edges_m.begin(), edges_m.end()), edges_m.end());
+  std::vector<double> sorted = along;
+  std::ranges::sort(sorted);
+  std::vector<double> edges;
+  for (std::size_t k = 1; k < kParts; ++k) edges.push_back(sorted[along.size() * k / kParts]);
+  edges.push_back(std::nextafter(sorted.back(), INFINITY));
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   std::vector<Column> stretches;
-  for (std::size_t i = 0; i < edges_m.size(); ++i) {
-    for (std::size_t k = i + 1; k < edges_m.size(); ++k) {
-      Column column{.name = "position_m", .low = edges_m[i], .high = edges_m[k]};
-      for (const WheelRun& run : runs) {
-        const double x_m = run.conditions.position_m;
-        column.value.push_back(x_m >= column.low && x_m < column.high ? 1 : 0);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    for (std::size_t k = i + 1; k < edges.size(); ++k) {
+      Column column{
+          .name = name, .along = along, .low = edges[i], .high = edges[k], .is_stretch = true};
+      for (const double at : along) {
+        column.value.push_back(at >= column.low && at < column.high ? 1 : 0);
       }
       stretches.push_back(std::move(column));
     }
@@ -55,16 +63,18 @@ void add_stretches(const std::vector<WheelRun>& runs, std::vector<Column>& colum
 }
 
 /// Each day apart from all others, where there are a few.
-void add_days(const std::vector<WheelRun>& runs, std::vector<Column>& columns) {
-  constexpr std::size_t kFewest = 2, kMost = 6;
-  std::set<double> days;
-  for (const WheelRun& run : runs) days.insert(run.day);
-  if (days.size() < kFewest || days.size() > kMost) return;
+void add_days(const std::vector<WheelRun>& runs, const std::set<double>& days,
+              std::vector<Column>& columns) {
+  constexpr std::size_t kMost = 6;
+  if (days.size() > kMost) return;
   double count = 0;
   for (const double day : days) {
     ++count;
-    Column column{.name = "on_day", .low = count, .high = count};
-    for (const WheelRun& run : runs) column.value.push_back(run.day == day ? 1 : 0);
+    Column column{.name = "on_day", .low = count, .high = count, .is_stretch = true};
+    for (const WheelRun& run : runs) {
+      column.along.push_back(run.day);
+      column.value.push_back(run.day == day ? 1 : 0);
+    }
     columns.push_back(std::move(column));
   }
 }
@@ -78,18 +88,28 @@ std::vector<Column> columns_of(const Recording& recording) {
     return value;
   };
   std::vector<Column> columns;
-  add(recording.columns.time ? "time_s" : "day",
-      each([&](std::size_t i) { return runs[i].conditions.time_s; }), columns);
+  const std::vector<double> time_s = each([&](std::size_t i) { return runs[i].conditions.time_s; });
+  const std::vector<double> order = each([](std::size_t i) { return static_cast<double>(i); });
+  add(recording.columns.time ? "time_s" : "day", time_s, columns);
   const auto n = static_cast<double>(runs.size());
-  add("run_order", each([](std::size_t i) { return static_cast<double>(i); }), columns);
+  add("run_order", order, columns);
   add("warm_up", each([&](std::size_t i) { return std::exp(-8 * static_cast<double>(i) / n); }),
       columns);
   add("after_slip_ratio", each([&](std::size_t i) { return i == 0 ? 0 : runs[i - 1].slip_ratio; }),
       columns);
   add("after_load_n", each([&](std::size_t i) { return runs[i == 0 ? 0 : i - 1].load_n; }),
       columns);
-  add_days(runs, columns);
-  if (recording.columns.position) add_stretches(runs, columns);
+  std::set<double> days;
+  for (const WheelRun& run : runs) days.insert(run.day);
+  if (days.size() > 1) add_days(runs, days, columns);
+  // Days that nobody told begin where they were assumed to.
+  const bool tells_days = days.size() > 1 && recording.columns.day;
+  if (!tells_days && recording.columns.time) add_stretches("time_s", time_s, columns);
+  if (!tells_days && !recording.columns.time) add_stretches("run_order", order, columns);
+  if (recording.columns.position) {
+    add_stretches("position_m", each([&](std::size_t i) { return runs[i].conditions.position_m; }),
+                  columns);
+  }
   return columns;
 }
 
@@ -156,11 +176,11 @@ double gain_nats(const ChannelContrasts& contrasts, const std::vector<std::vecto
 
 }  // namespace
 
-std::optional<Course> course_of(const Recording& recording,
-                                const std::vector<Condition>& conditions,
-                                const std::vector<ChannelRuns>& channels,
-                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup,
-                                const std::stop_token& stop) {
+std::optional<Course> likeliest_course(const Recording& recording,
+                                       const std::vector<Condition>& conditions,
+                                       const std::vector<ChannelRuns>& channels,
+                                       const std::vector<CourseKind>& kinds,
+                                       const DiagnosisSetup& setup, const std::stop_token& stop) {
   const ChannelContrasts contrasts = contrasts_of(recording, conditions, channels, setup, stop);
   std::optional<Course> best;
   for (const Column& column : columns_of(recording)) {
@@ -169,35 +189,37 @@ std::optional<Course> course_of(const Recording& recording,
       throw_if_stopped(stop);
       Course course{.column = column.name,
                     .kind = kind.name,
+                    .along = column.along,
                     .value = column.value,
                     .low = column.low,
-                    .high = column.high};
+                    .high = column.high,
+                    .is_stretch = column.is_stretch};
       for (std::size_t c = 0; c < channels.size(); ++c) {
         std::vector<double> trend = size_of_conditions(kind.of_channel[c], conditions);
         for (std::size_t i = 0; i < trend.size(); ++i) trend[i] *= column.value[i];
         course.trend.push_back(std::move(trend));
       }
       course.gain_nats = gain_nats(contrasts, course.trend) - column.cost_nats;
-      if (course.gain_nats > (best ? best->gain_nats : Thresholds::kCourse_nats)) best = course;
+      if (course.gain_nats > (best ? best->gain_nats : 0)) best = course;
     }
   }
   return best;
 }
 
-std::vector<int> blocks_of(const Course& course, const std::vector<double>& day) {
+std::vector<int> blocks_of(const Course& course) {
   constexpr std::size_t kMostDays = 6, kQuarters = 4;
-  const std::vector<double>& along = course.on_one_day() ? day : course.value;
-  const std::set<double> values(along.begin(), along.end());
-  const bool days = values.size() <= kMostDays;
+  const std::set<double> values(course.along.begin(), course.along.end());
   std::vector<int> block;
-  for (const double value : along) {
-    if (days) {
-      block.push_back(static_cast<int>(std::distance(values.begin(), values.find(value))));
-    } else {
-      const auto before = std::ranges::count_if(along, [&](double v) { return v < value; });
-      block.push_back(
-          static_cast<int>(static_cast<std::size_t>(before) * kQuarters / along.size()));
+  for (std::size_t i = 0; i < course.along.size(); ++i) {
+    const double at = course.along[i];
+    if (values.size() <= kMostDays) {
+      block.push_back(static_cast<int>(std::distance(values.begin(), values.find(at))));
+      continue;
     }
+    const auto before = static_cast<std::size_t>(
+        std::ranges::count_if(course.along, [&](double v) { return v < at; }));
+    const auto quarter = static_cast<int>(before * kQuarters / course.along.size());
+    block.push_back(2 * quarter + (course.is_stretch && course.value[i] > 0 ? 1 : 0));
   }
   return block;
 }

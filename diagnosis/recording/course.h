@@ -16,18 +16,20 @@ struct Course {
   std::string column;
   std::string kind;      ///< what changes: `offset`, `gain`, `cohesion`, `strength`, `stiffness`
   double gain_nats = 0;  ///< over days and scatter alone, all channels
-  std::vector<double> value;  ///< of the column, per run, from 0 to 1
-  /// What 0 and 1 stand for, in the column's unit; of `position_m` where the stretch lies on which
-  /// it is 1; of `on_day` which day of the recording it is, counted from 1.
+  std::vector<double> along;  ///< of the column, per run
+  std::vector<double> value;  ///< what replicates follow, per run, from 0 to 1
+  /// What 0 and 1 stand for, in the column's unit; of a stretch, where it lies on which the value
+  /// is 1; of `on_day` which day of the recording that is, counted from 1.
   double low = 0, high = 0;
+  bool is_stretch = false;  ///< the value is 1 on a part of the column and 0 elsewhere
   std::vector<std::vector<double>> trend;  ///< per channel and run, as estimate_noise() takes it
 
   /// Whether it follows time, so that time can be a place.
   bool in_time() const { return !after_run() && !in_place(); }
   /// Whether it follows what the run before was.
   bool after_run() const { return column == "after_slip_ratio" || column == "after_load_n"; }
-  /// Whether replicates of one day differ from those of all others.
-  bool on_one_day() const { return column == "on_day"; }
+  /// Whether replicates of one day, or of some time, differ from all others.
+  bool for_a_time() const { return is_stretch && in_time(); }
   /// Whether replicates on some stretch of the bed differ from those elsewhere.
   bool in_place() const { return column == "position_m"; }
 };
@@ -38,16 +40,17 @@ struct CourseKind {
   std::vector<std::vector<double>> of_channel;
 };
 
-/// The likeliest course of the replicates' differences, if one is worth its numbers: days and
-/// scatter alone must be less likely by 12 nats.
-std::optional<Course> course_of(const Recording& recording,
-                                const std::vector<Condition>& conditions,
-                                const std::vector<ChannelRuns>& channels,
-                                const std::vector<CourseKind>& kinds, const DiagnosisSetup& setup,
-                                const std::stop_token& stop = {});
+/// The likeliest course of the replicates' differences; nothing where none gains anything over days
+/// and scatter alone.
+std::optional<Course> likeliest_course(const Recording& recording,
+                                       const std::vector<Condition>& conditions,
+                                       const std::vector<ChannelRuns>& channels,
+                                       const std::vector<CourseKind>& kinds,
+                                       const DiagnosisSetup& setup,
+                                       const std::stop_token& stop = {});
 
-/// Runs in blocks of the course: days where there are at most six or the course is one of them,
-/// else quarters. \param day of each run
-std::vector<int> blocks_of(const Course& course, const std::vector<double>& day);
+/// Runs in blocks of the course: days where there are at most six, else quarters, parted where a
+/// stretch begins or ends.
+std::vector<int> blocks_of(const Course& course);
 
 }  // namespace regoplan

@@ -59,6 +59,7 @@ std::optional<Rounds> rounds_as_days(const Recording& recording,
   for (const Condition& at : conditions) most = std::max(most, at.runs.size());
   if (tells_days || most < 2) return std::nullopt;
   Rounds rounds{recording, most};
+  rounds.recording.columns.day = false;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const std::size_t round = i * most / runs.size();
     rounds.recording.runs[i].day = static_cast<double>(round);

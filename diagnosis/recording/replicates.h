@@ -25,7 +25,7 @@ bool tells_times_of_replicates(const Recording& recording,
 
 /// A recording with a day for each round of its replicates.
 struct Rounds {
-  Recording recording;
+  Recording recording;  ///< its days are no column of it
   std::size_t count = 0;
   double share_repeated = 0;  ///< of the conditions: run more than once
 };

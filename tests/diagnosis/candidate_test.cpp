@@ -214,12 +214,12 @@ TEST_F(ChangingFault, AZeroThatSettlesOrDriftsIsAddedWhateverIsMeasured) {
   EXPECT_FALSE(has_one_form(settling));
 }
 
-/// Three days of replicates, the zero of the drawbar pull off on the second.
+/// Three days of replicates, the zero of the drawbar pull off on one, by default the second.
 class FaultOfADay : public testing::Test {
  protected:
-  Recording on_three_days() const {
+  Recording on_three_days(double off = 1) const {
     Recording made = record({}, setup, setup.soil.mean, {.conditions = 30}, 1);
-    for (WheelRun& run : made.runs) run.measured[0] += run.day == 1 ? kZero_n : 0;
+    for (WheelRun& run : made.runs) run.measured[0] += run.day == off ? kZero_n : 0;
     return made;
   }
   bool is_of_the_day(std::size_t c, Eigen::Index i) const {
@@ -234,14 +234,14 @@ class FaultOfADay : public testing::Test {
 };
 
 TEST_F(FaultOfADay, IsLookedForBetweenTheTimesOfThatDay) {
-  ASSERT_TRUE(bed.day_apart_s.has_value());
-  EXPECT_NEAR(bed.day_apart_s->low, 86400, 1);
-  EXPECT_NEAR(bed.day_apart_s->high, 86400, 1);
+  ASSERT_TRUE(bed.time_apart_s.has_value());
+  EXPECT_NEAR(bed.time_apart_s->low, 86400, 1);
+  EXPECT_NEAR(bed.time_apart_s->high, 86400, 1);
 }
 
 TEST_F(FaultOfADay, AZeroOrGainIsThereOnThatDayOnly) {
   for (const std::string id : {"sensor_bias", "sensor_gain"}) {
-    const Effect& zero = fault(effects, id, "on_one_day fx_n");
+    const Effect& zero = fault(effects, id, "for_a_time fx_n");
     const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
     const Eigen::VectorXd after = *predict(bed, {}, {{zero}}, Eigen::VectorXd::Ones(1));
     const double spread = zero.coordinates.front().spread;
@@ -269,14 +269,28 @@ TEST_F(FaultOfADay, ABedMayHaveBeenAnotherOnThatDayOnly) {
   EXPECT_TRUE(is_told_by_time(other_bed));
 }
 
+TEST_F(FaultOfADay, CohesionMayBeAnotherFromADayOnWhereTheFirstOrTheLastDiffers) {
+  const auto step_of = [&](double day) {
+    const Recording made = on_three_days(day);
+    std::vector<double> from_s;
+    for (const Effect& e : effects_for(condense(made, setup).bed, made)) {
+      if (e.id == "cohesion_drift" && e.form == "step") from_s.push_back(e.fixed.at("from_s"));
+    }
+    return from_s;
+  };
+  EXPECT_EQ(step_of(0), std::vector<double>{86400}) << "from the second day on";
+  EXPECT_EQ(step_of(1), std::vector<double>{});
+  EXPECT_EQ(step_of(2), std::vector<double>{2 * 86400.0});
+}
+
 TEST_F(FaultOfADay, IsLookedForOnlyWhereADayDiffers) {
   Recording alike = recording;
   for (WheelRun& run : alike.runs) run.measured[0] -= run.day == 1 ? kZero_n : 0;
   const TestBed without = condense(alike, setup).bed;
-  EXPECT_FALSE(without.day_apart_s.has_value());
+  EXPECT_FALSE(without.time_apart_s.has_value());
   for (const Effect& effect : effects_for(without, alike)) {
     EXPECT_NE(effect.id, "soil_change");
-    EXPECT_NE(effect.course, FaultCourse::kOnOneDay);
+    EXPECT_NE(effect.course, FaultCourse::kForATime);
   }
 }
 

@@ -157,6 +157,22 @@ TEST(Course, ADayWhoseBedIsFirmerIsNoScatterOfDays) {
   }
 }
 
+TEST(Course, OneThatGainsTooLittleIsNotedAndChangesNothing) {
+  const auto told_as_doubtful = [](const CondensedRecording& found) {
+    return std::ranges::any_of(found.notes, [](const std::string& note) {
+      return note.starts_with("replicates may differ on day 2 of the recording");
+    });
+  };
+  int doubtful = 0, by_chance = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const CondensedRecording found = condense(on_three_days(seed, 0.06), simulant_setup());
+    EXPECT_FALSE(told_as_doubtful(found) && found.course.has_value()) << seed;
+    doubtful += told_as_doubtful(found);
+    by_chance += told_as_doubtful(condense(on_three_days(seed, 0), simulant_setup()));
+  }
+  EXPECT_GT(doubtful, by_chance);
+}
+
 TEST(Course, WhereOnlyTimesAreToldANightBeginsTheNextDay) {
   Recording recording = on_three_days(4, 0);
   const std::vector<double> told = condense(recording, simulant_setup()).day;
@@ -168,6 +184,52 @@ TEST(Course, WhereOnlyTimesAreToldANightBeginsTheNextDay) {
     run.day = 0;
   }
   EXPECT_EQ(condense(recording, simulant_setup()).day, told);
+}
+
+/// Runs of one day in any order, the zero of drawbar pull off on the middle fifth of them and on.
+Recording off_for_a_time(std::uint64_t seed, double zero_n) {
+  Recording recording = recorded(seed, 0);
+  std::mt19937_64 random(seed);
+  std::ranges::shuffle(recording.runs, random);
+  const std::size_t n = recording.runs.size();
+  for (std::size_t i = 2 * n / 5; i < 4 * n / 5; ++i) recording.runs[i].measured[0] += zero_n;
+  for (std::size_t i = 0; i < n; ++i) {
+    recording.runs[i].conditions.time_s = 600 * static_cast<double>(i);
+  }
+  return recording;
+}
+
+TEST(Course, WhatDiffersForATimeIsToldWithItsEdges) {
+  Recording recording = off_for_a_time(5, 6);
+  recording.columns.time = true;
+  const CondensedRecording found = condense(recording, simulant_setup());
+  ASSERT_TRUE(found.course.has_value());
+  EXPECT_TRUE(found.course->for_a_time());
+  EXPECT_EQ(found.course->column, "time_s");
+  const double whole_s = 600 * static_cast<double>(recording.runs.size());
+  EXPECT_NEAR(found.course->low / whole_s, 0.4, 0.07);
+  EXPECT_NEAR(found.course->high / whole_s, 0.8, 0.07);
+  ASSERT_TRUE(found.bed.time_apart_s.has_value());
+  for (const Condition& at : found.bed.conditions) {
+    for (const std::size_t run : at.runs) {
+      EXPECT_EQ(found.course->value[run], found.course->value[at.runs.front()])
+          << "no condition lies on both sides of an edge";
+    }
+  }
+}
+
+TEST(Course, WhereNeitherTimesNorDaysAreToldRunsFollowEachOtherEvenly) {
+  const Recording recording = off_for_a_time(5, 6);
+  const CondensedRecording found = condense(recording, simulant_setup());
+  ASSERT_TRUE(found.course.has_value());
+  EXPECT_EQ(found.course->column, "run_order");
+  ASSERT_TRUE(found.bed.time_apart_s.has_value());
+  const double last_s = 3 * 86400.0 * (1 - 1.0 / static_cast<double>(recording.runs.size()));
+  EXPECT_NEAR(found.bed.time_apart_s->low / last_s, 0.4, 0.07) << "three replicates: three days";
+  EXPECT_NEAR(found.bed.time_apart_s->high / last_s, 0.8, 0.07);
+  EXPECT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
+    return note.starts_with("the recording tells no times");
+  }));
 }
 
 /// Replicates each at a place of its own, as a wheel that rolls on has them.
