@@ -339,10 +339,12 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
                             std::stop_token stop) {
   CondensedRecording result;
   Recording recording = with_days(with_times(raw));
-  const WheelModel model({.variant = setup.variant,
-                          .wheel = setup.wheel,
-                          .soil = setup.soil.mean,
-                          .gravity_mps2 = setup.gravity_mps2});
+  const auto base_model =
+      std::make_shared<const WheelModel>(WheelModelSpec{.variant = setup.variant,
+                                                        .wheel = setup.wheel,
+                                                        .soil = setup.soil.mean,
+                                                        .gravity_mps2 = setup.gravity_mps2});
+  const WheelModel& model = *base_model;
   const Usable usable = usable_runs(recording, model, stop);
   note_left_out(usable, result.notes);
   result.used = usable.runs;
@@ -358,6 +360,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   }
   TestBed& bed = result.bed;
   bed.setup = setup;
+  bed.base_model = base_model;
   Grouped grouped = group(recording, usable, model, {});
   if (grouped.conditions.size() < fewest) {
     throw InputError(

@@ -44,12 +44,13 @@ Eigen::VectorXd TestBed::measured() const {
 std::optional<Eigen::VectorXd> predict(const TestBed& bed, const Soil& soil,
                                        const std::vector<Mechanism>& mechanisms) {
   try {
-    const WheelModel model({.variant = bed.setup.variant,
-                            .wheel = bed.setup.wheel,
-                            .soil = soil,
-                            .gravity_mps2 = bed.setup.gravity_mps2,
-                            .mechanisms = mechanisms},
-                           bed.accuracy);
+    const WheelModelSpec spec{.variant = bed.setup.variant,
+                              .wheel = bed.setup.wheel,
+                              .soil = soil,
+                              .gravity_mps2 = bed.setup.gravity_mps2,
+                              .mechanisms = mechanisms};
+    const WheelModel model = bed.base_model ? WheelModel(spec, bed.accuracy, *bed.base_model)
+                                            : WheelModel(spec, bed.accuracy);
     std::vector<std::array<double, kChannelCount>> values;
     values.reserve(bed.conditions.size());
     for (const Condition& at : bed.conditions) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -34,6 +35,8 @@ struct TestBed {
   std::vector<ChannelData> channels;
   /// When it was that replicates differ from those of all other times, if ever.
   std::optional<Span> time_apart_s = {};
+  /// At the prior means: where the sinkages of other soils are sought from.
+  std::shared_ptr<const WheelModel> base_model = {};
   WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise
   std::stop_token stop = {};  ///< all work on this bed throws Interrupted once it says so
 

@@ -17,7 +17,8 @@ constexpr std::size_t kFewestFamilies = 3, kMostBands = 6;
 
 /// The conditions outside one family.
 TestBed without(const TestBed& bed, const Families& families, std::size_t family) {
-  TestBed rest{.setup = bed.setup, .accuracy = bed.accuracy, .stop = bed.stop};
+  TestBed rest{
+      .setup = bed.setup, .base_model = bed.base_model, .accuracy = bed.accuracy, .stop = bed.stop};
   std::vector<std::size_t> new_index(bed.conditions.size());
   for (std::size_t k = 0; k < bed.conditions.size(); ++k) {
     new_index[k] = rest.conditions.size();

@@ -99,7 +99,10 @@ double unmeasured_noise(const TestBed& bed, Channel channel) {
 std::vector<Trial> trials_of(const TestBed& bed) {
   std::vector<Trial> trials;
   for (const Condition& at : trial_conditions(bed)) {
-    Trial trial{.bed = {.setup = bed.setup, .conditions = {at}, .stop = bed.stop}};
+    Trial trial{.bed = {.setup = bed.setup,
+                        .conditions = {at},
+                        .base_model = bed.base_model,
+                        .stop = bed.stop}};
     for (const ChannelData& data : bed.channels) {
       trial.bed.channels.push_back(
           {.channel = data.channel,
@@ -116,7 +119,10 @@ std::vector<Trial> trials_of(const TestBed& bed) {
         bed.channels, [&](const ChannelData& data) { return data.channel == channel; });
     if (measured) continue;
     // instruments keep their channel's index: the new one comes last
-    Trial trial{.bed = {.setup = bed.setup, .conditions = bed.conditions, .stop = bed.stop},
+    Trial trial{.bed = {.setup = bed.setup,
+                        .conditions = bed.conditions,
+                        .base_model = bed.base_model,
+                        .stop = bed.stop},
                 .sensor = channel};
     for (const ChannelData& data : bed.channels) {
       trial.bed.channels.push_back({.channel = data.channel, .scale = data.scale});

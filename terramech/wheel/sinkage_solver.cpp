@@ -136,6 +136,12 @@ SinkageSolver::SinkageSolver(const Ground& ground)
   if (kx_varies_) at_slip_angle_ = tabulate(ground, 1);
 }
 
+SinkageSolver::SinkageSolver(const Ground& ground, const SinkageSolver& near)
+    : power_(2 * ground.soil.n + 1),
+      kx_varies_(near.kx_varies_),
+      straight_(near.straight_),
+      at_slip_angle_(near.at_slip_angle_) {}
+
 SinkageSolver::Guess SinkageSolver::look_up(const Table& table, double log_load,
                                             const Ratios& ratios, double kx_m) const {
   // A larger kx acts like a smaller slip velocity.

@@ -22,6 +22,8 @@ struct Equilibrium {
 class SinkageSolver {
  public:
   explicit SinkageSolver(const Ground& ground);
+  /// Starts from the table of another soil under the same wheel.
+  SinkageSolver(const Ground& ground, const SinkageSolver& near);
 
   /// Nothing where no sinkage below the radius carries the load.
   std::optional<Equilibrium> solve(const Ground& ground, double load_n, const Ratios& ratios,

@@ -126,13 +126,19 @@ double slip_angle_rad(const WheelMotion& motion) {
   return std::atan2(motion.vy_mps, std::abs(motion.vx_mps));
 }
 
-WheelModel::WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy)
+WheelModel::WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy, const WheelModel* near)
     : spec_(checked(spec)),
       accuracy_(accuracy),
       ground_(spec.wheel, spec.soil, spec.gravity_mps2),
-      solver_(ground_) {
+      solver_(near == nullptr ? SinkageSolver(ground_) : SinkageSolver(ground_, near->solver_)) {
   for (const Mechanism& mechanism : spec.mechanisms) mechanisms_.push_back(bind(mechanism));
 }
+
+WheelModel::WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy)
+    : WheelModel(spec, accuracy, nullptr) {}
+
+WheelModel::WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy, const WheelModel& near)
+    : WheelModel(spec, accuracy, &near) {}
 
 namespace {
 

@@ -93,6 +93,11 @@ class WheelModel {
  public:
   /// \throws ValueError naming the first field out of range
   explicit WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy = WheelAccuracy::kExact);
+  /// As above, made in a fraction of the time: sinkages are sought from where a model of the same
+  /// wheel on another soil has its own. For slip ratios from -0.98 on the accuracy is the same
+  /// (WheelAccuracy.StandsWhereverSinkagesAreSoughtFrom); a wheel that is all but locked may be
+  /// three times as far off.
+  WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy, const WheelModel& near);
 
   /// Forces on the wheel under the given vertical load.
   /// Mechanisms act as on a first pass at the motion's own speed.
@@ -109,6 +114,7 @@ class WheelModel {
   const WheelModelSpec& spec() const { return spec_; }
 
  private:
+  WheelModel(const WheelModelSpec& spec, WheelAccuracy accuracy, const WheelModel* near);
   WheelForces without_correction(double load_n, const WheelMotion& motion) const;
   friend WheelChannels mechanism_channels(const WheelModel& model, double load_n,
                                           const WheelMotion& motion,
