@@ -25,10 +25,12 @@ constexpr std::array kOfTestBed{
     OfTestBed{"soil_zone", true, "a place along the test bed; soils lie where the map says"},
     OfTestBed{"multi_pass", false,
               "soil that wheels have passed already; a plan has one pass of each wheel"},
+    OfTestBed{"soil_change", true, "some time on the test bed; soils lie where the map says",
+              "for_a_time"},
+    OfTestBed{"cohesion_drift", true, "some time on the test bed; soils lie where the map says",
+              "for_a_time"},
     OfTestBed{"cohesion_drift", false,
               "a course over time; a plan has the soil of the course's beginning"},
-    OfTestBed{"soil_change", true, "a day of the test bed; soils lie where the map says",
-              "for_a_time"},
 };
 
 }  // namespace

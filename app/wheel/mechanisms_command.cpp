@@ -65,7 +65,7 @@ std::vector<std::optional<Change>> changes_of(const MechanismForm& form) {
   spec.mechanisms = {{std::string(form.id), std::string(form.form), {}}};
   // A changed soil is not changed by default: it is shown at the low ends of its ranges.
   for (const MechanismParameter& parameter : form.parameters) {
-    if (form.id == "soil_change") {
+    if (form.id == "soil_change" && form.form != "for_a_time") {
       spec.mechanisms[0].parameters[std::string(parameter.name)] = parameter.low;
     }
   }

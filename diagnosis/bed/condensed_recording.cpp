@@ -261,15 +261,23 @@ void place_in_time(const Course& course, std::vector<Condition>& conditions) {
   }
 }
 
-/// When it was that replicates differ from all others; nothing where they follow something else.
-std::optional<Span> time_apart_s(const Recording& recording, const Usable& usable,
-                                 const Course& course) {
-  if (!course.for_a_time()) return std::nullopt;
-  Span apart;
+/// When it was that replicates differ from all others, and the rest of the time where it lies on
+/// one side of that: either may be what is off. Nothing where they follow something else, or where
+/// times do not tell the two apart, as of clocks that start anew each day.
+std::vector<Span> times_apart_s(const Recording& recording, const Usable& usable,
+                                const Course& course) {
+  if (!course.for_a_time()) return {};
+  Span apart, rest;
+  const auto time_s = [&](std::size_t run) { return recording.runs[run].conditions.time_s; };
   for (const std::size_t run : usable.runs) {
-    if (course.value[run] > 0) apart.take(recording.runs[run].conditions.time_s);
+    (course.value[run] > 0 ? apart : rest).take(time_s(run));
   }
-  return apart;
+  for (const std::size_t run : usable.runs) {
+    if (course.value[run] > 0) continue;
+    if (time_s(run) >= apart.low && time_s(run) <= apart.high) return {};
+  }
+  if (rest.low < apart.low && rest.high > apart.high) return {apart};
+  return {apart, rest};
 }
 
 /// Moves every run to the mean of what it follows.
@@ -408,7 +416,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
     }
     grouped = group(recording, usable, model, blocks_of(*result.course));
     place_in_time(*result.course, grouped.conditions);
-    bed.time_apart_s = time_apart_s(recording, usable, *result.course);
+    bed.times_apart_s = times_apart_s(recording, usable, *result.course);
   } else if (result.course && result.course->after_run()) {
     take_off(*result.course, result.noise, grouped.channels);
   }

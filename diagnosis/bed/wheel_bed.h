@@ -33,8 +33,9 @@ struct TestBed {
   DiagnosisSetup setup;
   std::vector<Condition> conditions;
   std::vector<ChannelData> channels;
-  /// When it was that replicates differ from those of all other times, if ever.
-  std::optional<Span> time_apart_s = {};
+  /// When it was that replicates differ from those of all other times, if ever; where that touches
+  /// the first or the last time, also the rest.
+  std::vector<Span> times_apart_s = {};
   /// At the prior means: where the sinkages of other soils are sought from.
   std::shared_ptr<const WheelModel> base_model = {};
   WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise

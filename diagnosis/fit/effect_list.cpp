@@ -23,20 +23,6 @@ Span span_of(const TestBed& bed, const auto& column) {
   return span;
 }
 
-/// When the later of two states began, where the time apart is the first or the last.
-std::optional<double> step_s(const TestBed& bed) {
-  if (!bed.time_apart_s) return std::nullopt;
-  Span before, after;
-  for (const Condition& at : bed.conditions) {
-    const double time_s = at.conditions.time_s;
-    if (time_s < bed.time_apart_s->low) before.take(time_s);
-    if (time_s > bed.time_apart_s->high) after.take(time_s);
-  }
-  if (after.width() < 0) return bed.time_apart_s->low;
-  if (before.width() < 0) return after.low;
-  return std::nullopt;
-}
-
 Coordinate positive(std::string name, double low, double high) {
   return {.name = std::move(name),
           .scale = Scale::kLogarithmic,
@@ -72,20 +58,17 @@ Coordinate coordinate_of(const MechanismParameter& parameter) {
 
 struct Columns {
   bool pass = false, speed = false, position = false, time = false, skid = false, driving = false,
-       angle = false, lugs = true, part = false, difference = false, time_apart = false,
-       two_states = false;
+       angle = false, lugs = true, part = false, difference = false, times_apart = false;
 };
 
 bool can_bear(const MechanismForm& form, const Columns& columns) {
   const std::string_view id = form.id;
-  // Of a soil that differs the other soil is recorded: by a reference, or by other days.
-  if (form.form == "for_a_time") return columns.time_apart && !columns.difference;
+  // Of a soil that differs the other soil is recorded: by a reference, or by other times.
+  if (form.form == "for_a_time") return columns.times_apart && !columns.difference;
   if (id == "soil_change") return columns.difference;
   if (id == "multi_pass") return columns.pass;
   if (id == "rate_dependence") return columns.speed;
   if (id == "soil_zone") return columns.position;
-  if (id == "cohesion_drift" && form.form == "step")
-    return columns.two_states && !columns.difference;
   if (id == "cohesion_drift") return columns.time;
   if (id == "skid_branch") return columns.skid;
   if (id == "slip_sinkage") return columns.driving;
@@ -136,8 +119,10 @@ class EffectList {
     } else if (form.form == "for_a_time") {
       std::erase_if(effect.coordinates, [](const Coordinate& c) { return c.name.ends_with("_s"); });
       for (Coordinate& c : effect.coordinates) c.centre = 0;
-      effect.fixed = in_time_apart();
-      push(effect);
+      for (const Span& time_s : bed_.times_apart_s) {
+        effect.fixed = {{"from_s", time_s.low}, {"to_s", time_s.high}};
+        push(effect);
+      }
     } else if (form.id == "slope_tilt") {
       // along x and y apart: the heading of a test bed's wheel is not recorded
       effect.coordinates = {Coordinate{.name = "tilt_rad", .spread = 0.06}};
@@ -145,11 +130,6 @@ class EffectList {
         effect.fixed["direction_rad"] = direction;
         push(effect);
       }
-    } else if (form.id == "cohesion_drift" && form.form == "step") {
-      std::erase_if(effect.coordinates, [](const Coordinate& c) { return c.name != "factor"; });
-      effect.coordinates.front().centre = 0;
-      effect.fixed = {{"from_s", *step_s(bed_)}};
-      push(effect);
     } else if (form.id == "cohesion_drift") {
       const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
       effect.coordinates = form.form == "linear"
@@ -259,10 +239,6 @@ class EffectList {
     return std::nullopt;
   }
 
-  std::map<std::string, double> in_time_apart() const {
-    return {{"from_s", bed_.time_apart_s->low}, {"to_s", bed_.time_apart_s->high}};
-  }
-
   /// A bias or gain of these channels that settles, drifts or is there in the time apart, where the
   /// recording tells the time.
   void add_changing(const std::string& id, const std::vector<std::size_t>& channels) {
@@ -277,11 +253,11 @@ class EffectList {
                   .also = {channels.begin() + 1, channels.end()}};
     std::string names;
     for (const std::size_t c : channels) names += " " + std::string(name(bed_.channels[c].channel));
-    if (columns_.time_apart) {
+    for (const Span& time_s : bed_.times_apart_s) {
       Effect for_a_time = effect;
       for_a_time.form = "for_a_time" + names;
       for_a_time.course = FaultCourse::kForATime;
-      for_a_time.fixed = in_time_apart();
+      for_a_time.fixed = {{"from_s", time_s.low}, {"to_s", time_s.high}};
       push(for_a_time);
     }
     effect.form = "drifting" + names;
@@ -328,8 +304,7 @@ std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, 
       .lugs = bed.setup.lug_height_m.value_or(1) > 0,
       .part = of != EffectsOf::kRecording,
       .difference = of == EffectsOf::kDifference,
-      .time_apart = bed.time_apart_s.has_value(),
-      .two_states = step_s(bed).has_value()};
+      .times_apart = !bed.times_apart_s.empty()};
   EffectList list(bed, columns);
   for (const MechanismForm& form : mechanism_forms()) {
     if (form.form == "carried_soil" && !columns.part) continue;

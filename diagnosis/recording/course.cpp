@@ -48,10 +48,12 @@ void add_stretches(const std::string& name, const std::vector<double>& along,
   std::vector<Column> stretches;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t k = i + 1; k < edges.size(); ++k) {
-      Column column{
-          .name = name, .along = along, .low = edges[i], .high = edges[k], .is_stretch = true};
+      Column column{.name = name, .along = along, .low = edges[i], .is_stretch = true};
+      column.high = edges[i];
       for (const double at : along) {
-        column.value.push_back(at >= column.low && at < column.high ? 1 : 0);
+        const bool inside = at >= edges[i] && at < edges[k];
+        column.value.push_back(inside ? 1 : 0);
+        if (inside) column.high = std::max(column.high, at);
       }
       stretches.push_back(std::move(column));
     }
@@ -62,11 +64,9 @@ void add_stretches(const std::string& name, const std::vector<double>& along,
   }
 }
 
-/// Each day apart from all others, where there are a few.
+/// Each day apart from all others.
 void add_days(const std::vector<WheelRun>& runs, const std::set<double>& days,
               std::vector<Column>& columns) {
-  constexpr std::size_t kMost = 6;
-  if (days.size() > kMost) return;
   double count = 0;
   for (const double day : days) {
     ++count;
@@ -90,7 +90,10 @@ std::vector<Column> columns_of(const Recording& recording) {
   std::vector<Column> columns;
   const std::vector<double> time_s = each([&](std::size_t i) { return runs[i].conditions.time_s; });
   const std::vector<double> order = each([](std::size_t i) { return static_cast<double>(i); });
-  add(recording.columns.time ? "time_s" : "day", time_s, columns);
+  // Of two times alone, as of two days, each apart from the other says the same.
+  if (std::set(time_s.begin(), time_s.end()).size() > 2) {
+    add(recording.columns.time ? "time_s" : "day", time_s, columns);
+  }
   const auto n = static_cast<double>(runs.size());
   add("run_order", order, columns);
   add("warm_up", each([&](std::size_t i) { return std::exp(-8 * static_cast<double>(i) / n); }),
@@ -99,13 +102,20 @@ std::vector<Column> columns_of(const Recording& recording) {
       columns);
   add("after_load_n", each([&](std::size_t i) { return runs[i == 0 ? 0 : i - 1].load_n; }),
       columns);
+  constexpr std::size_t kMostDays = 6;
   std::set<double> days;
   for (const WheelRun& run : runs) days.insert(run.day);
-  if (days.size() > 1) add_days(runs, days, columns);
-  // Days that nobody told begin where they were assumed to.
-  const bool tells_days = days.size() > 1 && recording.columns.day;
-  if (!tells_days && recording.columns.time) add_stretches("time_s", time_s, columns);
-  if (!tells_days && !recording.columns.time) add_stretches("run_order", order, columns);
+  const bool are_few = days.size() > 1 && days.size() <= kMostDays;
+  if (are_few) add_days(runs, days, columns);
+  // Days that nobody told begin where they were assumed to; of many, some may differ together.
+  if (!are_few || !recording.columns.day) {
+    const bool tells_times = std::ranges::any_of(time_s, [&](double t) { return t != time_s[0]; });
+    if (tells_times) {
+      add_stretches(recording.columns.time ? "time_s" : "day", time_s, columns);
+    } else {
+      add_stretches("run_order", order, columns);
+    }
+  }
   if (recording.columns.position) {
     add_stretches("position_m", each([&](std::size_t i) { return runs[i].conditions.position_m; }),
                   columns);
@@ -219,7 +229,10 @@ std::vector<int> blocks_of(const Course& course) {
     const auto before = static_cast<std::size_t>(
         std::ranges::count_if(course.along, [&](double v) { return v < at; }));
     const auto quarter = static_cast<int>(before * kQuarters / course.along.size());
-    block.push_back(2 * quarter + (course.is_stretch && course.value[i] > 0 ? 1 : 0));
+    constexpr int kBefore = 0, kInside = 1, kAfter = 2;
+    int side = kBefore;
+    if (course.is_stretch && at >= course.low) side = at <= course.high ? kInside : kAfter;
+    block.push_back(3 * quarter + side);
   }
   return block;
 }

@@ -18,8 +18,8 @@ struct Course {
   double gain_nats = 0;  ///< over days and scatter alone, all channels
   std::vector<double> along;  ///< of the column, per run
   std::vector<double> value;  ///< what replicates follow, per run, from 0 to 1
-  /// What 0 and 1 stand for, in the column's unit; of a stretch, where it lies on which the value
-  /// is 1; of `on_day` which day of the recording that is, counted from 1.
+  /// What 0 and 1 stand for, in the column's unit; of a stretch, the first and the last of those
+  /// whose value is 1; of `on_day` which day of the recording that is, counted from 1.
   double low = 0, high = 0;
   bool is_stretch = false;  ///< the value is 1 on a part of the column and 0 elsewhere
   std::vector<std::vector<double>> trend;  ///< per channel and run, as estimate_noise() takes it

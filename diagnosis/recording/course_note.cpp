@@ -16,6 +16,9 @@ std::string course_words(const Course& course) {
     return fmt::format("differ on day {:.0f} of the recording", course.low);
   }
   if (!course.is_stretch) return fmt::format("follow {}", course.column);
+  if (course.column == "run_order") {
+    return fmt::format("differ at runs {:.0f} to {:.0f}", course.low + 1, course.high + 1);
+  }
   return fmt::format("differ at {} {:.6g} to {:.6g}", course.column, course.low, course.high);
 }
 

@@ -38,9 +38,9 @@ Recording with_days(Recording recording) {
 }
 
 bool tells_times(const Recording& recording) {
-  return recording.columns.time || std::ranges::any_of(recording.runs, [&](const WheelRun& run) {
-           return run.conditions.time_s != recording.runs.front().conditions.time_s;
-         });
+  return std::ranges::any_of(recording.runs, [&](const WheelRun& run) {
+    return run.conditions.time_s != recording.runs.front().conditions.time_s;
+  });
 }
 
 Recording with_even_times(Recording recording, const std::vector<Condition>& conditions) {

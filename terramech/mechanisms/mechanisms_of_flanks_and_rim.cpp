@@ -95,8 +95,8 @@ std::vector<Definition> of_flanks_and_rim() {
         "another preparation of the bed; told by the replicates of other days",
         {{"from_s", 0, 1e6, 0},
          {"to_s", 0, 1e6, 8.64e4},
-         {"stiffness", .3, 3, 1},
-         {"limit", .7, 1.4, 1}}},
+         {"stiffness", .3, 3, .5},
+         {"limit", .7, 1.4, .8}}},
        [](E e, P p, S at) {
          if (at.conditions.time_s < p[0] || at.conditions.time_s > p[1]) return e;
          e.stiffness *= p[2];

@@ -142,12 +142,13 @@ std::vector<Definition> of_soil() {
          return e;
        }},
       {{"cohesion_drift",
-        "step",
-        "from <= time: c = a c0",
+        "for_a_time",
+        "from <= time <= to: c = a c0",
         "soil that was wetted or sieved anew (proxy)",
-        {{"from_s", 0, 1e6, 1e4}, {"factor", .2, 3, .5}}},
+        {{"from_s", 0, 1e6, 0}, {"to_s", 0, 1e6, 8.64e4}, {"factor", .2, 3, .5}}},
        [](E e, P p, S at) {
-         if (at.conditions.time_s >= p[0]) e.soil.cohesion_pa *= p[1];
+         const double time_s = at.conditions.time_s;
+         if (time_s >= p[0] && time_s <= p[1]) e.soil.cohesion_pa *= p[2];
          return e;
        }},
   };

@@ -136,7 +136,8 @@ TEST_F(ScenarioSettings, WhatAModelSaysOfItsTestBedIsLeftBehind) {
       "m.yaml", replaced(replaced(kSimulantModel, "soil_name: simulant\n", ""), "mechanisms: []",
                          "mechanisms: [{id: slope_tilt}, {id: grousers}, {id: load_transfer}, "
                          "{id: slip_scale}, {id: soil_zone}, {id: multi_pass}, "
-                         "{id: soil_change, form: for_a_time}, {id: soil_change}]"));
+                         "{id: soil_change, form: for_a_time}, {id: cohesion_drift, form: "
+                         "for_a_time}, {id: soil_change}]"));
   const Scenario read = scenario("200", "201", {.model_file = model});
   ASSERT_EQ(read.problem.mechanisms.size(), 3u);
   EXPECT_EQ(read.problem.mechanisms[0].id, "grousers");
@@ -148,7 +149,7 @@ TEST_F(ScenarioSettings, WhatAModelSaysOfItsTestBedIsLeftBehind) {
       return notice.find(words) != std::string::npos;
     });
   };
-  EXPECT_EQ(told("is left out"), 5);
+  EXPECT_EQ(told("is left out"), 6);
   EXPECT_EQ(told("slope_tilt is left out"), 1);
   EXPECT_EQ(told("multi_pass changes nothing here"), 1);
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnosis/bed/condensed_recording.h"
@@ -234,9 +235,9 @@ class FaultOfADay : public testing::Test {
 };
 
 TEST_F(FaultOfADay, IsLookedForBetweenTheTimesOfThatDay) {
-  ASSERT_TRUE(bed.time_apart_s.has_value());
-  EXPECT_NEAR(bed.time_apart_s->low, 86400, 1);
-  EXPECT_NEAR(bed.time_apart_s->high, 86400, 1);
+  ASSERT_EQ(bed.times_apart_s.size(), 1);
+  EXPECT_EQ(bed.times_apart_s[0].low, 86400);
+  EXPECT_EQ(bed.times_apart_s[0].high, 86400);
 }
 
 TEST_F(FaultOfADay, AZeroOrGainIsThereOnThatDayOnly) {
@@ -269,25 +270,41 @@ TEST_F(FaultOfADay, ABedMayHaveBeenAnotherOnThatDayOnly) {
   EXPECT_TRUE(is_told_by_time(other_bed));
 }
 
-TEST_F(FaultOfADay, CohesionMayBeAnotherFromADayOnWhereTheFirstOrTheLastDiffers) {
-  const auto step_of = [&](double day) {
+TEST_F(FaultOfADay, TheRestMayBeWhatIsOffWhereTheFirstOrTheLastDayDiffers) {
+  using Days = std::vector<std::array<double, 2>>;
+  const auto days_of = [&](const std::string& id, double day) {
     const Recording made = on_three_days(day);
-    std::vector<double> from_s;
+    Days days;
     for (const Effect& e : effects_for(condense(made, setup).bed, made)) {
-      if (e.id == "cohesion_drift" && e.form == "step") from_s.push_back(e.fixed.at("from_s"));
+      if (e.id != id || e.form != "for_a_time") continue;
+      days.push_back({e.fixed.at("from_s") / 86400, e.fixed.at("to_s") / 86400});
     }
-    return from_s;
+    return days;
   };
-  EXPECT_EQ(step_of(0), std::vector<double>{86400}) << "from the second day on";
-  EXPECT_EQ(step_of(1), std::vector<double>{});
-  EXPECT_EQ(step_of(2), std::vector<double>{2 * 86400.0});
+  for (const std::string id : {"soil_change", "cohesion_drift"}) {
+    EXPECT_EQ(days_of(id, 0), (Days{{0, 0}, {1, 2}}));
+    EXPECT_EQ(days_of(id, 1), (Days{{1, 1}}));
+    EXPECT_EQ(days_of(id, 2), (Days{{2, 2}, {0, 1}}));
+  }
+}
+
+TEST_F(FaultOfADay, IsNotLookedForWhereClocksStartAnewEachDay) {
+  Recording made = on_three_days();
+  made.columns.time = true;
+  for (std::size_t i = 0; i < made.runs.size(); ++i) {
+    made.runs[i].conditions.time_s = 600 * static_cast<double>(i % 30);
+  }
+  const CondensedRecording found = condense(made, setup);
+  ASSERT_TRUE(found.course.has_value());
+  EXPECT_EQ(found.course->column, "on_day");
+  EXPECT_TRUE(found.bed.times_apart_s.empty());
 }
 
 TEST_F(FaultOfADay, IsLookedForOnlyWhereADayDiffers) {
   Recording alike = recording;
   for (WheelRun& run : alike.runs) run.measured[0] -= run.day == 1 ? kZero_n : 0;
   const TestBed without = condense(alike, setup).bed;
-  EXPECT_FALSE(without.time_apart_s.has_value());
+  EXPECT_TRUE(without.times_apart_s.empty());
   for (const Effect& effect : effects_for(without, alike)) {
     EXPECT_NE(effect.id, "soil_change");
     EXPECT_NE(effect.course, FaultCourse::kForATime);

@@ -186,47 +186,56 @@ TEST(Course, WhereOnlyTimesAreToldANightBeginsTheNextDay) {
   EXPECT_EQ(condense(recording, simulant_setup()).day, told);
 }
 
-/// Runs of one day in any order, the zero of drawbar pull off on the middle fifth of them and on.
-Recording off_for_a_time(std::uint64_t seed, double zero_n) {
+/// Runs of one day in any order, the zero of drawbar pull off on a part of them.
+Recording off_for_a_time(std::uint64_t seed, double zero_n, std::array<double, 2> part) {
   Recording recording = recorded(seed, 0);
   std::mt19937_64 random(seed);
   std::ranges::shuffle(recording.runs, random);
-  const std::size_t n = recording.runs.size();
-  for (std::size_t i = 2 * n / 5; i < 4 * n / 5; ++i) recording.runs[i].measured[0] += zero_n;
-  for (std::size_t i = 0; i < n; ++i) {
-    recording.runs[i].conditions.time_s = 600 * static_cast<double>(i);
+  const auto n = static_cast<double>(recording.runs.size());
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    const auto at = static_cast<double>(i);
+    recording.runs[i].conditions.time_s = 600 * at;
+    if (at >= part[0] * n && at < part[1] * n) recording.runs[i].measured[0] += zero_n;
   }
   return recording;
 }
 
-TEST(Course, WhatDiffersForATimeIsToldWithItsEdges) {
-  Recording recording = off_for_a_time(5, 6);
+/// A part of the runs, as shares of their number; the shorter lies within one quarter of them.
+class ForATime : public testing::TestWithParam<std::array<double, 2>> {};
+INSTANTIATE_TEST_SUITE_P(Course, ForATime,
+                         testing::Values(std::array{0.4, 0.8}, std::array{0.3125, 0.4375}));
+
+TEST_P(ForATime, WhatDiffersIsToldWithItsEdges) {
+  Recording recording = off_for_a_time(5, 6, GetParam());
   recording.columns.time = true;
   const CondensedRecording found = condense(recording, simulant_setup());
   ASSERT_TRUE(found.course.has_value());
   EXPECT_TRUE(found.course->for_a_time());
   EXPECT_EQ(found.course->column, "time_s");
   const double whole_s = 600 * static_cast<double>(recording.runs.size());
-  EXPECT_NEAR(found.course->low / whole_s, 0.4, 0.07);
-  EXPECT_NEAR(found.course->high / whole_s, 0.8, 0.07);
-  ASSERT_TRUE(found.bed.time_apart_s.has_value());
+  EXPECT_NEAR(found.course->low / whole_s, GetParam()[0], 0.07);
+  EXPECT_NEAR(found.course->high / whole_s, GetParam()[1], 0.07);
+  ASSERT_FALSE(found.bed.times_apart_s.empty());
+  const Span& apart = found.bed.times_apart_s[0];
   for (const Condition& at : found.bed.conditions) {
+    const double time_s = at.conditions.time_s;
+    const bool inside = time_s >= apart.low && time_s <= apart.high;
     for (const std::size_t run : at.runs) {
-      EXPECT_EQ(found.course->value[run], found.course->value[at.runs.front()])
+      EXPECT_EQ(found.course->value[run] > 0, inside)
           << "no condition lies on both sides of an edge";
     }
   }
 }
 
 TEST(Course, WhereNeitherTimesNorDaysAreToldRunsFollowEachOtherEvenly) {
-  const Recording recording = off_for_a_time(5, 6);
+  const Recording recording = off_for_a_time(5, 6, {0.4, 0.8});
   const CondensedRecording found = condense(recording, simulant_setup());
   ASSERT_TRUE(found.course.has_value());
   EXPECT_EQ(found.course->column, "run_order");
-  ASSERT_TRUE(found.bed.time_apart_s.has_value());
+  ASSERT_FALSE(found.bed.times_apart_s.empty());
   const double last_s = 3 * 86400.0 * (1 - 1.0 / static_cast<double>(recording.runs.size()));
-  EXPECT_NEAR(found.bed.time_apart_s->low / last_s, 0.4, 0.07) << "three replicates: three days";
-  EXPECT_NEAR(found.bed.time_apart_s->high / last_s, 0.8, 0.07);
+  EXPECT_NEAR(found.bed.times_apart_s[0].low / last_s, 0.4, 0.07) << "three replicates: three days";
+  EXPECT_NEAR(found.bed.times_apart_s[0].high / last_s, 0.8, 0.07);
   EXPECT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
     return note.starts_with("the recording tells no times");
   }));

@@ -247,9 +247,12 @@ function furtherRecordings() {
   if (['partly', 'class', 'unexplained'].includes(verdict) && !references.length)
     said.push(
         'A reference (same rig and soil, without the effect that is looked for) would tell what this test adds from what the base model lacks anyway: with --reference only the difference is explained.');
-  const by_time = ['cohesion_drift', 'sensor_gain', 'soil_zone', 'multi_pass'];
+  const by_time = ['cohesion_drift', 'soil_change', 'soil_zone', 'multi_pass'];
+  const courses = /^(settling|drifting|for_a_time)/;
   const in_question =
-      mechanisms.flatMap(m => [m.id, ...m.equivalent]).filter(id => by_time.includes(id));
+      mechanisms
+          .flatMap(m => courses.test(m.form) ? [m.id, ...m.equivalent] :
+                                               [m.id, ...m.equivalent].filter(id => by_time.includes(id)));
   if (in_question.length)
     said.push(
         `A repeat of the same conditions at another time, in another order, would tell ${
