@@ -409,6 +409,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   if (result.course) result.notes.push_back(course_note(*result.course, result.noise));
   if (result.course && result.course->in_time()) {
     if (!tells_times(recording)) {
+      bed.times_are_assumed = true;
       recording = with_even_times(std::move(recording), replicated.conditions);
       result.notes.emplace_back(
           "the recording tells no times: runs are taken to follow each other evenly, a round of "

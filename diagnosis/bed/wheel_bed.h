@@ -36,6 +36,7 @@ struct TestBed {
   /// When it was that replicates differ from those of all other times, if ever; where that touches
   /// the first or the last time, also the rest.
   std::vector<Span> times_apart_s = {};
+  bool times_are_assumed = false;  ///< evenly in the order of the runs
   /// At the prior means: where the sinkages of other soils are sought from.
   std::shared_ptr<const WheelModel> base_model = {};
   WheelAccuracy accuracy = WheelAccuracy::kExact;  ///< fast where its error is far below the noise

@@ -16,7 +16,11 @@ struct PlaceColumn {
   double from_share;               ///< of the most that it does: where it does more, there it is
 };
 
-std::optional<PlaceColumn> column_of(const Effect& effect) {
+/// Nothing where what replicates follow says it already: which day it was, or, where times are only
+/// assumed, which runs.
+std::optional<PlaceColumn> column_of(const TestBed& bed, const Effect& effect) {
+  const bool has_a_course = !bed.times_apart_s.empty() || bed.times_are_assumed;
+  if (is_told_by_time(effect) && has_a_course) return std::nullopt;
   if (is_told_by_time(effect)) return PlaceColumn{"time_s", &WheelConditions::time_s, 0.5};
   if (effect.id == "soil_zone")
     return PlaceColumn{"position_m", &WheelConditions::position_m, 0.01};
@@ -58,7 +62,7 @@ std::vector<MismatchRegion> claimed_places(const FitProblem& problem, const Cand
   const TestBed& bed = problem.bed;
   std::vector<MismatchRegion> places;
   for (std::size_t e = 0; e < fit.candidate.effects.size(); ++e) {
-    const auto place = column_of(fit.candidate.effects[e]);
+    const auto place = column_of(bed, fit.candidate.effects[e]);
     if (!place) continue;
     const auto part = part_of(bed, problem.soil, fit, e);
     if (!part) continue;

@@ -254,5 +254,23 @@ TEST(Diagnose, IdenticalReplicatesAreAnError) {
   EXPECT_THROW(diagnose(recording, setup), InputError);
 }
 
+TEST(Diagnose, ABedThatWasAnotherOnOneDayIsNamedWithThatDay) {
+  const DiagnosisSetup setup = simulant_setup();
+  const BedPlan plan{.conditions = 30};
+  Recording recording = record({}, setup, setup.soil.mean, plan, 3);
+  Soil looser = setup.soil.mean;
+  looser.kc *= 0.5;
+  looser.kphi *= 0.5;
+  const Recording anew = record({}, setup, looser, plan, 3);
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    if (recording.runs[i].day == 1) recording.runs[i] = anew.runs[i];
+  }
+  const Diagnosis found = diagnose(recording, setup, {});
+  EXPECT_TRUE(names(found, "soil_change")) << found.sentence;
+  ASSERT_FALSE(found.where.empty());
+  EXPECT_EQ(found.where.front().region.count("on_day"), 1) << found.sentence;
+  EXPECT_NE(found.sentence.find("day 2 of the recording"), std::string::npos) << found.sentence;
+}
+
 }  // namespace
 }  // namespace regoplan
