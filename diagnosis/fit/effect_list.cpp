@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -54,6 +55,10 @@ Coordinate coordinate_of(const MechanismParameter& parameter) {
   Coordinate coordinate = positive(name, low, parameter.high);
   coordinate.min = std::max(parameter.least, coordinate.min);
   return coordinate;
+}
+
+std::map<std::string, double> window(const Span& time_s) {
+  return {{"from_s", time_s.low}, {"to_s", time_s.high}};
 }
 
 struct Columns {
@@ -120,7 +125,7 @@ class EffectList {
       std::erase_if(effect.coordinates, [](const Coordinate& c) { return c.name.ends_with("_s"); });
       for (Coordinate& c : effect.coordinates) c.centre = 0;
       for (const Span& time_s : bed_.times_apart_s) {
-        effect.fixed = {{"from_s", time_s.low}, {"to_s", time_s.high}};
+        effect.fixed = window(time_s);
         push(effect);
       }
     } else if (form.id == "slope_tilt") {
@@ -257,7 +262,7 @@ class EffectList {
       Effect for_a_time = effect;
       for_a_time.form = "for_a_time" + names;
       for_a_time.course = FaultCourse::kForATime;
-      for_a_time.fixed = {{"from_s", time_s.low}, {"to_s", time_s.high}};
+      for_a_time.fixed = window(time_s);
       push(for_a_time);
     }
     effect.form = "drifting" + names;

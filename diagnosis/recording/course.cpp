@@ -7,11 +7,15 @@
 
 #include "diagnosis/recording/replicate_contrasts.h"
 #include "diagnosis/recording/replicates.h"
+#include "diagnosis/recording/run_times.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
+
+/// Up to which days are looked at one by one.
+constexpr std::size_t kMostDays = 6;
 
 struct Column {
   std::string name;
@@ -48,8 +52,8 @@ void add_stretches(const std::string& name, const std::vector<double>& along,
   std::vector<Column> stretches;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t k = i + 1; k < edges.size(); ++k) {
-      Column column{.name = name, .along = along, .low = edges[i], .is_stretch = true};
-      column.high = edges[i];
+      Column column{
+          .name = name, .along = along, .low = edges[i], .high = edges[i], .is_stretch = true};
       for (const double at : along) {
         const bool inside = at >= edges[i] && at < edges[k];
         column.value.push_back(inside ? 1 : 0);
@@ -102,15 +106,13 @@ std::vector<Column> columns_of(const Recording& recording) {
       columns);
   add("after_load_n", each([&](std::size_t i) { return runs[i == 0 ? 0 : i - 1].load_n; }),
       columns);
-  constexpr std::size_t kMostDays = 6;
   std::set<double> days;
   for (const WheelRun& run : runs) days.insert(run.day);
   const bool are_few = days.size() > 1 && days.size() <= kMostDays;
   if (are_few) add_days(runs, days, columns);
   // Days that nobody told begin where they were assumed to; of many, some may differ together.
   if (!are_few || !recording.columns.day) {
-    const bool tells_times = std::ranges::any_of(time_s, [&](double t) { return t != time_s[0]; });
-    if (tells_times) {
+    if (tells_times(recording)) {
       add_stretches(recording.columns.time ? "time_s" : "day", time_s, columns);
     } else {
       add_stretches("run_order", order, columns);
@@ -217,7 +219,7 @@ std::optional<Course> likeliest_course(const Recording& recording,
 }
 
 std::vector<int> blocks_of(const Course& course) {
-  constexpr std::size_t kMostDays = 6, kQuarters = 4;
+  constexpr std::size_t kQuarters = 4;
   const std::set<double> values(course.along.begin(), course.along.end());
   std::vector<int> block;
   for (std::size_t i = 0; i < course.along.size(); ++i) {

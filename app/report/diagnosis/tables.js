@@ -249,10 +249,8 @@ function furtherRecordings() {
         'A reference (same rig and soil, without the effect that is looked for) would tell what this test adds from what the base model lacks anyway: with --reference only the difference is explained.');
   const by_time = ['cohesion_drift', 'soil_change', 'soil_zone', 'multi_pass'];
   const courses = /^(settling|drifting|for_a_time)/;
-  const in_question =
-      mechanisms
-          .flatMap(m => courses.test(m.form) ? [m.id, ...m.equivalent] :
-                                               [m.id, ...m.equivalent].filter(id => by_time.includes(id)));
+  const in_question = mechanisms.flatMap(
+      m => [m.id, ...m.equivalent].filter(id => courses.test(m.form) || by_time.includes(id)));
   if (in_question.length)
     said.push(
         `A repeat of the same conditions at another time, in another order, would tell ${
