@@ -4,6 +4,38 @@
 #include <cmath>
 
 namespace regoplan {
+namespace {
+
+/// Of a factor's prior standard deviation: what a weaker soil does is far from linear beyond.
+constexpr double kFactorTriedAt = -0.5;
+
+/// The soil as calibrated and the effect at its usual size; of factors the first alone, weakened.
+Eigen::VectorXd usual_size(const Eigen::VectorXd& soil, const Effect& effect) {
+  Eigen::VectorXd x =
+      Eigen::VectorXd::Zero(soil.size() + static_cast<Eigen::Index>(effect.coordinates.size()));
+  x.head(soil.size()) = soil;
+  for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
+    const Coordinate& c = effect.coordinates[i];
+    double& at = x[soil.size() + static_cast<Eigen::Index>(i)];
+    if (!c.is_positive()) at = 1;
+    if (c.is_factor() && i == 0) at = kFactorTriedAt;
+  }
+  return x;
+}
+
+/// \param x of the first coordinate at the usual size \param share of that size that is shown
+SmallestDetectable smallest_of(const Effect& effect, double x, double share) {
+  SmallestDetectable smallest{.id = effect.id, .parameter = "share", .value = share, .high = 1};
+  if (effect.coordinates.empty()) return smallest;
+  const Coordinate& c = effect.coordinates.front();
+  smallest.parameter = c.name;
+  smallest.value = c.is_factor() ? c.value(share * x) : share * c.value(x);
+  smallest.low = c.is_positive() ? c.value(-1) : c.value(-1.5);
+  smallest.high = c.is_positive() ? c.value(1) : c.value(1.5);
+  return smallest;
+}
+
+}  // namespace
 
 std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
                                                     const CandidateFit& base,
@@ -18,13 +50,12 @@ std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
     lambda = std::max(n * (critical - 1) + 0.84 * std::sqrt(2 * n + 4 * lambda), 1.0);
   }
   for (const Effect& effect : effects) {
-    if (std::ranges::any_of(all, [&](const auto& s) { return s.id == effect.id; })) continue;
+    const bool is_factor = !effect.coordinates.empty() && effect.coordinates.front().is_factor();
+    const auto same =
+        std::ranges::find(all, effect.id, [](const SmallestDetectable& s) { return s.id; });
+    if (same != all.end() && !is_factor) continue;
     Hypothesis candidate{{effect}};
-    Eigen::VectorXd x(base.x.size() + static_cast<Eigen::Index>(effect.coordinates.size()));
-    x.head(base.x.size()) = base.x;
-    for (std::size_t i = 0; i < effect.coordinates.size(); ++i) {
-      x[base.x.size() + static_cast<Eigen::Index>(i)] = effect.coordinates[i].is_positive() ? 0 : 1;
-    }
+    const Eigen::VectorXd x = usual_size(base.x, effect);
     const auto with = predict(problem.bed, problem.soil, candidate, x);
     if (!with) continue;
     const Posterior posterior =
@@ -34,16 +65,13 @@ std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
     const double shown =
         misfit_of(problem.bed, problem.discrepancy, left, noise_only) + posterior.x.squaredNorm();
     if (!(shown > 0)) continue;
-    const double factor = std::sqrt(lambda / shown);
-    SmallestDetectable smallest{.id = effect.id, .parameter = "share", .value = factor, .high = 1};
-    if (!effect.coordinates.empty()) {
-      const Coordinate& c = effect.coordinates.front();
-      smallest.parameter = c.name;
-      smallest.value = factor * c.value(x[base.x.size()]);
-      smallest.low = c.is_positive() ? c.value(-1) : c.value(-1.5);
-      smallest.high = c.is_positive() ? c.value(1) : c.value(1.5);
+    const SmallestDetectable smallest =
+        smallest_of(effect, x[base.x.size()], std::sqrt(lambda / shown));
+    if (same == all.end()) {
+      all.push_back(smallest);
+    } else if (same->parameter == smallest.parameter && smallest.value < same->value) {
+      *same = smallest;
     }
-    all.push_back(smallest);
   }
   return all;
 }

@@ -24,6 +24,8 @@ struct Coordinate {
   double min = -1e300, max = 1e300;  ///< valid range of the number
 
   bool is_positive() const { return scale != Scale::kLinear; }
+  /// A factor that is as likely above 1 as below, 1 being no change.
+  bool is_factor() const { return scale == Scale::kLogarithmic && centre == 0; }
 
   double value(double x) const;
   double at(double value) const;  ///< the x of a number

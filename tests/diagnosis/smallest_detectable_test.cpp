@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "calibrated_bed.h"
 
 namespace regoplan {
@@ -42,6 +44,30 @@ TEST(SmallestDetectable, AnEffectOfTwiceThatSizeIsDetected) {
     const Diagnosis found = diagnose(recording, setup);
     EXPECT_TRUE(found.verdict != Verdict::kConsistent && found.verdict != Verdict::kParameters)
         << id << ": " << found.sentence;
+  }
+}
+
+/// A zone has no usual size, only a factor that may be anything about 1.
+TEST(SmallestDetectable, AZoneTwiceAsFarFromTheSoilAroundIsDetectedWhereverItLies) {
+  const DiagnosisSetup setup = simulant_setup();
+  const BedPlan plan{.day = 0, .outliers = 0, .positions = true};
+  const Diagnosis silent = diagnose(record({}, setup, setup.soil.mean, plan, 1), setup);
+  ASSERT_TRUE(silent.verdict == Verdict::kConsistent || silent.verdict == Verdict::kParameters);
+  const auto smallest = std::ranges::find(silent.smallest_detectable, "soil_zone",
+                                          [](const auto& s) { return s.id; });
+  ASSERT_NE(smallest, silent.smallest_detectable.end());
+  ASSERT_EQ(smallest->parameter, "stiffness");
+  ASSERT_LT(smallest->value, 1);
+  ASSERT_GT(smallest->value, smallest->low) << "not to be seen on this bed at all";
+  for (const double from_m : {0.0, 0.5, 0.875}) {
+    TrueWheel zone;
+    zone.stiffness = [&](const WheelRun& run) {
+      const double at_m = run.conditions.position_m;
+      return at_m >= from_m && at_m <= from_m + 0.125 ? std::pow(smallest->value, 2) : 1;
+    };
+    const Diagnosis found = diagnose(record(zone, setup, setup.soil.mean, plan, 1), setup);
+    EXPECT_TRUE(found.verdict != Verdict::kConsistent && found.verdict != Verdict::kParameters)
+        << from_m << " m: " << found.sentence;
   }
 }
 
