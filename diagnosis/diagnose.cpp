@@ -129,6 +129,28 @@ class Diagnosing {
     const LackOfFit at_means =
         lack_of_fit(recording, fixed, options_.seed, Thresholds::kConsistent_p);
     consistent_ = at_means.f <= at_means.critical;
+    if (consistent_ || soil_explains_something()) return;
+    consistent_ = true;
+    found_.notes.push_back(
+        fmt::format("noise alone misfits the prior soil numbers as far with a probability of "
+                    "{:.2g}; other soil numbers explain nothing of it",
+                    at_means.p_value));
+  }
+
+  /// Whether calibrated soil numbers gain more over their prior means, the pulls on them counted,
+  /// than numbers that are free within their priors gain of noise: by two standard deviations.
+  bool soil_explains_something() const {
+    const TestBed& bed = calibrated_.bed();
+    const Discrepancy& discrepancy = calibrated_.problem().discrepancy;
+    const CandidateFit& base = calibrated_.base();
+    const std::vector<std::size_t> noise_only(bed.channels.size(), 0);
+    const auto misfit = [&](const Eigen::VectorXd& prediction) {
+      return misfit_of(bed, discrepancy, bed.measured() - prediction, noise_only);
+    };
+    const double gain = misfit(calibrated_.prediction_at_prior_means()) - misfit(base.prediction) -
+                        base.x.squaredNorm();
+    const double told = static_cast<double>(base.x.size()) - base.evidence.covariance.trace();
+    return gain > told + 2 * std::sqrt(2 * std::max(told, 0.0));
   }
 
   /// Where replicates follow a course, the part of it in which a channel is off comes first.

@@ -53,6 +53,21 @@ TEST(Diagnose, WrongSoilNumbersAreParameters) {
   EXPECT_EQ(found.verdict, Verdict::kParameters) << found.sentence;
 }
 
+/// In one of twenty recordings noise misfits the soil that is there by more than in the others.
+TEST(Diagnose, SoilNumbersThatExplainNothingOfWhatNoiseDoesAreNoParameters) {
+  DiagnosisSetup setup = simulant_setup();
+  setup.soil.standard_deviation = UncertainSoil{}.standard_deviation;
+  setup.soil.standard_deviation.friction_angle_rad = 0.02;
+  constexpr std::uint64_t kSuchARecording = 43;
+  const BedPlan plan{.conditions = 24, .replicates = 2, .day = 0, .outliers = 0};
+  const Diagnosis found =
+      diagnose(record({}, setup, setup.soil.mean, plan, kSuchARecording), setup);
+  ASSERT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
+    return note.find("other soil numbers explain nothing of it") != std::string::npos;
+  }));
+  EXPECT_EQ(found.verdict, Verdict::kConsistent) << found.sentence;
+}
+
 TEST(Diagnose, ASoilFartherFromItsTestsThanSoilsLieIsNoCleanBill) {
   const DiagnosisSetup setup = simulant_setup();
   Soil soil = setup.soil.mean;

@@ -236,7 +236,7 @@ function fitTable(host) {
         'p', {class: 'note'},
         DIAGNOSIS.excess_is_clear ?
             `Share of the excess misfit that the correction explains: ${
-                percent(Math.min(1, DIAGNOSIS.share_explained))}.` :
+                percent(DIAGNOSIS.share_explained)}.` :
             'On held-out conditions the misfit is not clear of noise: no share of it can be told.'));
 }
 
