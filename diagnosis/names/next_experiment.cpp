@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "terramech/basics/angles.h"
 
@@ -42,8 +43,27 @@ std::vector<double> distinct(std::vector<double> values) {
   return kept;
 }
 
-std::vector<Condition> trial_conditions(const TestBed& bed) {
-  double low = INFINITY, high = -INFINITY, widest = 0;
+/// Where on the bed to measure: four places along it where a name has its own, else anywhere.
+std::vector<double> positions_to_try(const TestBed& bed, const std::vector<ScoredId>& rivals) {
+  const bool places_matter = std::ranges::any_of(rivals, [](const ScoredId& rival) {
+    return std::ranges::any_of(rival.fit.candidate.effects,
+                               [](const Effect& effect) { return effect.id == "soil_zone"; });
+  });
+  std::vector<double> along;
+  for (const Condition& at : bed.conditions) along.push_back(at.conditions.position_m);
+  if (!places_matter) return {along.front()};
+  std::ranges::sort(along);
+  constexpr std::size_t kPlaces = 4;
+  std::vector<double> positions_m;
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    positions_m.push_back(along[(2 * k + 1) * along.size() / (2 * kPlaces)]);
+  }
+  return distinct(std::move(positions_m));
+}
+
+/// What is measured next comes after the last run.
+std::vector<Condition> trial_conditions(const TestBed& bed, const std::vector<ScoredId>& rivals) {
+  double low = INFINITY, high = -INFINITY, widest = 0, last_time_s = -INFINITY;
   std::vector<double> loads, speeds, passes;
   for (const Condition& at : bed.conditions) {
     low = std::min(low, at.slip_ratio);
@@ -52,6 +72,7 @@ std::vector<Condition> trial_conditions(const TestBed& bed) {
     loads.push_back(at.load_n);
     speeds.push_back(at.conditions.speed_mps);
     passes.push_back(at.conditions.pass);
+    last_time_s = std::max(last_time_s, at.conditions.time_s);
   }
   std::ranges::sort(loads);
   const double middle = loads[loads.size() / 2];
@@ -61,7 +82,14 @@ std::vector<Condition> trial_conditions(const TestBed& bed) {
       distinct({0.0, widest / 2, widest,
                 std::max(widest, std::min(1.5 * widest + 5 * kDegree, 45 * kDegree)), -widest});
   const std::vector<double> speed = distinct(speeds), pass = distinct(passes);
+  const std::vector<double> positions_m = positions_to_try(bed, rivals);
   std::vector<Condition> trials;
+  const auto try_along_the_bed = [&](Condition at) {
+    for (const double position_m : positions_m) {
+      at.conditions.position_m = position_m;
+      trials.push_back(at);
+    }
+  };
   for (const double s : slips) {
     for (const double b : angles) {
       for (const double load : distinct({0.5 * loads.front(), middle, 1.5 * loads.back()})) {
@@ -73,7 +101,8 @@ std::vector<Condition> trial_conditions(const TestBed& bed) {
                          .conditions = bed.conditions.front().conditions};
             at.conditions.speed_mps = v;
             at.conditions.pass = static_cast<int>(n);
-            trials.push_back(at);
+            at.conditions.time_s = last_time_s;
+            try_along_the_bed(at);
           }
         }
       }
@@ -96,9 +125,9 @@ double unmeasured_noise(const TestBed& bed, Channel channel) {
   return channel == Channel::kFx || channel == Channel::kFy ? force : sinkage;
 }
 
-std::vector<Trial> trials_of(const TestBed& bed) {
+std::vector<Trial> trials_of(const TestBed& bed, const std::vector<ScoredId>& rivals) {
   std::vector<Trial> trials;
-  for (const Condition& at : trial_conditions(bed)) {
+  for (const Condition& at : trial_conditions(bed, rivals)) {
     Trial trial{.bed = {.setup = bed.setup,
                         .conditions = {at},
                         .base_model = bed.base_model,
@@ -157,7 +186,7 @@ std::vector<Experiment> next_experiments(const FitProblem& problem,
   constexpr double kNames_nats = 0.5;  // pairs parted at least so far are listed
   std::vector<Experiment> experiments;
   if (rivals.size() < 2) return experiments;
-  for (const Trial& trial : trials_of(problem.bed)) {
+  for (const Trial& trial : trials_of(problem.bed, rivals)) {
     std::vector<Forecast> forecasts;
     for (const ScoredId& rival : rivals) {
       auto f = forecast(trial.bed, problem, rival.fit);
@@ -188,6 +217,9 @@ std::vector<Experiment> next_experiments(const FitProblem& problem,
                                {"load_n", at.load_n}};
       if (at.conditions.speed_mps > 0) {
         experiment.conditions["speed_mps"] = at.conditions.speed_mps;
+      }
+      if (positions_to_try(problem.bed, rivals).size() > 1) {
+        experiment.conditions["position_m"] = at.conditions.position_m;
       }
       if (at.conditions.pass > 1) experiment.conditions["pass"] = at.conditions.pass;
     }

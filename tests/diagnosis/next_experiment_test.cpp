@@ -83,6 +83,47 @@ TEST(NextExperiment, NoOtherAllowedConditionPartsTheNamesBetter) {
   }
 }
 
+TEST(NextExperiment, AZoneIsToldFromOtherNamesWhereThesePartMost) {
+  TrueWheel wheel;
+  constexpr double kFrom_m = 0.55, kTo_m = 0.75;
+  wheel.stiffness = [](const WheelRun& run) {
+    const double at_m = run.conditions.position_m;
+    return at_m >= kFrom_m && at_m <= kTo_m ? 0.5 : 1;
+  };
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording raw = record(wheel, setup, setup.soil.mean, {.positions = true}, 1);
+  const CalibratedBed bed(raw);
+  std::vector<ScoredId> rivals{fitted(bed, raw, "layered_soil")};
+  for (const Effect& effect : effects_for(bed.recording.bed, raw)) {
+    if (effect.id != "soil_zone" || effect.fixed.at("from_m") > kFrom_m ||
+        effect.fixed.at("to_m") < kFrom_m + 0.1)
+      continue;
+    Eigen::VectorXd start = Eigen::VectorXd::Zero(
+        bed.fit.x.size() + static_cast<Eigen::Index>(effect.coordinates.size()));
+    start.head(bed.fit.x.size()) = bed.fit.x;
+    rivals.push_back(
+        {.account = {.effects = {effect.id}},
+         .probability = 0.5,
+         .fit = *fit_candidate(bed.problem(), {{effect}}, SettingWeights::of_named(), start)});
+    break;
+  }
+  ASSERT_EQ(rivals.size(), 2);
+  const std::vector<Experiment> proposed = next_experiments(bed.problem(), rivals);
+  const auto best = std::ranges::find_if(proposed, [](const auto& e) { return !e.further_sensor; });
+  ASSERT_NE(best, proposed.end());
+  Condition at{.load_n = best->conditions.at("load_n"),
+               .slip_ratio = best->conditions.at("slip_ratio"),
+               .slip_angle_rad = best->conditions.at("slip_angle_deg") * kDegree,
+               .conditions = bed.recording.bed.conditions.front().conditions};
+  for (const double at_m : {0.1, 0.35, 0.65, 0.9}) {
+    at.conditions.position_m = at_m;
+    EXPECT_GE(best->expected_gain_nats, 0.98 * parted_nats(bed, rivals[0], rivals[1], at)) << at_m;
+  }
+  at.conditions.position_m = best->conditions.at("position_m");
+  EXPECT_NEAR(best->expected_gain_nats, parted_nats(bed, rivals[0], rivals[1], at),
+              0.02 * best->expected_gain_nats);
+}
+
 TEST(NextExperiment, OneNameAloneNeedsNone) {
   const DiagnosisSetup setup = simulant_setup();
   const Recording raw = record({}, setup, setup.soil.mean, {.conditions = 20}, 2);
