@@ -223,19 +223,21 @@ std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording) 
   std::optional<MismatchRegion> clearest;
   double most = 0;
   for (std::size_t c = 0; c < recording.noise.size(); ++c) {
-    double early = 0, late = 0, earlies = 0, lates = 0;
+    double early = 0, late = 0, earlies = 0, lates = 0, late_from = INFINITY;
     for (std::size_t run = 0; run < course.value.size(); ++run) {
       const double part = recording.noise[c].trend * course.trend[c][run];
       if (course.value[run] < 1.0 / 3) early += part, ++earlies;
-      if (course.value[run] > 2.0 / 3) late += part, ++lates;
+      if (course.value[run] <= 2.0 / 3) continue;
+      late += part;
+      ++lates;
+      late_from = std::min(late_from, course.along[run]);
     }
     if (earlies == 0 || lates == 0) continue;
     const double effect = late / lates - early / earlies;
     const double deviation = recording.noise[c].constant * std::sqrt(4 / std::max(runs, 1.0));
     if (std::abs(effect) / deviation <= most) continue;
     most = std::abs(effect) / deviation;
-    const double from =
-        course.is_stretch ? course.low : course.low + 2.0 / 3 * (course.high - course.low);
+    const double from = course.is_stretch ? course.low : late_from;
     clearest = MismatchRegion{.channel = recording.bed.channels[c].channel,
                               .region = {{course.column, {from, course.high}}},
                               .effect = effect,

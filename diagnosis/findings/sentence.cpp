@@ -53,7 +53,7 @@ Quantity quantity_of(const std::string& column) {
       {"speed_mps", {"speed", "m/s"}},
       {"position_m", {"position", "m"}},
       {"time_s", {"time", "s"}},
-      {"day", {"time since the first day", "s"}},
+      {"day", {"day", ""}},
       {"warm_up", {"what is left of a warm-up", ""}},
       {"after_slip_ratio", {"slip ratio of the run before", ""}},
       {"after_load_n", {"load of the run before", "N"}}};

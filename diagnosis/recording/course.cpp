@@ -94,9 +94,13 @@ std::vector<Column> columns_of(const Recording& recording) {
   std::vector<Column> columns;
   const std::vector<double> time_s = each([&](std::size_t i) { return runs[i].conditions.time_s; });
   const std::vector<double> order = each([](std::size_t i) { return static_cast<double>(i); });
+  // Days go by the recording's own numbers.
+  const std::string when = recording.columns.time ? "time_s" : "day";
+  const std::vector<double> at =
+      recording.columns.time ? time_s : each([&](std::size_t i) { return runs[i].day; });
   // Of two times alone, as of two days, each apart from the other says the same.
-  if (std::set(time_s.begin(), time_s.end()).size() > 2) {
-    add(recording.columns.time ? "time_s" : "day", time_s, columns);
+  if (std::set(at.begin(), at.end()).size() > 2) {
+    add(when, at, columns);
   }
   const auto n = static_cast<double>(runs.size());
   add("run_order", order, columns);
@@ -113,7 +117,7 @@ std::vector<Column> columns_of(const Recording& recording) {
   // Days that nobody told begin where they were assumed to; of many, some may differ together.
   if (!are_few || !recording.columns.day) {
     if (tells_times(recording)) {
-      add_stretches(recording.columns.time ? "time_s" : "day", time_s, columns);
+      add_stretches(when, at, columns);
     } else {
       add_stretches("run_order", order, columns);
     }

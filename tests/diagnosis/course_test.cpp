@@ -10,6 +10,7 @@
 #include <set>
 
 #include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/checks/location.h"
 #include "synthetic_bed.h"
 
 namespace regoplan {
@@ -155,6 +156,23 @@ TEST(Course, ADayWhoseBedIsFirmerIsNoScatterOfDays) {
     EXPECT_EQ(found.course->high, 2);
     for (const ChannelNoise& noise : found.noise) EXPECT_LT(noise.day_gain, 0.05) << seed;
   }
+}
+
+TEST(Course, ALocationInDaysGoesByTheRecordingsOwnNumbers) {
+  Recording recording = recorded(1, 0);
+  recording.columns.day = true;
+  for (std::size_t i = 0; i < recording.runs.size(); ++i) {
+    constexpr std::size_t kFirstDay = 11, kRunsADay = 9;
+    const auto later = static_cast<double>(i / kRunsADay);
+    recording.runs[i].day = kFirstDay + later;
+    recording.runs[i].measured[0] += 2 * later;
+  }
+  const CondensedRecording found = condense(recording, simulant_setup());
+  ASSERT_TRUE(found.course.has_value());
+  ASSERT_EQ(found.course->column, "day");
+  const auto when = last_part_of(found);
+  ASSERT_TRUE(when.has_value());
+  EXPECT_EQ(when->region.at("day"), (std::array<double, 2>{18, 20}));
 }
 
 TEST(Course, OneThatGainsTooLittleIsNotedAndChangesNothing) {
