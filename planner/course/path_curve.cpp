@@ -3,7 +3,10 @@
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/polynomial.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
 
 #include "terramech/basics/input_error.h"
 
@@ -48,6 +51,28 @@ Eigen::MatrixX2d second_derivatives(const std::vector<double>& t, const Eigen::M
   matrix.setFromTriplets(entries.begin(), entries.end());
   Eigen::SparseLU<Eigen::SparseMatrix<double>> solver(matrix);
   return solver.solve(right);
+}
+
+using Polynomial = boost::math::tools::polynomial<double>;
+
+/// Where a polynomial changes its sign between 0 and 1, in ascending order: at most once between
+/// neighbouring places where its derivative does.
+std::vector<double> sign_changes(const Polynomial& p) {
+  std::vector<double> changes;
+  if (p.size() < 2) return changes;
+  std::vector<double> ends = sign_changes(p.prime());
+  ends.insert(ends.begin(), 0);
+  ends.push_back(1);
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    const double low = p(ends[i - 1]), high = p(ends[i]);
+    if (low == 0) changes.push_back(ends[i - 1]);
+    if (low == 0 || high == 0 || (low < 0) == (high < 0)) continue;
+    constexpr int kBits = 52;
+    const auto [from, to] = boost::math::tools::bisect(
+        p, ends[i - 1], ends[i], boost::math::tools::eps_tolerance<double>(kBits));
+    changes.push_back((from + to) / 2);
+  }
+  return changes;
 }
 
 }  // namespace
@@ -143,6 +168,47 @@ double PathCurve::arc_within(std::size_t interval, double from_m, double to_m) c
   return half * sum;
 }
 
+std::vector<double> PathCurve::stationary_m(std::size_t interval) const {
+  const Knot &a = knots_[interval], &b = knots_[interval + 1];
+  const double h = b.chord_m - a.chord_m;
+  // First derivatives by the chord length, as polynomials of the share v of the interval.
+  const auto first = [h](double from, double to, double second_from, double second_to) {
+    return Polynomial{(to - from) / h - h * (2 * second_from + second_to) / 6, h * second_from,
+                      h * (second_to - second_from) / 2};
+  };
+  const Polynomial dx = first(a.x_m, b.x_m, a.x_second, b.x_second);
+  const Polynomial dy = first(a.y_m, b.y_m, a.y_second, b.y_second);
+  // With the curvature n / d^(3/2) / h, it is stationary where 2 n' d = 3 n d'.
+  const Polynomial n = dx * dy.prime() - dy * dx.prime();
+  const Polynomial d = dx * dx + dy * dy;
+  std::vector<double> places = sign_changes(2.0 * n.prime() * d - 3.0 * n * d.prime());
+  // Where a curve turns back along its own line, n vanishes everywhere; the slowest place tells.
+  const std::vector<double> slowest = sign_changes(d.prime());
+  places.insert(places.end(), slowest.begin(), slowest.end());
+  for (double& place : places)
+    place = arc_m_[interval] + arc_within(interval, a.chord_m, a.chord_m + place * h);
+  return places;
+}
+
+double PathCurve::sharpest_m(double from_m, double to_m) const {
+  double sharpest_m = from_m, largest_1pm = std::abs(at(from_m).curvature_1pm);
+  const auto look_at = [&](double s_m) {
+    if (s_m < from_m || s_m > to_m) return;
+    const double curvature_1pm = std::abs(at(s_m).curvature_1pm);
+    if (!(curvature_1pm > largest_1pm)) return;
+    sharpest_m = s_m;
+    largest_1pm = curvature_1pm;
+  };
+  look_at(to_m);
+  const auto above = std::upper_bound(arc_m_.begin() + 1, arc_m_.end() - 1, from_m);
+  auto interval = static_cast<std::size_t>(above - arc_m_.begin()) - 1;
+  for (; interval + 1 < arc_m_.size() && arc_m_[interval] <= to_m; ++interval) {
+    look_at(arc_m_[interval]);
+    for (const double s_m : stationary_m(interval)) look_at(s_m);
+  }
+  return sharpest_m;
+}
+
 CurvePlace PathCurve::at(double s_m) const {
   const double s = std::clamp(s_m, 0.0, length_m());
   const auto above = std::upper_bound(arc_m_.begin() + 1, arc_m_.end() - 1, s);
@@ -158,10 +224,13 @@ CurvePlace PathCurve::at(double s_m) const {
   }
   const Derivatives d = derivatives(i, t);
   const double length = std::hypot(d.dx, d.dy);
+  constexpr double kTurnsBack = 1e-6;  // elsewhere it is about 1
   return {.x_m = d.x,
           .y_m = d.y,
           .heading_rad = std::atan2(d.dy, d.dx),
-          .curvature_1pm = (d.dx * d.ddy - d.dy * d.ddx) / (length * length * length)};
+          .curvature_1pm = length > kTurnsBack
+                               ? (d.dx * d.ddy - d.dy * d.ddx) / (length * length * length)
+                               : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace regoplan

@@ -33,7 +33,13 @@ class PathCurve {
   double length_m() const { return arc_m_.back(); }
 
   /// \param s_m arc length from the start; before the start and beyond the end the place there
+  /// The curvature is infinite where the curve turns back on itself.
   CurvePlace at(double s_m) const;
+
+  /// Arc length of the place within a stretch where the curve bends most, to either side. Exact:
+  /// the places where the curvature is stationary are roots of a polynomial on each piece of the
+  /// spline. \pre 0 <= from_m <= to_m <= length_m()
+  double sharpest_m(double from_m, double to_m) const;
 
   /// Arc length of each point that the curve was made of; of one left out, its neighbour's.
   const std::vector<double>& point_arc_m() const { return point_arc_m_; }
@@ -50,6 +56,8 @@ class PathCurve {
     double x, y, dx, dy, ddx, ddy;
   };
   Derivatives derivatives(std::size_t interval, double chord_m) const;
+  /// Where within an interval of the knots the curvature is stationary or the curve turns back.
+  std::vector<double> stationary_m(std::size_t interval) const;
   double speed(std::size_t interval, double chord_m) const;
   double arc_within(std::size_t interval, double from_m, double to_m) const;
 

@@ -14,6 +14,35 @@
 namespace regoplan {
 namespace {
 
+/// Along a leg without a record: at most half a metre apart, as well as wherever the curve between
+/// two stations is sharper than at both. So no sharp place is passed over, wherever it lies.
+void add_stations(std::vector<Station>& stations, const ReferencePath::Place& start, double way_m,
+                  const Vehicle& vehicle) {
+  const PathLeg& leg = start.leg;
+  const auto station_at = [&](double s_m) -> Station {
+    const ReferencePath::Place place{.leg = leg, .leg_start_s = start.leg_start_s, .s_m = s_m};
+    return {way_m + s_m, place.time_s(), leg.state_at(vehicle, s_m)};
+  };
+  const auto bend_1pm = [](const Station& station) {
+    return std::abs(station.state.curvature_1pm);
+  };
+  constexpr double kApart_m = 0.5, kRounding_1pm = 1e-9;
+  const double length_m = leg.length_m();
+  const int pieces = std::max(4, static_cast<int>(std::ceil(length_m / kApart_m)));
+  Station before = station_at(0);
+  stations.push_back(before);
+  for (int k = 1; k <= pieces; ++k) {
+    const double from_m = length_m * (k - 1) / pieces, to_m = length_m * k / pieces;
+    const Station next = station_at(to_m),
+                  sharpest = station_at(leg.curve.sharpest_m(from_m, to_m));
+    if (bend_1pm(sharpest) > std::max(bend_1pm(before), bend_1pm(next)) + kRounding_1pm) {
+      stations.push_back(sharpest);
+    }
+    stations.push_back(next);
+    before = next;
+  }
+}
+
 std::vector<Station> stations_of(const ReferencePath& path, const Vehicle& vehicle) {
   std::vector<Station> stations;
   double way_m = 0;
@@ -24,13 +53,12 @@ std::vector<Station> stations_of(const ReferencePath& path, const Vehicle& vehic
     way_m += leg.length_m();
   }
   if (!stations.empty()) return stations;
-  constexpr double kApart_m = 0.5;
-  const double length = path.length_m();
-  const int pieces = std::max(4, static_cast<int>(std::ceil(length / kApart_m)));
-  for (int k = 0; k <= pieces; ++k) {
-    const double s = length * k / pieces;
-    const ReferencePath::Place place = path.place(s);
-    stations.push_back({s, place.time_s(), place.leg.state_at(vehicle, place.s_m)});
+  double time_s = 0;
+  way_m = 0;
+  for (const PathLeg& leg : path.legs) {
+    add_stations(stations, {.leg = leg, .leg_start_s = time_s}, way_m, vehicle);
+    way_m += leg.length_m();
+    time_s += leg.duration_s();
   }
   return stations;
 }

@@ -48,6 +48,37 @@ TEST(PathCurve, GoesThroughItsPointsByArcLength) {
   }
 }
 
+TEST(PathCurve, NoPlaceOfAStretchBendsMoreThanItsSharpest) {
+  const PathCurve curve({{0, 0}, {3, 1}, {3.2, 1.3}, {5, 4}, {4, 8}, {4.1, 8.4}, {9, 9}, {9, 12}});
+  constexpr double kStretch_m = 0.7;
+  for (double from = 0; from + kStretch_m <= curve.length_m(); from += 0.3) {
+    const double sharpest_m = curve.sharpest_m(from, from + kStretch_m);
+    EXPECT_GE(sharpest_m, from);
+    EXPECT_LE(sharpest_m, from + kStretch_m);
+    const double most_1pm = std::abs(curve.at(sharpest_m).curvature_1pm);
+    for (double s = from; s <= from + kStretch_m; s += 1e-3) {
+      EXPECT_LE(std::abs(curve.at(s).curvature_1pm), most_1pm * (1 + 1e-9)) << from << " " << s;
+    }
+  }
+}
+
+TEST(PathCurve, AHairpinIsSharpestAtItsApexHoweverNarrow) {
+  for (const double apart_m : {2.0, 0.5, 1e-3}) {
+    // Three points make a parabola, whose curvature at the apex follows from its two derivatives.
+    const PathCurve curve({{0, 0}, {30, 0}, {0, apart_m}});
+    const double apex_m = curve.sharpest_m(0, curve.length_m());
+    EXPECT_NEAR(apex_m, curve.length_m() / 2, 0.05);
+    EXPECT_NEAR(curve.at(apex_m).curvature_1pm, 240 / (apart_m * apart_m),
+                2e-3 * 240 / (apart_m * apart_m))
+        << apart_m;
+  }
+}
+
+TEST(PathCurve, WhereItTurnsBackAlongItsOwnLineTheCurvatureIsInfinite) {
+  const PathCurve curve({{0, 0}, {30, 0}, {0, 0}});
+  EXPECT_TRUE(std::isinf(curve.at(curve.sharpest_m(0, curve.length_m())).curvature_1pm));
+}
+
 TEST(PathCurve, TheWayBackIsTheSameWithTheOppositeCurvature) {
   std::vector<PathPoint> points{{0, 0}, {3, 1}, {5, 4}, {4, 8}, {9, 9}};
   const PathCurve there(points);
