@@ -24,12 +24,37 @@ double more_time_s(double time_s) {
   return 10 * decade;
 }
 
-/// What a search asked beyond the scenario's limit; empty where it asked no more.
-std::string reserve_words(double margin_min, const RejectedState& state) {
-  if (!is_margin(state.reason) || !state.exceeded || state.exceeded->limit <= margin_min + 1e-9) {
-    return "";
+/// The limit that the scenario sets to what a reason counts; nothing where it sets none.
+std::optional<double> asked_limit(const PlanningProblem& problem, Rejection reason) {
+  const Limits& limits = problem.limits;
+  switch (reason) {
+    case Rejection::kSpeed:
+      return problem.speed_max_mps;
+    case Rejection::kSlope:
+      return limits.slope_max_rad;
+    case Rejection::kSinkage:
+      return limits.sinkage_max_m;
+    case Rejection::kSlip:
+      return limits.slip_max;
+    case Rejection::kSlipAngle:
+      return limits.slip_angle_max_rad;
+    default:
+      return is_margin(reason) ? std::optional(limits.margin_min) : std::nullopt;
   }
-  return fmt::format("; this search kept a reserve, the scenario asks {:.3g}", margin_min);
+}
+
+/// What a search asked beyond the scenario's limit; empty where it asked no more.
+std::string reserve_words(const PlanningProblem& problem, const RejectedState& state) {
+  const std::optional<double> asked = asked_limit(problem, state.reason);
+  if (!asked || !state.exceeded) return "";
+  const RejectedQuantity& counted = quantity(state.reason);
+  const double reserve =
+      counted.at_least ? state.exceeded->limit - *asked : *asked - state.exceeded->limit;
+  constexpr double kRounding = 1e-9;
+  if (reserve <= kRounding) return "";
+  return fmt::format("; this search kept a reserve, the scenario {} {:.4g}{}{}",
+                     counted.at_least ? "asks" : "allows", *asked / counted.si_per_shown,
+                     counted.unit.empty() ? "" : " ", counted.unit);
 }
 
 /// The rejected state that stands for those nearest to the goal: of their most frequent reason, the
@@ -65,7 +90,7 @@ std::string narrowest_place(const PlanningProblem& problem,
   }
   return fmt::format("nearest to the goal, with at least {:.0f} m to go, it was stopped by {}{}",
                      left_m[best], rejection_text(rejected[best]),
-                     reserve_words(problem.limits.margin_min, rejected[best]));
+                     reserve_words(problem, rejected[best]));
 }
 
 }  // namespace

@@ -201,8 +201,9 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
         Held{Rejection::kSinkage, strain.sinkage_m, limits.sinkage_max_m},
         Held{Rejection::kSlip, strain.slip, limits.slip_max},
         Held{Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad}}) {
-    if (std::abs(held.found) > share * held.limit) {
-      return because(held.reason, Exceeded{.found = held.found, .limit = held.limit});
+    const double allowed = share * held.limit;
+    if (std::abs(held.found) > allowed) {
+      return because(held.reason, Exceeded{.found = held.found, .limit = allowed});
     }
   }
   if (!margin_min) return std::nullopt;
@@ -214,12 +215,13 @@ std::optional<Exceeded> World::too_fast(const VehicleState& state) const {
   // Downhill a vehicle slides faster than its wheels turn; the speed limit holds all the same.
   const double speed_mps = std::hypot(state.motion.vx_mps, state.motion.vy_mps);
   // A search keeps a reserve, but may start as fast as the problem says.
-  const double allowed_mps =
+  const double limit_mps =
       use_ == WorldUse::kSearch
           ? std::max(0.995 * problem_.speed_max_mps, (1 + kRounding / 2) * problem_.start.speed_mps)
-          : (1 + kRounding) * problem_.speed_max_mps;
+          : problem_.speed_max_mps;
+  const double allowed_mps = use_ == WorldUse::kSearch ? limit_mps : (1 + kRounding) * limit_mps;
   if (!(speed_mps > allowed_mps)) return std::nullopt;
-  return Exceeded{.found = speed_mps, .limit = problem_.speed_max_mps};
+  return Exceeded{.found = speed_mps, .limit = limit_mps};
 }
 
 bool World::beside_the_edge(const VehicleState& state) const {

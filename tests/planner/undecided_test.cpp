@@ -1,5 +1,6 @@
 #include "planner/certificate/undecided.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/planner/flat_problem.h"
@@ -38,6 +39,21 @@ TEST(Undecided, ALimitThatASearchSetItselfIsNotTakenForTheScenarios) {
                              .exceeded = Exceeded{.found = 0.149, .limit = 0.15}}};
   const std::string why = why_undecided(problem_with({}), result, {});
   EXPECT_NE(why.find("this search kept a reserve, the scenario asks 0.05"), std::string::npos)
+      << why;
+}
+
+TEST(Undecided, AMostThatASearchSetItselfIsNotTakenForTheScenariosEither) {
+  const PlanningProblem problem = problem_with({});
+  PlanResult result;
+  result.rejected_states = {{.reason = Rejection::kSpeed,
+                             .x_m = 30,
+                             .y_m = 25,
+                             .exceeded = Exceeded{.found = 0.997 * problem.speed_max_mps,
+                                                  .limit = 0.995 * problem.speed_max_mps}}};
+  const std::string why = why_undecided(problem, result, {});
+  EXPECT_NE(why.find(fmt::format("this search kept a reserve, the scenario allows {:.4g} m/s",
+                                 problem.speed_max_mps)),
+            std::string::npos)
       << why;
 }
 

@@ -94,6 +94,28 @@ TEST(World, ASearchMayStartAtTopSpeedThoughItKeepsAReserveBelowIt) {
   EXPECT_EQ(reason(world.rejected(world.start(), {})), std::nullopt);
 }
 
+TEST(World, WhatASearchRefusesForItsReserveBreaksTheLimitThatItTells) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World searched(problem, WorldUse::kSearch, 1), verdict(problem, WorldUse::kVerdict, 1);
+  const Limits& limits = problem.limits;
+  constexpr double kWithinTheReserve = 0.998;
+  const VehicleState slow = moving(searched, 1, 0);
+  struct Case {
+    VehicleState state;
+    WheelStrain strain;
+    Rejection reason;
+  };
+  for (const Case& one :
+       {Case{moving(searched, kWithinTheReserve * problem.speed_max_mps, 0), {}, Rejection::kSpeed},
+        Case{slow, {.sinkage_m = kWithinTheReserve * limits.sinkage_max_m}, Rejection::kSinkage},
+        Case{slow, {.slip = -kWithinTheReserve * limits.slip_max}, Rejection::kSlip}}) {
+    EXPECT_EQ(reason(verdict.rejected(one.state, one.strain)), std::nullopt);
+    const auto refused = searched.rejected(one.state, one.strain);
+    ASSERT_EQ(reason(refused), one.reason);
+    EXPECT_GT(std::abs(refused->exceeded->found), refused->exceeded->limit);
+  }
+}
+
 TEST(World, ASearchKeepsAReserveToTheEdgeOfTheMap) {
   const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   const World world(problem, WorldUse::kSearch, 1), verdict(problem, WorldUse::kVerdict, 1);
