@@ -33,9 +33,10 @@ std::string changes_text(const ComparedResult& a, const Comparison& comparison) 
     }
     for (std::size_t i = 0; i < metrics.size(); ++i) {
       if (!pair.change[i] || *pair.change[i] == 0) continue;
-      text += fmt::format("{}: {} {} -> {} ({:+.3g}){}{}\n", pair.name, metrics[i].words,
+      text += fmt::format("{}: {} {} -> {} ({:+.3g}){}{}{}\n", pair.name, metrics[i].words,
                           value_text(pair.a->values[i]), value_text(pair.b->values[i]),
-                          *pair.change[i], metrics[i].unit.empty() ? "" : " ", metrics[i].unit);
+                          *pair.change[i], metrics[i].unit.empty() ? "" : " ", metrics[i].unit,
+                          pair.tied[i] ? ", tied within the draws" : "");
     }
   }
   return text;

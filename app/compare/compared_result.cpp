@@ -41,6 +41,19 @@ std::vector<std::optional<double>> values_of(const Json& entry, ResultKind kind)
   return values;
 }
 
+std::vector<std::optional<Standing>> standings_of(const Json& entry, ResultKind kind) {
+  std::vector<std::optional<Standing>> standings;
+  for (const ComparedMetric& metric : metrics_of(kind)) {
+    std::optional<Standing>& standing = standings.emplace_back();
+    const auto found = entry.find(std::string(metric.interval_key));
+    const auto value = number_at(entry, metric.key);
+    if (metric.interval_key.empty() || found == entry.end() || !found->is_array() || !value)
+      continue;
+    set_by_draws(standing.emplace(), *value, found->at(1).get<double>(), {});
+  }
+  return standings;
+}
+
 ComparedPath path_of(CsvTable& table, std::size_t x, std::size_t y) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto margin = table.find_column("margin");
@@ -91,6 +104,7 @@ void read_plan(const Json& json, ComparedResult& result) {
                               .verdict = "feasible",
                               .feasible = true,
                               .values = values_of(candidate, ResultKind::kPlan),
+                              .standings = standings_of(candidate, ResultKind::kPlan),
                               .path = read_compared_path(result.file.parent_path() /
                                                          candidate.at("file").get<std::string>())});
   }
@@ -106,7 +120,8 @@ void read_evaluation(const Json& json, ComparedResult& result) {
     ComparedEntry entry{.name = of_file ? std::filesystem::path(shown).filename().string() : shown,
                         .verdict = feasible ? "feasible" : path.at("reason").get<std::string>(),
                         .feasible = feasible,
-                        .values = values_of(path, ResultKind::kEvaluation)};
+                        .values = values_of(path, ResultKind::kEvaluation),
+                        .standings = standings_of(path, ResultKind::kEvaluation)};
     if (of_file) entry.path = read_compared_path(shown);
     result.entries.push_back(std::move(entry));
   }
@@ -160,8 +175,8 @@ std::string_view name(ResultKind kind) {
 
 const std::vector<ComparedMetric>& metrics_of(ResultKind kind) {
   static const std::vector<ComparedMetric> kPaths{
-      {"margin_p05", "margin, 5 % of soils", "", Better::kMore},
-      {"probability_feasible", "probability", "", Better::kMore},
+      {"margin_p05", "margin, 5 % of soils", "", Better::kMore, "margin_p05_ci95"},
+      {"probability_feasible", "probability", "", Better::kMore, "probability_feasible_ci95"},
       {"margin_min", "margin, mean soils", "", Better::kMore},
       {"duration_s", "time", "s", Better::kLess},
       {"length_m", "length", "m", Better::kLess},

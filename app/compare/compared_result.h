@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "planner/soils/standing.h"
+
 namespace regoplan {
 
 enum class ResultKind { kPlan, kEvaluation, kBenchmark };
@@ -20,6 +22,7 @@ struct ComparedMetric {
   std::string_view words;
   std::string_view unit;  ///< SI; empty of a ratio or a margin
   enum class Better { kLess, kMore } better = Better::kLess;
+  std::string_view interval_key = {};  ///< of the 95 % interval of what draws of the soils give
 };
 
 /// What results of a kind are compared by, in the order in which it is told.
@@ -37,6 +40,9 @@ struct ComparedEntry {
   std::string verdict;  ///< in words
   bool feasible = false;
   std::vector<std::optional<double>> values;  ///< of the kind's metrics
+  /// Of the same metrics: how the value ranks within its sampling error; none of a value that is
+  /// exact, or whose result tells no interval.
+  std::vector<std::optional<Standing>> standings = {};
   std::optional<ComparedPath> path = {};
 };
 

@@ -56,6 +56,18 @@ std::vector<std::optional<double>> change(const ComparedEntry& a, const Compared
   return differences;
 }
 
+/// Whether a ranking of both by one of their metrics would call them tied.
+std::vector<bool> ties(const ComparedEntry& a, const ComparedEntry& b) {
+  std::vector<bool> of_metrics;
+  for (std::size_t i = 0; i < std::min(a.standings.size(), b.standings.size()); ++i) {
+    const std::optional<Standing>&of_a = a.standings[i], &of_b = b.standings[i];
+    of_metrics.push_back(of_a && of_b &&
+                         (leads(*of_a, *of_b) ? tied(*of_a, *of_b) : tied(*of_b, *of_a)));
+  }
+  of_metrics.resize(a.values.size(), false);
+  return of_metrics;
+}
+
 std::vector<ComparedPair> pairs_of(const ComparedResult& a, const ComparedResult& b) {
   std::vector<ComparedPair> pairs;
   for (const ComparedEntry& entry : a.entries) {
@@ -64,6 +76,7 @@ std::vector<ComparedPair> pairs_of(const ComparedResult& a, const ComparedResult
     if (other != b.entries.end()) {
       pair.b = &*other;
       pair.change = change(entry, *other);
+      pair.tied = ties(entry, *other);
     }
     pairs.push_back(std::move(pair));
   }
@@ -90,14 +103,14 @@ std::string differences_text(const Comparison& comparison) {
 /// By the first of the metrics: of plans and evaluations the margin that soils leave.
 std::string outcome_text(const ComparedResult& a, const Comparison& comparison) {
   const ComparedMetric& metric = metrics_of(a.kind).front();
-  int both = 0, better = 0, worse = 0, same = 0;
+  int both = 0, better = 0, worse = 0, same = 0, tied = 0;
   for (const ComparedPair& pair : comparison.pairs) {
     if (!pair.a || !pair.b) continue;
     ++both;
     if (!pair.change.front()) continue;
     const double change = *pair.change.front();
     const double gain = metric.better == ComparedMetric::Better::kMore ? change : -change;
-    ++(gain > 0 ? better : gain < 0 ? worse : same);
+    ++(gain == 0 ? same : pair.tied.front() ? tied : gain > 0 ? better : worse);
   }
   if (both == 0) return "They have nothing of one name.";
   std::vector<std::string> parts;
@@ -106,8 +119,9 @@ std::string outcome_text(const ComparedResult& a, const Comparison& comparison) 
   };
   tell("better", better);
   tell("worse", worse);
+  tell("tied within the draws", tied);
   tell("the same", same);
-  tell("not known", both - better - worse - same);
+  tell("not known", both - better - worse - same - tied);
   return fmt::format("Of {} in both, B is {} ({}).", both, fmt::join(parts, ", "), metric.words);
 }
 
@@ -154,14 +168,16 @@ Json comparison_json(const ComparedResult& a, const ComparedResult& b,
     settings.push_back({{"key", one.key}, {"a", one.a}, {"b", one.b}});
   }
   for (const ComparedPair& pair : comparison.pairs) {
-    Json changes = Json::object();
+    Json changes = Json::object(), tied = Json::array();
     for (std::size_t i = 0; i < pair.change.size(); ++i) {
       changes[std::string(metrics[i].key)] = pair.change[i] ? Json(*pair.change[i]) : Json();
+      if (pair.tied[i]) tied.push_back(metrics[i].key);
     }
     pairs.push_back({{"name", pair.name},
                      {"a", entry_json(pair.a, metrics)},
                      {"b", entry_json(pair.b, metrics)},
-                     {"change", pair.change.empty() ? Json() : changes}});
+                     {"change", pair.change.empty() ? Json() : changes},
+                     {"tied", tied}});
   }
   return {{"kind", name(a.kind)}, {"headline", comparison_headline(a, b, comparison)},
           {"a", result_json(a)},  {"b", result_json(b)},

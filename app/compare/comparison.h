@@ -21,6 +21,7 @@ struct ComparedPair {
   const ComparedEntry* a = nullptr;
   const ComparedEntry* b = nullptr;
   std::vector<std::optional<double>> change;  ///< b less a, of each metric that both have
+  std::vector<bool> tied = {};  ///< of each metric: the draws of the soils do not tell it from a's
 };
 
 /// What differs between two results of one kind.

@@ -15,13 +15,20 @@ void set_by_draws(Standing& standing, double p05, double p05_high, const Probabi
   standing.high = broken ? feasible.high : p05_high;
 }
 
+bool tied(const Standing& leader, const Standing& other) {
+  return other.tier == leader.tier && other.high >= leader.value;
+}
+
+bool leads(const Standing& a, const Standing& b) {
+  return std::tuple(a.tier, -a.value) < std::tuple(b.tier, -b.value);
+}
+
 std::vector<std::vector<std::size_t>> rank_groups(const std::vector<Standing>& standings) {
   std::vector<std::vector<std::size_t>> groups;
   std::vector<std::size_t> order(standings.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto better = [&](std::size_t a, std::size_t b) {
-    return std::tuple(standings[a].tier, -standings[a].value) <
-           std::tuple(standings[b].tier, -standings[b].value);
+    return leads(standings[a], standings[b]);
   };
   const auto sooner = [&](std::size_t a, std::size_t b) {
     const auto key = [](const Standing& path) {
@@ -33,9 +40,8 @@ std::vector<std::vector<std::size_t>> rank_groups(const std::vector<Standing>& s
   };
   for (auto group = order.begin(); group != order.end();) {
     const Standing& leader = standings[*std::min_element(group, order.end(), better)];
-    const auto rest = std::stable_partition(group, order.end(), [&](std::size_t i) {
-      return standings[i].tier == leader.tier && standings[i].high >= leader.value;
-    });
+    const auto rest = std::stable_partition(
+        group, order.end(), [&](std::size_t i) { return tied(leader, standings[i]); });
     std::stable_sort(group, rest, sooner);
     groups.emplace_back(group, rest);
     group = rest;

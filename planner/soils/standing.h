@@ -25,8 +25,15 @@ struct Standing {
 /// \param p05_high upper end of the quantile's interval
 void set_by_draws(Standing& standing, double p05, double p05_high, const Probability& feasible);
 
-/// Indices from the best down, in groups. The best of those left leads a group: whoever is of its
-/// tier and lies within its own sampling error of the leader is tied with it. In a group the faster
+/// Whether draws do not tell a path from a better one: both are of one tier, and the other lies
+/// within its own sampling error of the leader.
+bool tied(const Standing& leader, const Standing& other);
+
+/// Whether a standing comes first, whatever the sampling error.
+bool leads(const Standing& a, const Standing& b);
+
+/// Indices from the best down, in groups. The best of those left leads a group, and whoever is tied
+/// with it belongs to it. In a group the faster
 /// ranks first, then the shorter; where limits break in draws, those off doubtful soils before
 /// them.
 std::vector<std::vector<std::size_t>> rank_groups(const std::vector<Standing>& standings);

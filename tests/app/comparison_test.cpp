@@ -53,6 +53,35 @@ TEST(Comparison, OfAResultWithItselfSaysThatNothingDiffers) {
             "The same was asked of both.");
 }
 
+/// With the upper ends of its sampling error.
+ComparedEntry drawn(double margin_p05, double high) {
+  ComparedEntry of_draws = entry("candidate 1", margin_p05, 60);
+  of_draws.standings.resize(of_draws.values.size());
+  set_by_draws(of_draws.standings.front().emplace(), margin_p05, high, {});
+  return of_draws;
+}
+
+TEST(Comparison, ASamplingErrorIsNeitherBetterNorWorse) {
+  const ComparedResult few = plan({drawn(0.305, 0.313)}), many = plan({drawn(0.310, 0.317)});
+  for (const auto& [a, b] : {std::pair(few, many), std::pair(many, few)}) {
+    const Comparison comparison = compared(a, b);
+    EXPECT_TRUE(comparison_headline(a, b, comparison)
+                    .starts_with("Of 1 in both, B is tied within the draws for 1 (margin"));
+    EXPECT_EQ(comparison_json(a, b, comparison).at("entries").at(0).at("tied"),
+              nlohmann::json({"margin_p05"}));
+  }
+}
+
+TEST(Comparison, ADifferenceBeyondTheSamplingErrorIsTold) {
+  const ComparedResult a = plan({drawn(0.305, 0.309)}), b = plan({drawn(0.310, 0.317)});
+  EXPECT_TRUE(comparison_headline(a, b, compared(a, b)).starts_with("Of 1 in both, B is better"));
+  EXPECT_TRUE(comparison_headline(b, a, compared(b, a)).starts_with("Of 1 in both, B is worse"));
+  // Broken limits are a tier of their own, as in a ranking.
+  const ComparedResult broken = plan({drawn(-1, 0.4)});
+  EXPECT_TRUE(
+      comparison_headline(broken, b, compared(broken, b)).starts_with("Of 1 in both, B is better"));
+}
+
 TEST(Comparison, HoldsEntriesOfOneNameAgainstEachOther) {
   const ComparedResult a = plan({entry("candidate 1", 0.2, 60), entry("candidate 2", 0.1, 50)});
   const ComparedResult b = plan({entry("candidate 3", 0.3, 40), entry("candidate 1", 0.15, 48)});

@@ -7,12 +7,14 @@ const withUnit = (value, unit) =>
          unit        ? `${significant(value)}\u00a0${unit}` :
                        fixed(value, 3));
 
-/// A change with its sign, coloured by whether it is for the better.
-function changeNode(change, {unit, more_is_better}) {
+/// A change with its sign, coloured by whether it is for the better; not where the draws leave that
+/// open.
+function changeNode(change, {unit, more_is_better}, tied) {
   if (!isKnown(change)) return UNKNOWN;
   if (change === 0) return 'the same';
   const good = (change > 0) === more_is_better;
   const text = (change > 0 ? '+' : '') + withUnit(change, unit);
+  if (tied) return `${text} (tied within the draws)`;
   return element('span', {class: good ? 'good' : 'alarm'}, text);
 }
 
@@ -23,7 +25,8 @@ function entryTables(host) {
     const rows = REPORT.metrics.map(metric => [
       capital(metric.words),
       ...SIDES.map(side => withUnit(entry[side] && entry[side][metric.key], metric.unit)),
-      changeNode(entry.change && entry.change[metric.key], metric)
+      changeNode(
+          entry.change && entry.change[metric.key], metric, entry.tied.includes(metric.key))
     ]);
     host.append(element(
         'div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': entry.name},
