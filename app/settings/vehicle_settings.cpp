@@ -21,12 +21,12 @@ constexpr ValueRange kAngle{.min = 0, .max = 90, .min_excluded = true};
 constexpr ValueRange kSteerAngle{.min = 0, .max = 90};  // 0: skid steering
 
 constexpr std::array<VehicleNumber, 14> kNumbers{{
-    {"mass_kg", &Vehicle::mass_kg, 1, kAbove0},
-    {"yaw_inertia_kgm2", &Vehicle::yaw_inertia_kgm2, 1, kAbove0},
+    {"mass_kg", &Vehicle::mass_kg, 1, kVehicleMass_kg},
+    {"yaw_inertia_kgm2", &Vehicle::yaw_inertia_kgm2, 1, kVehicleYawInertia_kgm2},
     {"cg_height_m", &Vehicle::cg_height_m, 1, kAbove0},
     {"turn_centre_x_m", &Vehicle::turn_centre_x_m, 1, kAnyNumber},
-    {"speed_max_mps", &Vehicle::speed_max_mps, 1, kAbove0},
-    {"acceleration_max_mps2", &Vehicle::acceleration_max_mps2, 1, kAbove0},
+    {"speed_max_mps", &Vehicle::speed_max_mps, 1, kVehicleSpeed_mps},
+    {"acceleration_max_mps2", &Vehicle::acceleration_max_mps2, 1, kVehicleAcceleration_mps2},
     {"curvature_max_1pm", &Vehicle::curvature_max_1pm, 1, kAbove0},
     {"curvature_rate_max_1pms", &Vehicle::curvature_rate_max_1pms, 1, kAbove0},
     {"steer_angle_max_deg", &Vehicle::steer_angle_max_rad, kDegree, kSteerAngle},

@@ -270,8 +270,8 @@ double longest_arm_m(const Vehicle& vehicle) {
 
 void validate(const Vehicle& vehicle) {
   if (vehicle.name.empty()) throw InputError("name: the vehicle has none");
-  require_above("mass_kg", vehicle.mass_kg, 0, 1e6);
-  require_above("yaw_inertia_kgm2", vehicle.yaw_inertia_kgm2, 0, 1e8);
+  require("mass_kg", vehicle.mass_kg, kVehicleMass_kg);
+  require("yaw_inertia_kgm2", vehicle.yaw_inertia_kgm2, kVehicleYawInertia_kgm2);
   require_above("cg_height_m", vehicle.cg_height_m, 0, kLongest_m);
   try {
     validate(vehicle.wheel);
@@ -281,8 +281,8 @@ void validate(const Vehicle& vehicle) {
   validate_wheels(vehicle.wheels);
   validate_suspension(vehicle);
   validate_body(vehicle.body);
-  require_above("speed_max_mps", vehicle.speed_max_mps, 0, 100);
-  require_above("acceleration_max_mps2", vehicle.acceleration_max_mps2, 0, 100);
+  require("speed_max_mps", vehicle.speed_max_mps, kVehicleSpeed_mps);
+  require("acceleration_max_mps2", vehicle.acceleration_max_mps2, kVehicleAcceleration_mps2);
   if (vehicle.torque_max_nm) require_above("torque_max_nm", *vehicle.torque_max_nm, 0, 1e6);
   validate_steering(vehicle);
   require_above("slip_angle_max_deg", rounded_degrees(vehicle.slip_angle_max_rad), 0,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "terramech/basics/value_range.h"
 #include "terramech/parameters/wheel.h"
 
 namespace regoplan {
@@ -93,6 +94,12 @@ struct Vehicle {
 ///   drive law is kinematic (rims of one speed or torque cannot steer);
 /// - rocker-bogie: six wheels in three axles, each pivot between what it carries;
 /// - rocks that are driven over pass below the body; the sinkage limit is below the axle.
+/// What numbers of a vehicle may be. The lightest rovers weigh a quarter of a kilogram.
+inline constexpr ValueRange kVehicleMass_kg{.min = 0.1, .max = 1e6};
+inline constexpr ValueRange kVehicleYawInertia_kgm2{.min = 0, .max = 1e8, .min_excluded = true};
+inline constexpr ValueRange kVehicleSpeed_mps{.min = 0, .max = 100, .min_excluded = true};
+inline constexpr ValueRange kVehicleAcceleration_mps2{.min = 0, .max = 100, .min_excluded = true};
+
 /// \throws ValueError or InputError naming the field, as it stands in files, that cannot be
 void validate(const Vehicle& vehicle);
 

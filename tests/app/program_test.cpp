@@ -120,7 +120,7 @@ TEST_F(BadScenario, NegativeMass) {
   const std::size_t at = lrv.find("mass_kg: ");
   folder_.write("mine.yaml", lrv.substr(0, at) + "mass_kg: -5" + lrv.substr(lrv.find('\n', at)));
   change("vehicle: lrv", "vehicle: mine.yaml");
-  expect_refused({"mine.yaml:3: mass_kg: -5 is not valid (allowed: above 0)"});
+  expect_refused({"mine.yaml:3: mass_kg: -5 is not valid (allowed: 0.1 to 1000000)"});
 }
 
 TEST_F(BadScenario, NanWhereANumberIsNeeded) {

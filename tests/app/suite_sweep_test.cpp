@@ -69,7 +69,7 @@ TEST_F(SuiteSweep, RefusesWithFileLineAndRange) {
                                           "(allowed: 0.3 to 2)");
   EXPECT_EQ(refusal("vehicle.mass_kg: [700, -1]"),
             folder_.path("suite.yaml") +
-                ":6: sweep.vehicle.mass_kg[1]: -1 is not valid (allowed: above 0)");
+                ":6: sweep.vehicle.mass_kg[1]: -1 is not valid (allowed: 0.1 to 1000000)");
   for (const auto& [sweep, words] : std::vector<std::pair<std::string, std::string>>{
            {"soils.dust.n: [1]",
             ":6: sweep.soils.dust.n: scenario,soils.dust.n=1: the map has no "

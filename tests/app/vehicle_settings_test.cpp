@@ -48,9 +48,13 @@ TEST(VehicleSettings, WhatCannotBeAVehicleIsAnErrorWithItsLine) {
     yaml.replace(at, yaml.find('\n', at) - at, key + ": " + value);
     return error_text([&] { vehicle(yaml); });
   };
-  EXPECT_EQ(first_line("mass_kg", "-5"), "v.yaml:3: mass_kg: -5 is not valid (allowed: above 0)");
+  // Too small or too large, the same is said to be allowed.
+  for (const std::string beyond : {"-5", "1e-09", "8.99e+09"}) {
+    EXPECT_EQ(first_line("mass_kg", beyond),
+              "v.yaml:3: mass_kg: " + beyond + " is not valid (allowed: 0.1 to 1000000)");
+  }
   EXPECT_EQ(first_line("mass_kg", ".nan"),
-            "v.yaml:3: mass_kg: .nan is not valid (allowed: a number, above 0)");
+            "v.yaml:3: mass_kg: .nan is not valid (allowed: a number, 0.1 to 1000000)");
   EXPECT_EQ(first_line("drive_law", "magic"),
             "v.yaml:" +
                 std::to_string(

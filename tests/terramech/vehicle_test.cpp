@@ -196,6 +196,7 @@ TEST(ValidateVehicle, NamesTheFieldThatCannotBe) {
   const std::vector<Spoiled> cases{
       {"no name", "lrv", [](Vehicle& v) { v.name.clear(); }, "name:"},
       {"negative mass", "lrv", [](Vehicle& v) { v.mass_kg = -1; }, "mass_kg: -1"},
+      {"lighter than any rover", "lrv", [](Vehicle& v) { v.mass_kg = 0.01; }, "mass_kg: 0.01"},
       {"mass not a number", "lrv", [=](Vehicle& v) { v.mass_kg = nan; }, "mass_kg: nan"},
       {"no inertia", "lrv", [](Vehicle& v) { v.yaw_inertia_kgm2 = 0; }, "yaw_inertia_kgm2: 0"},
       {"flat", "lrv", [](Vehicle& v) { v.cg_height_m = 0; }, "cg_height_m: 0"},
