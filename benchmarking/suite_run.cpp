@@ -68,13 +68,33 @@ ChildTask task_of(const Suite& suite, const SuiteRun& run, const World& searched
           .memory_limit_mb = bounds.memory_mb + kVerificationMemory_mb};
 }
 
-/// What a run says of its planner, with the planner's place in the suite's file.
-InputError refused(const Suite& suite, const SuiteRun& run, const std::string& why) {
-  const auto place = suite.planner_places.find(suite.planners[run.planner].label);
+/// What a process says of a planner, with the planner's place in the suite's file.
+InputError refused(const Suite& suite, std::size_t planner, const std::string& why) {
+  const auto place = suite.planner_places.find(suite.planners[planner].label);
   return InputError(place == suite.planner_places.end() ? why : place->second + ": " + why);
 }
 
 }  // namespace
+
+void require_parameters(const Suite& suite, const PlanningProblem& problem,
+                        const SuiteSession& session, const SingleThread& alone) {
+  const World world(problem, WorldUse::kVerdict, session.processes);
+  std::size_t next = 0;
+  run_in_children(
+      session.processes, AnswerOrder::kAsGiven,
+      [&]() -> std::optional<ChildTask> {
+        if (next == suite.planners.size()) return std::nullopt;
+        const SuitePlanner& planner = suite.planners[next++];
+        return ChildTask{.work = [&] {
+          require_parameters(world, planner.planner, planner.parameters, session.planners);
+          return std::vector<char>();
+        }};
+      },
+      [&](const ChildAnswer& answer) {
+        if (answer.bad_input) throw refused(suite, answer.task, answer.failure);
+      },
+      session.stop, alone);
+}
 
 void run_suite(const Suite& suite, const std::vector<SuiteRun>& runs, RunJournal& journal,
                const std::function<PlanningProblem(std::size_t, std::size_t)>& problem_of,
@@ -110,7 +130,7 @@ void run_suite(const Suite& suite, const std::vector<SuiteRun>& runs, RunJournal
         },
         [&](const ChildAnswer& answer) {
           const SuiteRun& run = *(first + static_cast<std::ptrdiff_t>(answer.task));
-          if (answer.bad_input) throw refused(suite, run, answer.failure);
+          if (answer.bad_input) throw refused(suite, run.planner, answer.failure);
           journal.append({.key = key_of(run),
                           .outcome = answer.bytes
                                          ? benchmark_record_of(nlohmann::json::parse(*answer.bytes))

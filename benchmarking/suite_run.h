@@ -29,6 +29,13 @@ struct SuiteSession {
   std::stop_token stop{};
 };
 
+/// Makes each planner of a suite once, before the first run, in a process of its own.
+/// \param problem of the suite, any: parameters mean the same in each
+/// \throws InputError for a planner's parameter that is not known or not valid, with the planner's
+/// place in the suite's file
+void require_parameters(const Suite& suite, const PlanningProblem& problem,
+                        const SuiteSession& session, const SingleThread& alone = {});
+
 /// Does those of the runs that the journal does not hold, each in a process of its own: a planner
 /// that crashes, leaks or hangs costs one run.
 /// \param problem_of the problem of a scenario at a sweep point, by their places in the suite

@@ -131,18 +131,17 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
   require_results_fit(options.out, benchmark_file_names());
   const ReadScenarios read = read_scenarios(suite);
   const std::stop_token stop = stop_on_interrupt();
+  const auto problem_of = [&suite](std::size_t scenario, std::size_t point) {
+    return at_sweep_point(read_scenario(suite.scenarios[scenario].file, {}).problem, suite,
+                          scenario, point);
+  };
+  SuiteSession session{.processes = options.processes, .planners = options.own, .stop = stop};
+  require_parameters(suite, problem_of(0, 0), session);
   {
     RunJournal journal(options.out.path, origin_of(suite, read));
     SuiteProgressLine line(options.quiet);
-    run_suite(suite, runs_of(suite, shard), journal,
-              [&suite](std::size_t scenario, std::size_t point) {
-                return at_sweep_point(read_scenario(suite.scenarios[scenario].file, {}).problem,
-                                      suite, scenario, point);
-              },
-              {.processes = options.processes,
-               .planners = options.own,
-               .on_progress = [&line](const SuiteProgress& progress) { line.show(progress); },
-               .stop = stop});
+    session.on_progress = [&line](const SuiteProgress& progress) { line.show(progress); };
+    run_suite(suite, runs_of(suite, shard), journal, problem_of, session);
   }
   const SuiteResults results{.journal = read_journal(options.out.path),
                              .interrupted = stop.stop_requested()};

@@ -1,7 +1,6 @@
 #include "planner/benchmark/benchmark_run.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <ompl/base/PlannerStatus.h>
 #include <ompl/config.h>
 #include <ompl/control/SimpleSetup.h>
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/benchmark/planner_parameters.h"
 #include "planner/driving/margin_draws.h"
 #include "planner/ompl/iteration_termination.h"
 #include "planner/ompl/muted_ompl.h"
@@ -62,18 +62,16 @@ class BoundedPlanner : public ob::Planner {
   std::int64_t iterations_;
 };
 
-void set_parameters(ob::Planner& planner, const std::string& name, const Properties& parameters) {
-  std::vector<std::string> known;
-  planner.params().getParamNames(known);
-  for (const auto& [key, value] : parameters) {
-    if (!planner.params().hasParam(key)) {
-      throw InputError(fmt::format("{}: parameter {} is not known (allowed: {})", name, key,
-                                   fmt::join(known, ", ")));
-    }
-    if (!planner.params().setParam(key, value)) {
-      throw InputError(fmt::format("{}: parameter {}: {} is not valid", name, key, value));
-    }
+/// Takes `improve`, which is no parameter of OMPL's, out of them.
+/// \returns nothing where it is not among them
+std::optional<bool> extracted_improve(const std::string& planner, Properties& parameters) {
+  const auto improve = parameters.extract("improve");
+  if (!improve) return std::nullopt;
+  if (improve.mapped() != "0" && improve.mapped() != "1") {
+    throw InputError(fmt::format("{}: parameter improve: {} is not valid (allowed: 0, 1)", planner,
+                                 improve.mapped()));
   }
+  return improve.mapped() == "1";
 }
 
 std::string real(double value) {
@@ -128,13 +126,7 @@ BenchmarkRecord benchmark(const World& searched, const World& verdict, const Ben
   const MutedOmpl muted;
   SearchGuidance guidance = run.guidance;
   Properties parameters = run.parameters;
-  if (const auto improve = parameters.extract("improve")) {
-    if (improve.mapped() != "0" && improve.mapped() != "1") {
-      throw InputError(fmt::format("{}: parameter improve: {} is not valid (allowed: 0, 1)",
-                                   run.planner, improve.mapped()));
-    }
-    guidance.improve = improve.mapped() == "1";
-  }
+  if (const auto improve = extracted_improve(run.planner, parameters)) guidance.improve = *improve;
   OmplProblem problem(searched, guidance);
   ob::PlannerPtr planner = make_planner(run.planner, problem, own);
   set_parameters(*planner, run.planner, parameters);
@@ -178,6 +170,16 @@ BenchmarkRecord benchmark(const World& searched, const World& verdict, const Ben
     }
   }
   return record;
+}
+
+void require_parameters(const World& world, const std::string& planner,
+                        const std::map<std::string, std::string>& parameters,
+                        const OwnPlanners& own) {
+  const MutedOmpl muted;
+  Properties of_ompl = parameters;
+  extracted_improve(planner, of_ompl);
+  OmplProblem problem(world, {});
+  set_parameters(*make_planner(planner, problem, own), planner, of_ompl);
 }
 
 int ompl_crash_status() {

@@ -43,6 +43,12 @@ struct BenchmarkRecord {
 BenchmarkRecord benchmark(const World& searched, const World& verdict, const BenchmarkRun& run,
                           const OwnPlanners& own = {});
 
+/// Makes the planner in this process as a run would, and gives it its parameters.
+/// \throws InputError as a run would
+void require_parameters(const World& world, const std::string& planner,
+                        const std::map<std::string, std::string>& parameters,
+                        const OwnPlanners& own = {});
+
 /// OMPL's status of a planner that crashed.
 int ompl_crash_status();
 

@@ -191,6 +191,21 @@ TEST(BenchmarkProgram, RefusesBadInputInOneLine) {
       "name: a\nscenarios: [scenario.yaml]\nplanners: [{planner: RRT, parameters: {bias: 1}}]\n" +
           rest,
       "parameter bias is not known");
+  for (const auto& [value, allowed] :
+       {std::pair("goal_bias: 3", "goal_bias: 3 is not valid (allowed: 0 to 1)"),
+        std::pair("goal_bias: -5", "goal_bias: -5 is not valid (allowed: 0 to 1)"),
+        std::pair("goal_bias: abc", "goal_bias: abc is not valid (allowed: 0 to 1)"),
+        std::pair("goal_bias: .nan", "goal_bias: .nan is not valid (allowed: 0 to 1)"),
+        std::pair("intermediate_states: 7",
+                  "intermediate_states: 7 is not valid (allowed: 0, 1)")}) {
+    refused(fmt::format("name: a\nscenarios: [scenario.yaml]\nplanners:\n  - Lattice\n"
+                        "  - {{planner: RRT, parameters: {{{}}}}}\n",
+                        value) +
+                rest,
+            fmt::format("suite.yaml:5: planners[1]: RRT: parameter {}", allowed));
+    // Before the first run: not even that of the planner before it has left anything.
+    EXPECT_FALSE(std::filesystem::exists(folder.path("out/runs.jsonl"))) << value;
+  }
   write_suite(folder);
   expect_refused(folder, benchmark_arguments(folder, "out2", "--shard 3/2"), "--shard");
   expect_refused(
