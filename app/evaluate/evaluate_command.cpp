@@ -25,7 +25,7 @@ struct Options {
   std::optional<std::string> soils_file;
   std::optional<double> gravity_mps2;
   std::vector<double> slopes_deg{0, 10, 20};
-  double speed_max_mps = 5;
+  std::optional<double> chart_speed_mps;
 };
 
 /// The value of a settings file that stands on the command line.
@@ -36,6 +36,17 @@ SettingsNode as_node(const std::string& text, const std::string& option) {
 /// `--soils` names a soils file, or a mapping with `soils` in it.
 std::vector<MapSoil> read_soils(const std::string& file, WheelVariant variant) {
   return read_soil_catalogue(read_settings(file), variant).soils;
+}
+
+/// Largest speed of a chart: the vehicle's own, or what is asked for below it.
+double chart_speed_max_mps(const Options& options, const Vehicle& vehicle) {
+  const double asked_mps = options.chart_speed_mps.value_or(vehicle.speed_max_mps);
+  if (asked_mps > vehicle.speed_max_mps) {
+    throw InputError(fmt::format(
+        "--chart-speed-mps: {} is not valid (allowed: above 0 to {}, the largest of {})", asked_mps,
+        vehicle.speed_max_mps, vehicle.name));
+  }
+  return asked_mps;
 }
 
 ChartSettings chart_settings(const Options& options) {
@@ -62,10 +73,9 @@ ChartSettings chart_settings(const Options& options) {
   if (options.soils_file) settings.soils = read_soils(*options.soils_file, settings.wheel_variant);
   if (options.gravity_mps2) settings.gravity_mps2 = *options.gravity_mps2;
   constexpr int kSpeeds = 19;
-  // Faster than the vehicle goes as well: what its soil would allow.
-  const double slowest = options.speed_max_mps / 10;
+  const double fastest_mps = chart_speed_max_mps(options, settings.vehicle);
   for (int i = 0; i < kSpeeds; ++i) {
-    settings.speeds_mps.push_back(slowest + (options.speed_max_mps - slowest) * i / (kSpeeds - 1));
+    settings.speeds_mps.push_back(fastest_mps * (1 + 9.0 * i / (kSpeeds - 1)) / 10);
   }
   for (const double slope : options.slopes_deg) {
     settings.slopes_rad.push_back(slope * std::numbers::pi / 180);
@@ -145,10 +155,11 @@ void add_chart_options(CLI::App& parser, Options& options) {
       ->check(in_range({.min = 0, .max = 45}))
       ->capture_default_str()
       ->needs(chart);
-  parser.add_option("--chart-speed-mps", options.speed_max_mps, "of the chart: from a tenth to it")
+  parser
+      .add_option("--chart-speed-mps", options.chart_speed_mps,
+                  "of the chart: from a tenth to it (default: the vehicle's largest)")
       ->type_name("MPS")
-      ->check(in_range({.min = 0, .max = 100, .min_excluded = true}))
-      ->capture_default_str()
+      ->check(in_range(kAbove0))
       ->needs(chart);
 }
 

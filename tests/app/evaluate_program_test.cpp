@@ -309,12 +309,37 @@ TEST_F(Evaluate, AChartTakesNothingThatIsOfPaths) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("chart")));
 }
 
+TEST_F(Evaluate, AChartGoesAsFastAsTheVehicleDoesAndNoFaster) {
+  const std::string soils = file("s.yaml",
+                                 "soils: {r: {source: t, cohesion_pa: 170, friction_angle_deg: 36, "
+                                 "kc: 1400, kphi: 820000, n: 1, a0: 0.4, a1: 0.15, lambda: 0.9, "
+                                 "density_kgpm3: 1500, kx0_m: 0.018, ky0_m: 0.013}}\n");
+  const std::string chart = "evaluate --chart '" + folder_.path("chart") + "' --vehicle curiosity" +
+                            " --gravity-mps2 3.71 --chart-slopes-deg 0 --quiet --soils " + soils;
+  const ProgramRun beyond = run_program(folder_, chart + " --chart-speed-mps 0.05");
+  EXPECT_EQ(beyond.status, 1);
+  EXPECT_NE(beyond.errors.find("--chart-speed-mps: 0.05 is not valid (allowed: above 0 to 0.04, "
+                               "the largest of curiosity)"),
+            std::string::npos)
+      << beyond.errors;
+  const ProgramRun run = run_program(folder_, chart);
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const std::string rows = folder_.read("chart/safe-curvature.csv");
+  EXPECT_TRUE(rows.substr(rows.rfind('\n', rows.size() - 2) + 1).starts_with("r,0,0.04,")) << rows;
+}
+
 TEST_F(Evaluate, AChartIsAPictureAndTables) {
   const ProgramRun run =
       run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --chart '" +
                                folder_.path("chart") + "' --chart-slopes-deg 0 --quiet");
   ASSERT_EQ(run.status, 0) << run.errors;
-  EXPECT_TRUE(folder_.read("chart/feasibility.svg").starts_with("<svg"));
+  const std::string picture = folder_.read("chart/feasibility.svg");
+  EXPECT_TRUE(picture.starts_with("<svg"));
+  // Told below the panels only, where no curve runs through it.
+  const std::size_t limit = picture.find("smallest margin allowed");
+  EXPECT_EQ(limit,
+            picture.find("end of the steering; ") + std::string("end of the steering; ").size());
+  EXPECT_EQ(picture.find("smallest margin allowed", limit + 1), std::string::npos);
   EXPECT_TRUE(folder_.read("chart/side-slope.csv").starts_with("soil,slope_deg,"));
   std::istringstream rows(folder_.read("chart/safe-curvature.csv"));
   std::string line;
