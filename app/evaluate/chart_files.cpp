@@ -71,10 +71,6 @@ std::string slope_panel(const ChartSettings& settings, const FeasibilityChart& c
   std::string svg = titled_axes(p, "Straight across a slope");
   svg += line_svg(
       p, {{p.x.low, settings.limits.margin_min}, {p.x.high, settings.limits.margin_min}}, kLimit);
-  svg +=
-      fmt::format(R"(<text x="{:.1f}" y="{:.1f}" fill="#666">smallest margin allowed, {:g}</text>)"
-                  "\n",
-                  p.left + 6, p.py(settings.limits.margin_min) - 5, settings.limits.margin_min);
   std::vector<SvgPoint> line;
   for (std::size_t i = 0; i < chart.side_slopes.size(); ++i) {
     const SideSlope& at = chart.side_slopes[i];

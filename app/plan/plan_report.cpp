@@ -48,7 +48,7 @@ std::string soil_sentence(const Candidate& best) {
   return fmt::format(
       "Over {} draws of the soils within their uncertainty, the best path keeps its margins in "
       "{:.0f} % of them (95 % interval of the share: {:.0f} to {:.0f} %); in 5 % of them its "
-      "smallest margin falls below {} ({} to {}).",
+      "smallest margin falls below {} (95 % interval of that quantile: {} to {}).",
       spread.draws, 100 * spread.feasible.share, 100 * spread.feasible.low,
       100 * spread.feasible.high, number(spread.p05, 2), number(spread.p05_low, 2),
       number(spread.p05_high, 2));

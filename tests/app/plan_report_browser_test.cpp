@@ -56,6 +56,23 @@ TEST_F(PlanReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {
   expect_drawn_without_error(drawn(result_));
 }
 
+TEST_F(PlanReportInTheBrowser, WritesNoLoadOfASixWheelerOnTheBarOfItsSupply) {
+  problem_.vehicle = preset_vehicle("curiosity");
+  const std::string page = drawn(result_);
+  static const std::regex bar(R"-(<rect class="supply"[^>]* y="([-0-9.]+)" height="([0-9.]+)")-");
+  static const std::regex load(R"-(<text class="load"[^>]* y="([-0-9.]+)")-");
+  std::smatch supply;
+  ASSERT_TRUE(std::regex_search(page, supply, bar));
+  const double top = std::stod(supply.str(1)), bottom = top + std::stod(supply.str(2));
+  constexpr double kLetters_px = 8;  // above the line that they stand on
+  int loads = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), load), end; at != end; ++at, ++loads) {
+    const double line = std::stod(at->str(1));
+    EXPECT_TRUE(line < top || line - kLetters_px > bottom) << line;
+  }
+  EXPECT_EQ(loads, 6);
+}
+
 TEST_F(PlanReportInTheBrowser, DrawsAnAnswerWithoutAnyPath) {
   PlanResult nothing;
   nothing.status = PlanStatus::kInfeasible;

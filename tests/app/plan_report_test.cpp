@@ -169,6 +169,12 @@ TEST_F(PlanReport, SaysTheVerdictFirst) {
   EXPECT_NE(page.find("Rejected for cornering at"), std::string::npos);
 }
 
+TEST_F(PlanReport, SaysOfEachIntervalWhatItIsOf) {
+  const std::string page = plan_report(problem_, result_);
+  EXPECT_NE(page.find("(95 % interval of the share: "), std::string::npos);
+  EXPECT_NE(page.find("(95 % interval of that quantile: "), std::string::npos);
+}
+
 TEST_F(PlanReport, EscapesTextThatComesFromFiles) {
   std::vector<MapSoil> soils = problem_.map.soils();
   const std::string hostile = "</script><script>alert('soil')</script><!-- & \"";

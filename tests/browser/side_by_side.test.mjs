@@ -41,6 +41,26 @@ for (const kind of ['evaluation', 'manoeuvres'])
       });
     });
 
+    test('the limit of the margins runs through no path\'s name', async () => {
+      await withPage(kind, async page => {
+        const boxes = await page.evaluate(() => {
+          const of = found => [...document.querySelectorAll(found)].map(node => {
+            const {left, right, top, bottom} = node.getBoundingClientRect();
+            return {left, right, top, bottom};
+          });
+          return {lines: of('#spreads .limit'), names: of('#spreads .row-name')};
+        });
+        assert.ok(boxes.lines.length > 0);
+        for (const line of boxes.lines)
+          for (const name of boxes.names) {
+            // A box of letters reaches a little below them.
+            const meets = line.left < name.right && line.right > name.left &&
+                line.top < name.bottom - 2 && line.bottom > name.top;
+            assert.ok(!meets, JSON.stringify({line, name}));
+          }
+      });
+    });
+
     test('rows are no higher than their first cell, which stays in sight', async () => {
       await withPage(kind, async page => {
         const rows = await page.evaluate(

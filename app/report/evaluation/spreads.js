@@ -81,9 +81,9 @@ function dotFigure({title, unit, limit, domain, keys, note, dots, data}) {
     const x = dotScale(all, domain, limit).range([box.left, box.right]);
     const y = d3.scaleLinear().domain([0, COURSES.length]).range([box.top, box.bottom]);
     drawAxes(svg, box, {scale: x, grid: true}, {scale: y, values: [], grid: false});
-    if (limit) drawDotLimit(svg, box, x(limit.value));
     return COURSES.flatMap((course, k) => {
       const top = box.top + block_px * k;
+      if (limit) drawDotLimit(svg, x(limit.value), top + name_px, top + block_px);
       svg.append('text')
           .attr('class', 'row-name')
           .attr('x', box.left)
@@ -103,13 +103,14 @@ function dotScale(all, domain, limit) {
   return d3.scaleLinear().domain(d3.extent(values.concat(0, limit.value))).nice(6);
 }
 
-function drawDotLimit(svg, box, x) {
+/// Beside the dots of one path, and not through its name.
+function drawDotLimit(svg, x, top, bottom) {
   svg.append('line')
       .attr('class', 'limit')
       .attr('x1', x)
       .attr('x2', x)
-      .attr('y1', box.top)
-      .attr('y2', box.bottom);
+      .attr('y1', top)
+      .attr('y2', bottom);
 }
 
 /// Draws one interval with its middle; returns the mark that can be pointed at.

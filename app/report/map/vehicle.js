@@ -79,6 +79,17 @@ function vehicleFigure(host) {
   view.events.on('cursor.vehicle', made.draw);
 }
 
+/// Half of the height of the bar of the supply, and the height of letters beside it.
+const SUPPLY_HALF_PX = 9, LETTERS_PX = 11;
+
+/// Where the load of a wheel is written that stands at this height: beside it, or next to the bar of
+/// the supply where that lies there.
+function loadBaseline(wheel_y) {
+  const clear_px = SUPPLY_HALF_PX + 3;
+  if (Math.abs(wheel_y) > clear_px + LETTERS_PX / 2) return wheel_y + 4;
+  return wheel_y < 0 ? -clear_px : clear_px + LETTERS_PX;
+}
+
 /// Body, wheels with their loads, and across the centre of gravity supply and demand.
 function drawFromAbove(svg, box, at) {
   const {body} = VEHICLE, middle = (box.left + box.right) / 2;
@@ -99,7 +110,7 @@ function drawFromAbove(svg, box, at) {
             'x',
             -wheel.y_m * k +
                 side * (VEHICLE.wheel_width_m * k / 2 + VEHICLE.wheel_radius_m * k * 0.5 + 6))
-        .attr('y', -wheel.x_m * k + 4)
+        .attr('y', loadBaseline(-wheel.x_m * k))
         .text(fixed(load_n, 0, 'N'));
   }
   top.append('text')
@@ -121,8 +132,8 @@ function drawLateral(top, reach, at) {
         .attr('class', 'supply')
         .attr('x', x(high))
         .attr('width', x(low) - x(high))
-        .attr('y', -9)
-        .attr('height', 18)
+        .attr('y', -SUPPLY_HALF_PX)
+        .attr('height', 2 * SUPPLY_HALF_PX)
         .attr('fill', cssVar('--band'))
         .attr('stroke', cssVar('--series-1'));
   if (!isKnown(demand)) return;
