@@ -211,7 +211,8 @@ std::optional<DriveEstimate> standing_excess(const std::vector<DriveRecording>& 
     const double command = channel_mean(drive, window, "command_speed");
     const double turn = channel_mean(drive, window, "command_turn");
     constexpr double kStands_mps = 0.03;
-    if (!(command == 0) || !(turn == 0) || !window.steady || !(window.speed_mps < kStands_mps)) {
+    if (!(command == 0) || !(turn == 0) || !window.steady ||
+        !(window.speed_mps < kStands_mps * window.pace)) {
       continue;
     }
     const double off = side_mean(drive, window, "current", "a", {}, "left") -
@@ -236,7 +237,7 @@ bool goes_back(const DriveRecording& drive, const DriveWindow& window) {
                       side_mean(drive, window, "wheel_speed", "rad_s", {}, "right")) /
                      2;
   constexpr double kTurns_rad_s = 0.1;
-  if (std::abs(rim) > kTurns_rad_s) return rim < 0;
+  if (std::abs(rim) > kTurns_rad_s * window.pace) return rim < 0;
   const double back =
       std::remainder(heading_rad(drive, window) - window.course_rad, 2 * std::numbers::pi);
   return std::abs(back) > 1;
@@ -267,8 +268,9 @@ Windows steady_windows(const std::vector<DriveRecording>& drives,
     const DriveRecording& drive = drives[window.drive];
     double speed = window.sensed_speed_mps;
     if (std::isnan(speed)) speed = window.speed_mps;
-    if (!window.steady || !(std::abs(speed) > kMoving_mps)) continue;
-    CurrentWindow at{.window = i, .drive = window.drive, .duration_s = window.duration_s()};
+    if (!window.steady || !(std::abs(speed) > kMoving_mps * window.pace)) continue;
+    CurrentWindow at{
+        .window = i, .drive = window.drive, .duration_s = window.duration_s(), .pace = window.pace};
     at.current_a = {side_mean(drive, window, "current", "a", {}, swapped ? "right" : "left"),
                     side_mean(drive, window, "current", "a", {}, swapped ? "left" : "right")};
     at.speed_mps = goes_back(drive, window) ? -speed : speed;
@@ -343,8 +345,10 @@ CurrentModel::Terms CurrentModel::terms(int side, const CurrentWindow& at, doubl
   constexpr double kTurnsOver_mps = 0.05;  // slower, wheels turn both ways within a window
   constexpr double kStands_mps = 0.01, kSlides = 1.0 / 3;
   const double outward = side == 0 ? -1 : 1, by_turn_mps = half_track_m * at.yaw_rate_rad_s;
-  const double direction = std::tanh((at.speed_mps + outward * by_turn_mps) / kTurnsOver_mps);
-  const double turn = by_turn_mps / std::hypot(by_turn_mps, kSlides * at.speed_mps, kStands_mps);
+  const double direction =
+      std::tanh((at.speed_mps + outward * by_turn_mps) / (kTurnsOver_mps * at.pace));
+  const double turn =
+      by_turn_mps / std::hypot(by_turn_mps, kSlides * at.speed_mps, kStands_mps * at.pace);
   const double braking = std::min(0.0, direction * at.sin_pitch) * direction;
   Terms terms{0, 1, direction, at.sin_pitch, braking, turn, direction * std::abs(turn)};
   for (double& term : terms) term *= at.driven;

@@ -23,6 +23,7 @@ struct CurrentWindow {
   double driven = 1;                  ///< share of it in which anything is commanded
   std::array<double, 2> current_a{};  ///< left, right
   double duration_s = 0;
+  double pace = 1;  ///< of its drive (`pace_of`)
 };
 
 /// The current of a side of a skid-steered vehicle. What nothing is asked of takes what the

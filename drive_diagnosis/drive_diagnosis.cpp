@@ -10,6 +10,7 @@
 #include "drive_diagnosis/drive_claims.h"
 #include "drive_diagnosis/instruments/torque_unit.h"
 #include "drive_diagnosis/instruments/yaw_unit.h"
+#include "drive_diagnosis/recording/drive_pace.h"
 #include "drive_diagnosis/recording/position_lag.h"
 #include "drive_diagnosis/recording/time_checks.h"
 #include "drive_diagnosis/silent_effects.h"
@@ -90,12 +91,21 @@ void check_place(const DriveSetup& setup, const std::vector<DriveRecording>& dri
 /// How far the smoothing of poses reaches beyond a window, where a vehicle's model is compared.
 constexpr double kBeyond = 0.3;
 
+/// How long the windows of each drive are.
+std::vector<double> lengths_s(const std::vector<DriveRecording>& drives, const DriveSetup& setup) {
+  // Steering settles, and poses at 1 Hz give a speed.
+  constexpr double kWithVehicle_s = 5, kWithout_s = 3;
+  if (setup.window_s) return std::vector<double>(drives.size(), *setup.window_s);
+  return window_lengths_s(drives, setup.vehicle ? kWithVehicle_s : kWithout_s);
+}
+
 /// Windows hold the means of the channels that a drive has when they are read.
 std::vector<DriveWindow> windows_of(const std::vector<DriveRecording>& drives,
                                     const DriveSetup& setup) {
+  const std::vector<double> windows_s = lengths_s(drives, setup);
   std::vector<DriveWindow> windows;
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    std::ranges::move(drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0),
+    std::ranges::move(drive_windows(drives[i], i, windows_s[i], setup.vehicle ? kBeyond : 0),
                       std::back_inserter(windows));
   }
   return windows;
@@ -184,22 +194,23 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     }
     mend_positions(drives[i], speed_max_mps);
     mend_position_lag(drives[i]);
-    std::vector<DriveWindow> windows =
-        drive_windows(drives[i], i, setup.window_s, setup.vehicle ? kBeyond : 0);
-    if (windows.empty()) {
+  }
+  result.windows = windows_of(drives, setup);
+  const std::vector<double> windows_s = lengths_s(drives, setup);
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    if (std::ranges::find(result.windows, i, &DriveWindow::drive) == result.windows.end()) {
       drives[i].findings.push_back(
           {.id = "no_window",
            .drive = drives[i].drive_id,
            .text =
                fmt::format("{} samples, none of them {:.0f} s without a gap: nothing to compare",
-                           drives[i].size(), setup.window_s)});
+                           drives[i].size(), windows_s[i])});
     }
-    std::ranges::move(windows, std::back_inserter(result.windows));
     std::ranges::copy(drives[i].findings, std::back_inserter(result.findings));
   }
   if (result.windows.empty()) {
     throw InputError(fmt::format("{}: no {:.0f} s of driving without a gap in {} samples",
-                                 drives.front().file, setup.window_s, drives.front().size()));
+                                 drives.front().file, windows_s.front(), drives.front().size()));
   }
 }
 

@@ -28,7 +28,8 @@ struct DriveSetup {
   double gravity_mps2 = 0;
   DriveEstimate mounting_pitch_rad{0, 0.035};  ///< how the attitude sensor is said to sit
   DriveEstimate mounting_roll_rad{0, 0.035};
-  double window_s = 3;
+  /// How long all windows are; nothing: as long as the drives' speeds take (`window_lengths_s`).
+  std::optional<double> window_s = {};
 };
 
 /// A name for what is otherwise than the model has it.

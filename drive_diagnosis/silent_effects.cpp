@@ -3,21 +3,92 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+
+#include "drive_diagnosis/comparison/window_input.h"
 
 namespace regoplan {
 namespace {
 
-/// Counts windows that the vehicle's model says nothing of.
+/// The speed below which wheels were taken to stand, the largest of all drives.
+double standing_mps(const std::vector<DriveWindow>& windows) {
+  double pace = 0;
+  for (const DriveWindow& window : windows) pace = std::max(pace, window.pace);
+  return kStanding_mps * pace;
+}
+
+std::string reason_text(LeftOut reason, const DriveDiagnosis& result) {
+  switch (reason) {
+    case LeftOut::kNoInput:
+      return "without a pose, rim speeds or steering";
+    case LeftOut::kStanding:
+      return fmt::format("standing (rims slower than {:.2g} m/s, or turning round)",
+                         standing_mps(result.windows));
+    case LeftOut::kOffMap:
+      return "off the map";
+    case LeftOut::kNoBalance:
+      return "in which the vehicle's model has no motion";
+    case LeftOut::kNoChannel:
+      return "in which not all that is compared was measured";
+    case LeftOut::kTooMany:
+      return "beyond the most that are compared";
+  }
+  return {};
+}
+
+/// The windows that the vehicle's model says nothing of, and why.
 std::string why_nothing_is_compared(const DriveDiagnosis& result) {
+  const int compared = result.windows_used ? result.windows_used->compared : 0;
   std::string text =
-      "fewer than 12 windows drive with rim speeds, steering, heading and known ground";
+      fmt::format("{} windows can be compared, at least {} are needed", compared, kWindowsLeast);
   if (!result.windows_used) return text;
   for (std::size_t i = 0; i < kLeftOutReasons; ++i) {
     const int count = result.windows_used->left_out.at(i);
-    if (count > 0) text += fmt::format(", {} {}", count, name(static_cast<LeftOut>(i)));
+    if (count > 0) {
+      text += fmt::format(", {} {}", count, reason_text(static_cast<LeftOut>(i), result));
+    }
   }
   return text;
+}
+
+/// As long as the least number of windows takes.
+std::string least_time_text(const std::vector<DriveWindow>& windows) {
+  double window_s = 0;
+  for (const DriveWindow& window : windows) window_s = std::max(window_s, window.duration_s());
+  const double minutes = std::max(1.0, std::ceil(window_s * kWindowsLeast / 60 - 0.01));
+  return minutes == 1 ? "a minute" : fmt::format("{:.0f} minutes", minutes);
+}
+
+/// What would make most of the windows that were left out comparable.
+std::string drive_that_decides(const DriveDiagnosis& result) {
+  const std::string time = least_time_text(result.windows);
+  const std::string usual =
+      time + " on the map with rim speed and steering of every wheel and the pose at 1 Hz";
+  if (!result.windows_used) return usual;
+  const auto& left_out = result.windows_used->left_out;
+  const auto most = std::ranges::max_element(left_out);
+  if (*most == 0) return usual;
+  switch (static_cast<LeftOut>(most - left_out.begin())) {
+    case LeftOut::kNoInput:
+    case LeftOut::kTooMany:
+      return usual;
+    case LeftOut::kStanding:
+      return fmt::format(
+          "{} on the map without a stop, all wheels turning one way and faster than "
+          "{:.2g} m/s",
+          time, standing_mps(result.windows));
+    case LeftOut::kOffMap:
+      return fmt::format("{} on the map, or a map that reaches around this drive", time);
+    case LeftOut::kNoBalance:
+      return "a look at the vehicle's numbers, the map's soils and the unit of the rim speeds: "
+             "with "
+             "these, forces balance nowhere";
+    case LeftOut::kNoChannel:
+      return fmt::format(
+          "{} on the map, every recorded torque and attitude sampled in every window", time);
+  }
+  return usual;
 }
 
 /// How long zones must be for these drives to show them.
@@ -47,11 +118,10 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
          "the same drives with a vehicle file: mass, wheels, centre of gravity"});
   }
   if (setup.vehicle && !result.effects) {
-    result.silent.push_back(
-        {{"soil_zone", "zone_border", "map_offset", "wheel_radius", "steering_offset", "payload",
-          "tow_drag"},
-         why_nothing_is_compared(result),
-         "a minute on the map with rim speed and steering of every wheel and the pose at 1 Hz"});
+    result.silent.push_back({{"soil_zone", "zone_border", "map_offset", "wheel_radius",
+                              "steering_offset", "payload", "tow_drag"},
+                             why_nothing_is_compared(result),
+                             drive_that_decides(result)});
   }
   const bool has_zone =
       result.effects && std::ranges::any_of(result.effects->found, [](const VehicleFinding& found) {

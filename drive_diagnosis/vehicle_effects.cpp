@@ -18,7 +18,6 @@
 namespace regoplan {
 namespace {
 
-constexpr std::size_t kWindowsLeast = 12;
 /// By how much more a number of a zone's soil errs than the fit linearised about it says: wheels
 /// that sink deep are far from linear. The logarithm of kphi, which the drive shows, is not. Root
 /// mean square of 51 concealed zones (benchmarks/drives, seeds 1551 to 1600, 1701 to 1715 and 1801

@@ -80,7 +80,10 @@ struct VehicleEffects {
   std::vector<ComparedChannel> compared;  ///< window by window, in the order of `channels`
 };
 
-/// What became of the windows, and what they say where there are at least 12 to be compared.
+/// As many windows must be compared at least.
+inline constexpr std::size_t kWindowsLeast = 12;
+
+/// What became of the windows, and what they say where there are enough to be compared.
 struct VehicleComparison {
   WindowsUsed windows;
   std::optional<VehicleEffects> effects;

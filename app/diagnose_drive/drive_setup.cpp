@@ -50,6 +50,8 @@ void read_uncertain(const SettingsNode& node, DriveSetup& setup) {
   });
 }
 
+constexpr ValueRange kWindow_s{.min = 1, .max = 600};
+
 void read_setup_keys(const std::string& file, DriveSetup& setup) {
   read_mapping(read_settings(file), [&](SettingsMapping& mapping) {
     if (const SettingsNode* mounting = mapping.optional("mounting")) {
@@ -63,7 +65,7 @@ void read_setup_keys(const std::string& file, DriveSetup& setup) {
       });
     }
     if (const SettingsNode* vehicle = mapping.optional("vehicle")) read_uncertain(*vehicle, setup);
-    setup.window_s = mapping.number_or("window_s", {.min = 1, .max = 20}, setup.window_s);
+    if (mapping.optional("window_s")) setup.window_s = mapping.number("window_s", kWindow_s);
     return true;
   });
 }
@@ -90,8 +92,6 @@ DriveSetupFile read_drive_setup(const std::string& scenario_file,
       });
     }
   }
-  constexpr double kWithVehicle_s = 5;  // steering settles, and poses at 1 Hz give a speed
-  if (read.setup.vehicle) read.setup.window_s = kWithVehicle_s;
   if (setup_file) read_setup_keys(*setup_file, read.setup);
   if (read.setup.vehicle) {
     const Limits usual = default_limits(*read.setup.vehicle);

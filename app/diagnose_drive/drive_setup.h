@@ -21,7 +21,7 @@ struct DriveSetupFile {
 ///
 ///     mounting: {pitch_deg: {mean, std}, roll_deg: {mean, std}}   # of the attitude sensor
 ///     vehicle: {mass_kg: {mean, std}, wheel_radius_m: {mean, std}, motor_constant: {mean, std}}
-///     window_s: 3                                   # 1 to 20; with a vehicle else 5
+///     window_s: 3                                   # 1 to 600; else as the drives' speeds take
 ///
 /// \throws SettingsError
 DriveSetupFile read_drive_setup(const std::string& scenario_file,

@@ -17,8 +17,6 @@
 namespace regoplan {
 namespace {
 
-constexpr double kStanding_mps = 0.1;
-
 PlanningProblem problem_of(const TerrainMap& map, const Vehicle& vehicle, const DriveSetup& setup,
                            const Limits& limits) {
   // A drive may have gone faster than anybody would plan: its speed is no reason here.
@@ -132,7 +130,7 @@ std::vector<VerdictFlip> verdict_flips(const DriveSetup& setup, const Limits& li
   std::vector<std::vector<VehicleState>> states;
   for (std::size_t i = 0; i < diagnosis.windows.size(); ++i) {
     const DriveWindow& window = diagnosis.windows[i];
-    const bool moves = std::abs(window.forward_mps) > kStanding_mps;
+    const bool moves = std::abs(window.forward_mps) > kMoving_mps * window.pace;
     if (!moves || !std::isfinite(window.yaw_rate_rad_s)) continue;
     if (!setup.map.inside(window.x_m, window.y_m)) continue;
     judged.push_back(i);

@@ -9,6 +9,7 @@
 
 #include "drive_diagnosis/comparison/channel_samples.h"
 #include "drive_diagnosis/comparison/window_input.h"
+#include "drive_diagnosis/recording/drive_pace.h"
 #include "drive_diagnosis/recording/fix_scatter.h"
 #include "drive_diagnosis/recording/robust_statistics.h"
 #include "terramech/basics/interruption.h"
@@ -72,8 +73,7 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
 /// Takes a window in, or says why not.
 std::optional<LeftOut> WindowComparison::add(std::size_t window,
                                              std::vector<Eigen::VectorXd>& rows) {
-  constexpr std::size_t kWindowsMost = 150;  // the contest stays within seconds
-  if (rows.size() == kWindowsMost) return LeftOut::kTooMany;
+  if (rows.size() == kComparedMost) return LeftOut::kTooMany;
   const DriveRecording& drive = drives_[windows_[window].drive];
   auto input = input_of(drive, windows_[window], vehicle_, gravity_mps2_);
   if (!input) return LeftOut::kNoInput;
@@ -233,12 +233,12 @@ void WindowComparison::shift(WindowInput& input, std::size_t window, std::size_t
       place.rim_rad_s.at(which) += deviations * rim_std_rad_s_[window].at(which);
     } else if (which == wheels) {
       place.more_mps2 +=
-          deviations *
-          acceleration_std(measured, &WindowInput::Place::acceleration_mps2, kLeast_mps2);
+          deviations * acceleration_std(measured, &WindowInput::Place::acceleration_mps2,
+                                        kLeast_mps2 * measured.pace);
     } else if (which == wheels + 1) {
       place.more_rps2 +=
-          deviations *
-          acceleration_std(measured, &WindowInput::Place::yaw_acceleration_rps2, kLeast_rps2);
+          deviations * acceleration_std(measured, &WindowInput::Place::yaw_acceleration_rps2,
+                                        kLeast_rps2 * measured.pace);
     } else {
       (which == wheels + 2 ? place.more_slope_forward : place.more_slope_left) +=
           deviations * kSlope;

@@ -93,7 +93,8 @@ void accelerate(const DriveRecording& drive, const DriveWindow& window, const Ve
 /// What a window gives in so many parts; nothing where it lacks something.
 std::optional<WindowInput> input_in(std::size_t parts, const DriveRecording& drive,
                                     const DriveWindow& window, const Vehicle& vehicle) {
-  WindowInput input{.yaw_rad = window.yaw_rad, .forward_mps = window.forward_mps};
+  WindowInput input{
+      .yaw_rad = window.yaw_rad, .forward_mps = window.forward_mps, .pace = window.pace};
   double all = window.yaw_rad;
   for (const WindowPart& part : window.divided(parts)) {
     WindowInput::Place& place = input.places.emplace_back();
@@ -124,8 +125,9 @@ bool jerks(const WindowInput& input, double gravity_mps2) {
 
 bool stands(const WindowInput& input) {
   const double way = std::copysign(1.0, input.places.front().start.motion.vx_mps);
-  return std::ranges::any_of(input.places, [way](const WindowInput::Place& place) {
-    return way * place.start.motion.vx_mps < kMoving_mps / 2;
+  const double least_mps = kStanding_mps * input.pace;
+  return std::ranges::any_of(input.places, [&](const WindowInput::Place& place) {
+    return way * place.start.motion.vx_mps < least_mps;
   });
 }
 

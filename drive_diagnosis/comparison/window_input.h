@@ -16,6 +16,9 @@ namespace regoplan {
 std::optional<WindowInput> input_of(const DriveRecording& drive, const DriveWindow& window,
                                     const Vehicle& vehicle, double gravity_mps2);
 
+/// Slower, wheels are taken to stand, but for the pace of their drive.
+inline constexpr double kStanding_mps = kMoving_mps / 2;
+
 /// Whether wheels stand or turn round somewhere: they have no slip to speak of there.
 bool stands(const WindowInput& input);
 

@@ -22,6 +22,7 @@ struct Scene {
   const BodyMotion* before = nullptr;       ///< at the place before; null at the first
   const BodyMotion* long_before = nullptr;  ///< before that; null at the first two
   double step_s = 0;                        ///< from place to place
+  double slow_mps = 0;  ///< steps of the search for a motion are no shorter at less speed
   double tow_drag_n = 0;
   PatchAxes axes;
   double hollow_1pm = 0;
@@ -98,6 +99,9 @@ Sums sums_at(const Scene& scene, const BodyMotion& motion, const GroundReaction&
   return sums;
 }
 
+/// As slow as wheels go that are compared.
+constexpr double kSlow_mps = kMoving_mps / 2;
+
 using Vector = Eigen::Vector3d;
 
 BodyMotion motion_of(const Vector& v) {
@@ -141,7 +145,7 @@ Vector imbalance(const Scene& scene, const Vector& v) {
 
 Eigen::Matrix3d response_at(const Scene& scene, const Vector& v, const Vector& here) {
   Eigen::Matrix3d slopes;
-  const double h = 1e-5 * std::max(std::abs(v[0]), 0.05);
+  const double h = 1e-5 * std::max(std::abs(v[0]), scene.slow_mps);
   for (int k = 0; k < 3; ++k) {
     Vector moved = v;
     moved[k] += h;
@@ -163,13 +167,13 @@ std::optional<MotionStart> balanced(const Scene& scene, const MotionStart& start
     const Vector here = imbalance(scene, v);
     if (is_slow) response = response_at(scene, v, here);
     Vector change = -response * here;
-    const double reach = 0.2 * std::max(std::abs(v[0]), 0.05);
+    const double reach = 0.2 * std::max(std::abs(v[0]), scene.slow_mps);
     const double largest = change.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) return {};
     if (largest > reach) change *= reach / largest;
     v += change;
-    constexpr double kClose = 1e-6, kSlow = 0.2;
-    if (largest < kClose) return MotionStart{motion_of(v), response};
+    constexpr double kClose = 2e-5, kSlow = 0.2;
+    if (largest < kClose * scene.slow_mps) return MotionStart{motion_of(v), response};
     is_slow = largest > kSlow * last;
     last = largest;
   }
@@ -336,6 +340,7 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
                 .before = j > 0 ? &places[j - 1].found.motion : nullptr,
                 .long_before = j > 1 ? &places[j - 2].found.motion : nullptr,
                 .step_s = place.part.end_s - place.part.start_s,
+                .slow_mps = kSlow_mps * input.pace,
                 .tow_drag_n = deviation.tow_drag_n,
                 .axes = PatchAxes(patch, gravity_mps2_),
                 .hollow_1pm = patch.curvature_1pm};

@@ -42,6 +42,7 @@ struct WindowInput {
   std::vector<Place> places;
   double yaw_rad = 0;      ///< what velocities are told along
   double forward_mps = 0;  ///< measured: by it wheels are ahead of the body in time
+  double pace = 1;         ///< of its drive (`pace_of`)
 };
 
 /// What the model says of a window; velocities are horizontal, angles those of the ground.

@@ -126,7 +126,8 @@ std::vector<Mounting> find_mountings(const std::vector<DriveRecording>& drives,
     }
     const auto at = static_cast<std::size_t>(day - mountings.begin());
     constexpr double kSteady_mps = 0.15, kStraight_rad_s = 0.08;
-    if (!(window.speed_mps > kSteady_mps) || std::abs(window.yaw_rate_rad_s) > kStraight_rad_s) {
+    if (!(window.speed_mps > kSteady_mps * window.pace) ||
+        std::abs(window.yaw_rate_rad_s) > kStraight_rad_s * window.pace) {
       continue;
     }
     const auto ground =

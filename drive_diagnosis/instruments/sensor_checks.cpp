@@ -33,7 +33,7 @@ bool drives_back(const DriveRecording& drive, const DriveWindow& window) {
 }
 
 bool moves(const DriveWindow& window) {
-  return window.speed_mps > kMoving_mps;
+  return window.speed_mps > kMoving_mps * window.pace;
 }
 
 /// Quantities of windows, in pairs.
@@ -105,7 +105,8 @@ void Checker::check_yaw() {
   Pairs turns;
   for (std::size_t i = 1; i < windows_.size(); ++i) {
     const DriveWindow &a = windows_[i - 1], &b = windows_[i];
-    if (a.drive != b.drive || b.start_s - a.end_s > 2 || !moves(a) || !moves(b)) continue;
+    if (a.drive != b.drive || b.start_s - a.end_s > std::max(2.0, 0.4 * a.duration_s())) continue;
+    if (!moves(a) || !moves(b)) continue;
     if (drives_back(drives_[a.drive], a) != drives_back(drives_[b.drive], b)) continue;
     const double course = std::remainder(b.course_rad - a.course_rad, 2 * std::numbers::pi);
     const double yaw = b.yaw_rad - a.yaw_rad;
@@ -127,11 +128,15 @@ void Checker::check_yaw() {
 }
 
 void Checker::find_yaw_offset() {
+  constexpr double kTurns_rad_s = 0.1;
   double c = 0, s = 0;
   std::vector<double> angles;
   for (const DriveWindow& window : windows_) {
     if (!moves(window) || window.speed_mps < 5 * window.speed_std_mps) continue;
-    if (std::isnan(window.yaw_rad) || std::abs(window.yaw_rate_rad_s) > 0.1) continue;
+    if (std::isnan(window.yaw_rad) ||
+        std::abs(window.yaw_rate_rad_s) > kTurns_rad_s * window.pace) {
+      continue;
+    }
     const bool back = drives_back(drives_[window.drive], window);
     const double angle =
         window.course_rad + (back ? std::numbers::pi : 0.0) - checks_.yaw_sign * window.yaw_rad;

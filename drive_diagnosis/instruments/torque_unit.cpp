@@ -21,7 +21,9 @@ std::optional<double> torque_rms_nm(const DriveRecording& drive, std::size_t ind
   double squares = 0;
   int count = 0;
   for (const DriveWindow& window : windows) {
-    if (window.drive != index || !(std::abs(window.forward_mps) > kMoves_mps)) continue;
+    if (window.drive != index || !(std::abs(window.forward_mps) > kMoves_mps * window.pace)) {
+      continue;
+    }
     for (const WheelMount& wheel : vehicle.wheels) {
       const double torque_nm =
           channel_mean(drive, window, fmt::format("{}{}_nm", kTorque, wheel.name));

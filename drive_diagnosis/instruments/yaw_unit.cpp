@@ -42,7 +42,7 @@ bool yaw_is_in_radians(const DriveRecording& drive, std::size_t index,
   if (!is_small) return false;
   std::vector<double> as_told, as_radians;
   for (const DriveWindow& window : windows) {
-    if (window.drive != index || !(window.speed_mps > kMoving_mps)) continue;
+    if (window.drive != index || !(window.speed_mps > kMoving_mps * window.pace)) continue;
     const double value = yaw_near_middle(drive, *yaw, window);
     if (std::isnan(value) || std::isnan(window.course_rad)) continue;
     const auto off_track = [&window](double yaw_rad) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "drive_diagnosis/recording/drive_pace.h"
 #include "drive_diagnosis/recording/robust_statistics.h"
 #include "drive_diagnosis/recording/time_checks.h"
 
@@ -176,7 +177,7 @@ std::vector<WindowPart> DriveWindow::divided(std::size_t count) const {
 std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t index,
                                        double window_s, double beyond) {
   std::vector<DriveWindow> windows;
-  const double gap_s = gap_max_s(drive);
+  const double gap_s = gap_max_s(drive), pace = pace_of(drive);
   const std::size_t n = drive.size();
   for (std::size_t from = 0; from < n;) {
     std::size_t to = from + 1;
@@ -199,6 +200,7 @@ std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t 
         ++wide.to;
       }
       windows.push_back(window_of(drive, index, {from, to}, wide));
+      windows.back().pace = pace;
     }
     from = to;
   }

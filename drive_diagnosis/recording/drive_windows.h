@@ -8,7 +8,8 @@
 
 namespace regoplan {
 
-/// Slower, a drive is taken to stand: positions and rim speeds scatter by as much.
+/// Slower, a drive is taken to stand, where it usually goes at .4 m/s or faster: positions and rim
+/// speeds scatter by as much. Speeds and rates of slower drives go by their `pace`.
 inline constexpr double kMoving_mps = 0.1;
 
 /// A part of the time that a window is smoothed over. What is smoothed is a linear functional of
@@ -26,6 +27,7 @@ struct WindowPart {
 /// say.
 struct DriveWindow {
   std::size_t drive = 0;  ///< index of its drive
+  double pace = 1;        ///< of its drive (`pace_of`)
   double start_s = 0, end_s = 0;
   /// What is smoothed may begin before the window and end after it.
   double smoothed_from_s = 0, smoothed_to_s = 0;

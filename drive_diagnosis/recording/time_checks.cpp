@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "drive_diagnosis/recording/fix_scatter.h"
 #include "drive_diagnosis/recording/robust_statistics.h"
 
 namespace regoplan {
@@ -100,20 +101,29 @@ std::vector<FixStep> steps_of(const DriveRecording& drive) {
   return steps;
 }
 
+/// By how much positions may be off without being wrong: half a metre, and of a vehicle so slow
+/// that this were much, what it goes in five seconds, as far as fixes do not scatter by more.
+double slack_of_m(const DriveRecording& drive, double speed_max_mps) {
+  constexpr double kMost_m = 0.5, kTime_s = 5, kScatters = 12;
+  const double scatter_m = fix_scatter(drive).position_m;
+  return std::min(kMost_m, std::max(kTime_s * speed_max_mps, kScatters * scatter_m));
+}
+
 /// Takes back steps that no vehicle of that speed can make and that fixes do not scatter by: from
 /// there on the positions have another datum.
 void take_steps_back(DriveRecording& drive, double speed_max_mps) {
-  constexpr double kSlack_m = 0.5, kScatters = 12;
+  constexpr double kScatters = 12;
   const std::vector<FixStep> steps = steps_of(drive);
   if (steps.empty()) return;
   std::vector<double> sizes;
   for (const FixStep& step : steps) sizes.push_back(step.size_m());
   const double scatter_m = median_value(std::move(sizes));
+  const double slack_m = slack_of_m(drive, speed_max_mps);
   std::size_t count = 0;
   double largest_m = 0, at_s = 0;
   for (const FixStep& step : steps) {
     const double size_m = step.size_m();
-    if (size_m <= std::max(speed_max_mps * step.dt_s + kSlack_m, kScatters * scatter_m)) continue;
+    if (size_m <= std::max(speed_max_mps * step.dt_s + slack_m, kScatters * scatter_m)) continue;
     for (std::size_t i = step.to; i < drive.size(); ++i) {
       drive.x_m[i] -= step.x_m;
       drive.y_m[i] -= step.y_m;
@@ -216,6 +226,7 @@ void mend_positions(DriveRecording& drive, double speed_max_mps) {
          static_cast<double>(stale) / static_cast<double>(sampled));
   }
   constexpr std::size_t kAround = 3;
+  const double slack_m = slack_of_m(drive, speed_max_mps);
   std::vector<std::size_t> bad;
   for (std::size_t k = 0; k < fresh.size(); ++k) {
     std::vector<double> xs, ys;
@@ -230,9 +241,8 @@ void mend_positions(DriveRecording& drive, double speed_max_mps) {
     if (xs.size() < 4) continue;
     const double off_m = std::hypot(drive.x_m[fresh[k]] - median_value(std::move(xs)),
                                     drive.y_m[fresh[k]] - median_value(std::move(ys)));
-    constexpr double kSlack_m = 0.5;
-    if (off_m > 2 * speed_max_mps * reach_s + kSlack_m) bad.push_back(fresh[k]);
-    if (off_m > 2 * speed_max_mps * reach_s + kSlack_m && off_m > largest_m) {
+    if (off_m > 2 * speed_max_mps * reach_s + slack_m) bad.push_back(fresh[k]);
+    if (off_m > 2 * speed_max_mps * reach_s + slack_m && off_m > largest_m) {
       largest_m = off_m;
       at_s = drive.time_s[fresh[k]];
     }

@@ -1,4 +1,5 @@
 // `diagnose` of a drive, and what it hands back, as a person meets them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,6 +101,43 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
   EXPECT_EQ(again.status, 0) << again.errors;
   const auto plan = nlohmann::json::parse(folder_.read("second/plan.json"));
   EXPECT_EQ(plan["status"], "feasible");
+}
+
+TEST_F(DriveDiagnosisProgram, AFaultOfASlowRoverIsNamed) {
+  std::string scenario = folder_.read("s.yaml");
+  scenario.replace(scenario.find("lrv"), 3, "curiosity");
+  const std::string s = folder_.write("slow.yaml", scenario);
+  std::string path = "x_m,y_m,speed_mps\n";
+  for (int x = 20; x <= 60; ++x)
+    path += fmt::format("{},{},0.04\n", x, 30 + 0.5 * std::sin(x / 5.));
+  folder_.write("slow.csv", path);
+  folder_.write("drag.yaml", "vehicle: {wheels: {front_left: {drag_nm: 8}}}\n");
+  run("drive '" + s + "' '" + folder_.path("slow.csv") + "' --truth '" + folder_.path("drag.yaml") +
+      "' --sensors A --deviation-max-m 5 --out '" + folder_.path("driven") + "'");
+  const ProgramRun said = run("diagnose '" + folder_.path("driven/drive.csv") + "' --scenario '" +
+                              s + "' --out '" + folder_.path("said") + "'");
+  ASSERT_EQ(said.status, 0) << said.errors << said.output;
+  EXPECT_EQ(diagnosis()["windows_used"]["left_out"]["too_many"], 0);
+  ASSERT_EQ(diagnosis()["mechanisms"].size(), 1u) << said.output;
+  const nlohmann::json& drag = diagnosis()["mechanisms"][0];
+  EXPECT_EQ(drag["id"], "wheel_drag");
+  EXPECT_NEAR(drag["parameters"]["drag_front_left_nm"]["value"], 8, 1.5) << drag;
+}
+
+TEST_F(DriveDiagnosisProgram, ADriveThatStandsIsToldToGoOn) {
+  std::string standing = "time_s,x_m,y_m,yaw_deg";
+  for (const char* wheel : {"front_left", "front_right", "rear_left", "rear_right"}) {
+    standing += fmt::format(",wheel_speed_{0}_rad_s,steer_{0}_deg", wheel);
+  }
+  for (int i = 0; i < 200; ++i)
+    standing += fmt::format("\n{},{},30,0,0,0,0,0,0,0,0,0", i, 20 + i % 2);
+  const ProgramRun said =
+      run("diagnose '" + folder_.write("stands.csv", standing + "\n") + "' --scenario '" +
+          folder_.path("s.yaml") + "' --out '" + folder_.path("said") + "'");
+  EXPECT_EQ(said.status, 2) << said.errors;
+  EXPECT_NE(said.output.find("on the map without a stop, all wheels turning one way and faster "),
+            std::string::npos)
+      << said.output;
 }
 
 TEST_F(DriveDiagnosisProgram, ADriveTooShortToCompareIsUndecidedNotConsistent) {
