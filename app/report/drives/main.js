@@ -67,12 +67,16 @@ const withUnit = key => {
   return unit ? `${name}, ${unit}` : name;
 };
 
+/// A zone's soil is told by what a wheel takes to roll there more than on the map's soil.
+const quantityText = channel =>
+    channel === 'soil' ? 'soil: rolling resistance, share of the load' : withUnit(channel);
+
 byId('where').append(
     REPORT.where.length ?
         wideTable(
             'Where model and drives differ',
             columns('quantity', 'where', 'measured - model', '95 %', 'p'),
-            REPORT.where.map(at => [withUnit(at.channel), at.where, number(at.effect),
+            REPORT.where.map(at => [quantityText(at.channel), at.where, number(at.effect),
                                     at.ci95.map(number).join(' to '), number(at.p_value)])) :
         COMPARED ? 'Nowhere beyond what chance gives.' : 'Nothing could be compared.');
 if (REPORT.where.length)
