@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct MechanismsOptions {
-  std::string id;
+  std::optional<std::string> id;
   std::optional<std::string> model;
   bool json = false;
   bool quiet = false;
@@ -234,6 +234,7 @@ std::string ids_of_others() {
 
 /// \throws InputError naming every id that is known
 [[noreturn]] void refuse(const std::string& id) {
+  if (id.empty()) throw InputError("ID: empty, names no mechanism");
   std::string ids, last;
   for (const MechanismForm& form : mechanism_forms()) {
     if (last != form.id) ids += (ids.empty() ? "" : ", ") + std::string(form.id);
@@ -245,11 +246,14 @@ std::string ids_of_others() {
 
 ExitStatus run_mechanisms(const MechanismsOptions& options) {
   if (options.model) return check_model(*options.model);
-  if (const OtherName* other = other_name(options.id)) return tell_other(*other, options.json);
+  const bool tells_all = !options.id;
+  if (options.id) {
+    if (const OtherName* other = other_name(*options.id)) return tell_other(*other, options.json);
+  }
   Json all = Json::array();
   std::string text, last;
   for (const MechanismForm& form : mechanism_forms()) {
-    if (!options.id.empty() && form.id != options.id) continue;
+    if (!tells_all && form.id != *options.id) continue;
     if (options.json) {
       all.push_back(form_json(form));
       continue;
@@ -258,17 +262,17 @@ ExitStatus run_mechanisms(const MechanismsOptions& options) {
     last = form.id;
     text += form_text(form);
   }
-  if (all.empty() && text.empty()) refuse(options.id);
+  if (all.empty() && text.empty()) refuse(*options.id);
   if (options.json) {
     // Who reads the whole vocabulary finds every id that diagnosis.json may hold.
     for (const OtherName& other : other_names()) {
-      if (options.id.empty()) all.push_back(other_json(other));
+      if (tells_all) all.push_back(other_json(other));
     }
     fmt::print("{}\n", all.dump(2));
     return kYes;
   }
   fmt::print("{}", text);
-  if (!options.quiet && options.id.empty()) {
+  if (!options.quiet && tells_all) {
     fmt::print("\nBeside these, no physics of a wheel (regoplan mechanisms ID tells what): {}\n",
                ids_of_others());
   }

@@ -353,6 +353,12 @@ TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
                  {"stickiness is none of ", "grousers", "sensor_gain"});
 }
 
+TEST_F(Program, AMechanismWithoutANameIsRefused) {
+  for (const std::string json : {"", " --json"}) {
+    expect_refusal(run("mechanisms ''" + json), {"ID: empty, names no mechanism"});
+  }
+}
+
 TEST_F(Program, APlanSaysWhereItsTimeWentBeforeTheSearchWhereThatIsMuch) {
   write_flat_scenario(folder_);
   const auto plan = [&](const std::string& budget) {
