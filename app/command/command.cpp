@@ -10,6 +10,7 @@
 
 #include "app/io/number_text.h"
 #include "app/io/printable_text.h"
+#include "app/settings/settings_node.h"
 
 namespace regoplan {
 namespace {
@@ -51,9 +52,9 @@ CLI::Validator whole_in_range(const ValueRange& allowed) {
 CLI::Validator a_seed() {
   return {[](std::string& text) {
             const std::optional<std::int64_t> seed = whole_number(text);
-            return seed && *seed >= 0
+            return seed && *seed >= 0 && *seed <= kSeedMax
                        ? std::string()
-                       : not_valid(text, fmt::format("a whole number, 0 to {}", INT64_MAX));
+                       : not_valid(text, whole_number_text(0, kSeedMax));
           },
           ""};
 }

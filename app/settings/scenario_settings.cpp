@@ -90,7 +90,7 @@ Search read_search(const SettingsNode& node) {
     if (time) search.time_s = time->number(kAbove0);
     if (iterations) search.iterations = iterations->integer(1, kIterationsMax);
     if (const SettingsNode* seed = mapping.optional("seed")) {
-      search.seed = static_cast<std::uint64_t>(seed->integer(0, INT64_MAX));
+      search.seed = static_cast<std::uint64_t>(seed->integer(0, kSeedMax));
     }
     const auto count = [&mapping](const char* key, int most, int fallback) {
       const SettingsNode* given = mapping.optional(key);

@@ -159,9 +159,12 @@ double SettingsNode::number(const ValueRange& allowed) const {
   return *value;
 }
 
+std::string whole_number_text(std::int64_t min, std::int64_t max) {
+  return fmt::format("a whole number, {} to {}", min, max);
+}
+
 std::int64_t SettingsNode::integer(std::int64_t min, std::int64_t max) const {
-  const std::string allowed = max == INT64_MAX ? fmt::format("an integer, at least {}", min)
-                                               : fmt::format("an integer, {} to {}", min, max);
+  const std::string allowed = whole_number_text(min, max);
   if (kind_ != Kind::kScalar || quoted_) throw not_allowed(allowed);
   std::int64_t value = 0;
   const char* end = scalar_.data() + scalar_.size();

@@ -17,6 +17,12 @@ class SettingsError : public InputError {
   using InputError::InputError;
 };
 
+/// The largest seed, in files and on the command line.
+inline constexpr std::int64_t kSeedMax = INT64_MAX;
+
+/// What is allowed where a whole number is wanted, in words: "a whole number, 1 to 5".
+std::string whole_number_text(std::int64_t min, std::int64_t max);
+
 struct SettingsEntry;
 
 /// A value of a YAML settings file that knows where it stands. Every reading is strict and throws a
