@@ -8,7 +8,6 @@
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
-namespace {
 
 Vehicle true_vehicle(Vehicle vehicle, const DriveTruth& truth) {
   const double mass_kg = vehicle.mass_kg + truth.payload_kg;
@@ -22,6 +21,8 @@ Vehicle true_vehicle(Vehicle vehicle, const DriveTruth& truth) {
   validate(checked);
   return vehicle;
 }
+
+namespace {
 
 /// How many wheels have come by where one rolls straight on, this one included.
 int pass_of(const Vehicle& vehicle, std::size_t wheel) {

@@ -10,6 +10,10 @@
 
 namespace regoplan {
 
+/// The known vehicle with what a truth says of it.
+/// \throws ValueError or InputError where that is no valid vehicle
+Vehicle true_vehicle(Vehicle vehicle, const DriveTruth& truth);
+
 /// The planned world with what a truth says of it.
 class TrueWorld : public DrivenWorld {
  public:

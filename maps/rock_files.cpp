@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -76,9 +77,12 @@ double number(std::string_view text, const Column& column, const std::string& fi
   return value;
 }
 
-}  // namespace
+struct RockRow {
+  Rock rock;
+  int line = 0;
+};
 
-std::vector<Rock> read_rocks(const std::string& file) {
+std::vector<RockRow> read_rows(const std::string& file) {
   if (std::filesystem::is_directory(file)) throw InputError(file + ": is a folder");
   std::ifstream stream(file);
   std::string text;
@@ -87,7 +91,7 @@ std::vector<Rock> read_rocks(const std::string& file) {
   }
   const auto places = find_columns(text, file);
   const std::size_t columns = fields(text).size();
-  std::vector<Rock> rocks;
+  std::vector<RockRow> rows;
   for (int line = 2; std::getline(stream, text); ++line) {
     if (trimmed(text).empty()) continue;
     const std::vector<std::string_view> cells = fields(text);
@@ -99,10 +103,35 @@ std::vector<Rock> read_rocks(const std::string& file) {
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
       rock.*kColumns[i].member = number(cells[places[i]], kColumns[i], file, line);
     }
-    rocks.push_back(rock);
+    rows.push_back({rock, line});
   }
   if (stream.bad()) throw InputError(fmt::format("{}: cannot be read to its end", file));
+  return rows;
+}
+
+std::vector<Rock> rocks_of(const std::vector<RockRow>& rows) {
+  std::vector<Rock> rocks;
+  for (const RockRow& row : rows) rocks.push_back(row.rock);
   return rocks;
+}
+
+}  // namespace
+
+std::vector<Rock> read_rocks(const std::string& file) {
+  return rocks_of(read_rows(file));
+}
+
+std::vector<Rock> read_rocks(const std::string& file, const GridFrame& map) {
+  const std::vector<RockRow> rows = read_rows(file);
+  const auto on_map = [&](const RockRow& row) { return covers(map, row.rock.x_m, row.rock.y_m); };
+  if (!rows.empty() && std::ranges::none_of(rows, on_map)) {
+    const auto& [first, line] = rows.front();
+    throw InputError(fmt::format(
+        "{}:{}: x_m {:.10g}, y_m {:.10g} lies beside the elevation raster ({}); none of {} rocks "
+        "lies on it",
+        file, line, first.x_m, first.y_m, extent_text(map), rows.size()));
+  }
+  return rocks_of(rows);
 }
 
 void write_rocks(const std::vector<Rock>& rocks, const std::string& file) {

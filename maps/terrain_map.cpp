@@ -56,11 +56,6 @@ void check_catalogue(const SoilCatalogue& catalogue) {
   }
 }
 
-std::string extent(const GridFrame& frame) {
-  return fmt::format("x {} to {} m, y {} to {} m", frame.west_m, frame.east_m(), frame.south_m(),
-                     frame.north_m);
-}
-
 /// The soil of each class cell; `unmapped` for codes that the catalogue does not list.
 std::vector<std::int16_t> soil_of_cells(const ClassRaster& classes, const SoilCatalogue& catalogue,
                                         std::int16_t unmapped) {
@@ -98,6 +93,11 @@ std::vector<std::int16_t> soil_of_cells(const ClassRaster& classes, const SoilCa
 
 }  // namespace
 
+std::string extent_text(const GridFrame& frame) {
+  return fmt::format("x {} to {} m, y {} to {} m", frame.west_m, frame.east_m(), frame.south_m(),
+                     frame.north_m);
+}
+
 bool overlap(const GridFrame& a, const GridFrame& b) {
   return a.west_m < b.east_m() && b.west_m < a.east_m() && a.south_m() < b.north_m &&
          b.south_m() < a.north_m;
@@ -113,7 +113,7 @@ TerrainMap::TerrainMap(ElevationRaster elevation, std::optional<ClassRaster> cla
     check_frame(classes->frame, classes->code.size(), "soil classes");
     if (!overlap(elevation.frame, classes->frame)) {
       throw InputError(fmt::format("soil classes ({}) and elevation ({}) do not overlap",
-                                   extent(classes->frame), extent(elevation.frame)));
+                                   extent_text(classes->frame), extent_text(elevation.frame)));
     }
     if (soils_.unmapped) ground->soil_elsewhere = static_cast<std::int16_t>(*soils_.unmapped);
     ground->soil_of_cell = soil_of_cells(*classes, soils_, ground->soil_elsewhere);
@@ -133,7 +133,7 @@ TerrainMap::TerrainMap(ElevationRaster elevation, std::optional<ClassRaster> cla
   const auto on_map = [&](const Rock& rock) { return covers(elevation.frame, rock.x_m, rock.y_m); };
   if (!placed.empty() && std::ranges::none_of(placed, on_map)) {
     throw InputError(fmt::format("rocks: none of {} lies on the elevation raster ({})",
-                                 placed.size(), extent(elevation.frame)));
+                                 placed.size(), extent_text(elevation.frame)));
   }
   ground->elevation = std::move(elevation);
   ground->classes = std::move(classes);

@@ -124,6 +124,9 @@ class TerrainMap {
   SoilCatalogue soils_;
 };
 
+/// Where a grid lies, in words.
+std::string extent_text(const GridFrame& frame);
+
 /// Whether (x, y) lies in the extent of the grid, edges included; false for NaN.
 inline bool covers(const GridFrame& frame, double x_m, double y_m) {
   return x_m >= frame.west_m && x_m <= frame.east_m() && y_m >= frame.south_m() &&

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 
@@ -35,6 +37,13 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   }
   const SettingsNode soils_file = read_settings(options.soils);
   SoilCatalogue soils = read_soil_catalogue(soils_file, WheelVariant::kIshigami2007);
+  if (!options.classes && soils.soils.size() != 1) {
+    const SettingsNode* named = soils_file.find("soils");
+    throw(named ? *named : soils_file)
+        .error(fmt::format("{} soils, and nothing says where each of them lies (allowed without "
+                           "--soil-class: one)",
+                           soils.soils.size()));
+  }
   for (const std::string& doubt : doubtful_units(soils_file, soils)) notify(doubt, options.quiet);
   ElevationRaster elevation = read_elevation(options.elevation, options.heights);
   std::optional<ClassRaster> classes;
@@ -44,7 +53,7 @@ ExitStatus run_map_import(const MapImportOptions& options) {
     if (!notice.empty()) notify(notice, options.quiet);
   }
   std::vector<Rock> rocks;
-  if (options.rocks) rocks = read_rocks(*options.rocks);
+  if (options.rocks) rocks = read_rocks(*options.rocks, elevation.frame);
   const TerrainMap map(std::move(elevation), std::move(classes), std::move(soils),
                        std::move(rocks));
   if (options.classes) {

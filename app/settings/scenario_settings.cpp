@@ -244,8 +244,9 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
 
     std::vector<Rock> rocks;
     if (const SettingsNode* name = mapping.optional("rocks")) {
-      rocks =
-          read_named(*name, [](const NamedFile& file) { return read_rocks(file.path.string()); });
+      rocks = read_named(*name, [&](const NamedFile& file) {
+        return read_rocks(file.path.string(), elevation.frame);
+      });
     }
     return with_class_notice({.map = TerrainMap(std::move(elevation), std::move(classes),
                                                 std::move(catalogue), std::move(rocks)),

@@ -9,6 +9,7 @@
 #include "app/settings/model_settings.h"
 #include "app/settings/settings_path.h"
 #include "app/settings/soil_settings.h"
+#include "driving/true_world.h"
 #include "maps/raster_files.h"
 #include "terramech/basics/angles.h"
 
@@ -170,6 +171,21 @@ WheelFault read_fault(const SettingsNode& node) {
   });
 }
 
+/// A vehicle falls over whose centre of gravity is moved off its wheels: by the number that does it
+/// alone, or by both together.
+void require_standing(const SettingsNode& node, const Vehicle& vehicle, const DriveTruth& truth) {
+  constexpr std::string_view kAllowed =
+      "a centre of gravity within the polygon of the wheels' contacts";
+  const auto refuse = [&](std::string_view key, double forward_m, double left_m) {
+    const SettingsNode* number = node.find(key);
+    if (!number || stands_on_wheels(with_centre_moved(vehicle, forward_m, left_m, 0))) return;
+    throw number->not_allowed(kAllowed);
+  };
+  refuse("cg_forward_m", truth.cg_forward_m, 0);
+  refuse("cg_left_m", 0, truth.cg_left_m);
+  refuse("cg_left_m", truth.cg_forward_m, truth.cg_left_m);
+}
+
 void read_vehicle_truth(const SettingsNode& node, const Vehicle& vehicle, DriveTruth& truth) {
   read_mapping(node, [&](SettingsMapping& mapping) {
     const ValueRange arm{.min = -100, .max = 100};
@@ -189,6 +205,8 @@ void read_vehicle_truth(const SettingsNode& node, const Vehicle& vehicle, DriveT
             read_fault(entry.value);
       }
     }
+    require_standing(node, vehicle, truth);
+    true_vehicle(vehicle, truth);  // throws where it cannot be
     return 0;
   });
 }

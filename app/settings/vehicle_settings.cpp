@@ -144,7 +144,12 @@ Vehicle named_vehicle(const SettingsNode& name, const std::filesystem::path& fol
       throw name.not_allowed(fmt::format("{}, or a vehicle file; there is no {}",
                                          fmt::join(presets, " | "), file.path.string()));
     }
-    return read_vehicle(read_settings(file.path.string()));
+    try {
+      return read_vehicle(read_settings(file.path.string()));
+    } catch (const SettingsError& bad) {
+      throw SettingsError(fmt::format("{} (read as the vehicle that {}:{} names)", bad.what(),
+                                      name.file(), name.line()));
+    }
   });
 }
 

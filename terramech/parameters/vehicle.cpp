@@ -231,6 +231,10 @@ double steerable_curvature_1pm(const Vehicle& vehicle) {
   return can;
 }
 
+bool stands_on_wheels(const Vehicle& vehicle) {
+  return origin_within_contacts(vehicle.wheels);
+}
+
 Vehicle with_centre_moved(Vehicle vehicle, double forward_m, double left_m, double up_m) {
   vehicle.cg_height_m += up_m;
   vehicle.turn_centre_x_m -= forward_m;

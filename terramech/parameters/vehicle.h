@@ -127,6 +127,9 @@ double steerable_curvature_1pm(const Vehicle& vehicle);
 /// though told of another point: `steerable_curvature_1pm` says whether it can still steer them.
 Vehicle with_centre_moved(Vehicle vehicle, double forward_m, double left_m, double up_m);
 
+/// Whether its centre of gravity is above the polygon of its wheels' contacts.
+bool stands_on_wheels(const Vehicle& vehicle);
+
 /// Distance of the outermost wheel from the vehicle's origin.
 double longest_arm_m(const Vehicle& vehicle);
 

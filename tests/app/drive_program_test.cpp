@@ -125,7 +125,10 @@ TEST_F(DriveProgram, SensorFilesAreReadStrictly) {
 TEST_F(DriveProgram, WhatIsNoVehicleAnyMoreIsAMistakeInTheTruth) {
   folder_.write("truth.yaml", "vehicle: {cg_left_m: 5}\n");
   expect_refusal(drive("--truth '" + folder_.path("truth.yaml") + "'"),
-                 {"truth.yaml: ", "centre of gravity"});
+                 {"truth.yaml:1: vehicle.cg_left_m: 5 is not valid", "centre of gravity"});
+  folder_.write("truth.yaml", "vehicle:\n  payload_kg: 10\n  cg_up_m: -90\n");
+  expect_refusal(drive("--truth '" + folder_.path("truth.yaml") + "'"),
+                 {"truth.yaml:", "cg_height_m: -8"});
 }
 
 TEST_F(DriveProgram, ATruthComesThroughAPipeToo) {

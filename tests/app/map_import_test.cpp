@@ -104,6 +104,22 @@ TEST_F(MapImport, AMapOnWhichTheVehicleCanStandNowhereIsRefusedWithTheReason) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("map")));
 }
 
+TEST_F(MapImport, RocksBesideTheMapAreRefusedWithTheirFileAndPlace) {
+  write_elevations(flat_ground);
+  folder_.write("rocks.csv", "x_m,y_m,radius_m,height_m\n\n400,30,1,2\n");
+  expect_refusal(import("--rocks '" + folder_.path("rocks.csv") + "'"),
+                 {"rocks.csv:3: x_m 400, y_m 30", "x 0 to 40 m, y 0 to 40 m"});
+}
+
+TEST_F(MapImport, SoilsThatNothingPlacesAreRefusedWithTheRemedy) {
+  write_elevations(flat_ground);
+  std::string soil = kOneSoil;
+  soil = soil.substr(std::string("{soils: {mare: ").size());
+  soil.resize(soil.size() - 2);
+  folder_.write("soils.yaml", "soils:\n  mare: " + soil + "\n  dust: " + soil + "\n");
+  expect_refusal(import(""), {"soils.yaml:2: soils: 2 soils", "--soil-class"});
+}
+
 TEST_F(MapImport, CellsWiderThanTheVehicleAreANoticeWithTheRemedy) {
   write_elevations(flat_ground, 5);
   const ProgramRun run = import("");

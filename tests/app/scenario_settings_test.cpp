@@ -182,6 +182,10 @@ TEST_F(ScenarioSettings, AFileThatIsNotThereIsAnErrorThatNamesWhoWantsIt) {
   EXPECT_NE(error_of("dem.tif", "no.tif").find("no.tif"), std::string::npos);
   EXPECT_TRUE(error_of(kOneSoil, "no.yaml").starts_with("s.yaml:3: map.soils: "));
   EXPECT_TRUE(error_of("vehicle: lrv", "vehicle: no.yaml").starts_with("s.yaml:4: vehicle: "));
+  const std::string other = "soil.yaml";
+  folder_.write(other, "soils: {}\n");
+  EXPECT_NE(error_of("vehicle: lrv", "vehicle: " + other).find("(read as the vehicle that "),
+            std::string::npos);
   EXPECT_EQ(error_of("iterations: 200", "seed: 99999999999999999999"),
             "s.yaml:8: planner.seed: 99999999999999999999 is not valid (allowed: a whole number, 0 "
             "to 9223372036854775807)");
