@@ -1,30 +1,11 @@
 #include "app/settings/settings_mapping.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <numeric>
-#include <vector>
+#include "terramech/basics/nearest_name.h"
 
 namespace regoplan {
 namespace {
-
-/// Levenshtein distance: how many letters differ.
-std::size_t edits_between(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t above = row[j + 1];
-      row[j + 1] = std::min({above + 1, row[j] + 1, diagonal + (a[i] == b[j] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
 
 /// `mass_kg` is all of `vehicle.mass_kg`.
 bool means_all_of(const SettingsNode& value, std::string_view field) {
@@ -86,12 +67,7 @@ double SettingsMapping::number_or(std::string_view key, const ValueRange& allowe
 void SettingsMapping::reject_unread_keys() const {
   for (const SettingsEntry& entry : node_.mapping()) {
     if (asked_.contains(entry.key)) continue;
-    const auto nearest = std::ranges::min_element(
-        asked_, {}, [&entry](const std::string& key) { return edits_between(entry.key, key); });
-    const bool near =
-        nearest != asked_.end() && 2 * edits_between(entry.key, *nearest) <= entry.key.size();
-    const std::string hint = near ? fmt::format("did you mean {}?", *nearest)
-                                  : fmt::format("known: {}", fmt::join(asked_, ", "));
+    const std::string hint = name_hint(entry.key, {asked_.begin(), asked_.end()});
     throw SettingsError(fmt::format("{}:{}: {}: unknown key ({})", node_.file(), entry.line,
                                     entry.value.path(), hint));
   }

@@ -13,6 +13,7 @@
 #include "app/wheel/other_names.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/nearest_name.h"
 #include "terramech/mechanisms/mechanism.h"
 #include "terramech/wheel/wheel_model.h"
 
@@ -232,16 +233,12 @@ std::string ids_of_others() {
   return ids;
 }
 
-/// \throws InputError naming every id that is known
+/// \throws InputError with the id that is likely meant, or all that are known
 [[noreturn]] void refuse(const std::string& id) {
   if (id.empty()) throw InputError("ID: empty, names no mechanism");
-  std::string ids, last;
-  for (const MechanismForm& form : mechanism_forms()) {
-    if (last != form.id) ids += (ids.empty() ? "" : ", ") + std::string(form.id);
-    last = form.id;
-  }
-  throw InputError(fmt::format("mechanism id: {} is none of {}; nor a name beside these: {}", id,
-                               ids, ids_of_others()));
+  std::vector<std::string> ids = mechanism_ids();
+  for (const OtherName& other : other_names()) ids.emplace_back(other.id);
+  throw InputError(fmt::format("mechanism id: {} is not known ({})", id, name_hint(id, ids)));
 }
 
 ExitStatus run_mechanisms(const MechanismsOptions& options) {

@@ -1,12 +1,12 @@
 #include "terramech/mechanisms/mechanism.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/nearest_name.h"
 #include "terramech/mechanisms/mechanism_catalogue.h"
 
 namespace regoplan {
@@ -29,19 +29,18 @@ const std::vector<Definition>& all_definitions() {
 
 std::size_t index_of(const Mechanism& mechanism) {
   const std::vector<MechanismForm>& forms = mechanism_forms();
-  std::vector<std::string_view> ids, of_id;
+  std::vector<std::string> of_id;
   for (std::size_t i = 0; i < forms.size(); ++i) {
-    if (ids.empty() || ids.back() != forms[i].id) ids.push_back(forms[i].id);
     if (forms[i].id != mechanism.id) continue;
     if (mechanism.form.empty() || mechanism.form == forms[i].form) return i;
-    of_id.push_back(forms[i].form);
+    of_id.emplace_back(forms[i].form);
   }
   if (of_id.empty()) {
-    throw InputError(
-        fmt::format("mechanism id: {} is none of {}", mechanism.id, fmt::join(ids, ", ")));
+    throw InputError(fmt::format("mechanism id: {} is not known ({})", mechanism.id,
+                                 name_hint(mechanism.id, mechanism_ids())));
   }
-  throw InputError(fmt::format("mechanism {}: form {} is none of {}", mechanism.id, mechanism.form,
-                               fmt::join(of_id, ", ")));
+  throw InputError(fmt::format("mechanism {}: form {} is not known ({})", mechanism.id,
+                               mechanism.form, name_hint(mechanism.form, of_id)));
 }
 
 }  // namespace
@@ -55,6 +54,14 @@ const std::vector<MechanismForm>& mechanism_forms() {
   return forms;
 }
 
+std::vector<std::string> mechanism_ids() {
+  std::vector<std::string> ids;
+  for (const MechanismForm& form : mechanism_forms()) {
+    if (ids.empty() || ids.back() != form.id) ids.emplace_back(form.id);
+  }
+  return ids;
+}
+
 const MechanismForm& form_of(const Mechanism& mechanism) {
   const MechanismForm& form = mechanism_forms()[index_of(mechanism)];
   for (const auto& parameter : mechanism.parameters) {
@@ -62,11 +69,10 @@ const MechanismForm& form_of(const Mechanism& mechanism) {
     const double value = parameter.second;
     const auto known = std::ranges::find(form.parameters, name, &MechanismParameter::name);
     if (known == form.parameters.end()) {
-      std::vector<std::string_view> names;
-      for (const MechanismParameter& p : form.parameters) names.push_back(p.name);
-      throw InputError(
-          fmt::format("mechanism {}: parameter {} is none of {}", mechanism.id, name,
-                      names.empty() ? "(none)" : fmt::format("{}", fmt::join(names, ", "))));
+      std::vector<std::string> names;
+      for (const MechanismParameter& p : form.parameters) names.emplace_back(p.name);
+      throw InputError(fmt::format("mechanism {}: parameter {} is not known ({})", mechanism.id,
+                                   name, names.empty() ? "it has none" : name_hint(name, names)));
     }
     if (!std::isfinite(value)) throw ValueError(name, value, "a finite number");
     if (value < known->least)

@@ -51,6 +51,9 @@ struct MechanismForm {
 /// wheel and not among them.
 const std::vector<MechanismForm>& mechanism_forms();
 
+/// The ids of the vocabulary, each once.
+std::vector<std::string> mechanism_ids();
+
 /// The form that a mechanism names.
 /// \throws InputError where id, form or a parameter's name is unknown (listing the known ones), or
 /// a parameter is not finite

@@ -350,7 +350,15 @@ TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
     EXPECT_TRUE(listed.contains(std::string(form.id)));
   }
   expect_refusal(run("mechanisms stickiness"),
-                 {"stickiness is none of ", "grousers", "sensor_gain"});
+                 {"stickiness is not known (known: ", "grousers", "sensor_gain"});
+}
+
+TEST_F(Program, AMisspeltMechanismIsToldTheLikeliest) {
+  for (const std::string misspelt : {"slipsinkage", "SLIP_SINKAGE", "slip_sinkige"}) {
+    expect_refusal(run("mechanisms " + misspelt),
+                   {misspelt + " is not known (did you mean slip_sinkage?)"});
+  }
+  expect_refusal(run("mechanisms sensor_gian"), {"did you mean sensor_gain?"});
 }
 
 TEST_F(Program, AMechanismWithoutANameIsRefused) {
