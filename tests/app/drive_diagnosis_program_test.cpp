@@ -119,7 +119,7 @@ TEST_F(DriveDiagnosisProgram, AFaultOfASlowRoverIsNamed) {
   ASSERT_EQ(said.status, 0) << said.errors << said.output;
   EXPECT_EQ(diagnosis()["windows_used"]["left_out"]["too_many"], 0);
   ASSERT_EQ(diagnosis()["mechanisms"].size(), 1u) << said.output;
-  const nlohmann::json& drag = diagnosis()["mechanisms"][0];
+  const nlohmann::json drag = diagnosis()["mechanisms"][0];
   EXPECT_EQ(drag["id"], "wheel_drag");
   EXPECT_NEAR(drag["parameters"]["drag_front_left_nm"]["value"], 8, 1.5) << drag;
 }
