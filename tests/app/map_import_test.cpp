@@ -117,7 +117,7 @@ TEST_F(MapImport, SoilsThatNothingPlacesAreRefusedWithTheRemedy) {
   soil = soil.substr(std::string("{soils: {mare: ").size());
   soil.resize(soil.size() - 2);
   folder_.write("soils.yaml", "soils:\n  mare: " + soil + "\n  dust: " + soil + "\n");
-  expect_refusal(import(""), {"soils.yaml:2: soils: 2 soils", "--soil-class"});
+  expect_refusal(import(""), {"soils.yaml:1: soils: 2 soils", "--soil-class"});
 }
 
 TEST_F(MapImport, CellsWiderThanTheVehicleAreANoticeWithTheRemedy) {

@@ -358,7 +358,7 @@ TEST_F(Program, AMisspeltMechanismIsToldTheLikeliest) {
     expect_refusal(run("mechanisms " + misspelt),
                    {misspelt + " is not known (did you mean slip_sinkage?)"});
   }
-  expect_refusal(run("mechanisms sensor_gian"), {"did you mean sensor_gain?"});
+  expect_refusal(run("mechanisms sensor_gainn"), {"did you mean sensor_gain?"});
 }
 
 TEST_F(Program, AMechanismWithoutANameIsRefused) {

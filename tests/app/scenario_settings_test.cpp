@@ -77,16 +77,18 @@ TEST_F(ScenarioSettings, OneBudgetBoundsTheSearch) {
 
 TEST_F(ScenarioSettings, CountsOfASearchAreIntegersWithinTheirRange) {
   for (const char* count : {"2.5", "0", "101"}) {
-    EXPECT_EQ(error_of("iterations: 200", fmt::format("iterations: 200, candidates: {}", count)),
-              fmt::format("s.yaml:8: planner.candidates: {} is not valid (allowed: an integer, 1 "
-                          "to 100)",
-                          count));
+    EXPECT_EQ(
+        error_of("iterations: 200", fmt::format("iterations: 200, candidates: {}", count)),
+        fmt::format("s.yaml:8: planner.candidates: {} is not valid (allowed: a whole number, 1 "
+                    "to 100)",
+                    count));
   }
-  EXPECT_EQ(error_of("soil_draws: 12", "soil_draws: 100001"),
-            "s.yaml:8: planner.soil_draws: 100001 is not valid (allowed: an integer, 1 to 100000)");
+  EXPECT_EQ(
+      error_of("soil_draws: 12", "soil_draws: 100001"),
+      "s.yaml:8: planner.soil_draws: 100001 is not valid (allowed: a whole number, 1 to 100000)");
   EXPECT_EQ(
       error_of("iterations: 200", "iterations: 2.5"),
-      "s.yaml:8: planner.iterations: 2.5 is not valid (allowed: an integer, 1 to 2000000000)");
+      "s.yaml:8: planner.iterations: 2.5 is not valid (allowed: a whole number, 1 to 2000000000)");
   EXPECT_EQ(problem("iterations: 200", "iterations: 2000000000, candidates: 100").search.candidates,
             100);
 }

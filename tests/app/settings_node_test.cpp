@@ -69,7 +69,7 @@ TEST(SettingsNode, RangesAreKeptExactly) {
 TEST(SettingsNode, IntegersAreWhole) {
   EXPECT_EQ(value("12").integer(1, 20), 12);
   EXPECT_EQ(error_text([] { value("0").integer(1, 20); }),
-            "f.yaml:1: key: 0 is not valid (allowed: an integer, 1 to 20)");
+            "f.yaml:1: key: 0 is not valid (allowed: a whole number, 1 to 20)");
   for (const char* bad : {"1.0", "1e3", "99999999999999999999", "'5'", "five"}) {
     EXPECT_NE(error_text([&] { value(bad).integer(0, INT64_MAX); }), "") << bad;
   }
