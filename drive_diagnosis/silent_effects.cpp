@@ -63,7 +63,7 @@ std::string least_time_text(const std::vector<DriveWindow>& windows) {
 /// What would make most of the windows that were left out comparable.
 std::string drive_that_decides(const DriveDiagnosis& result) {
   const std::string time = least_time_text(result.windows);
-  const std::string usual =
+  std::string usual =
       time + " on the map with rim speed and steering of every wheel and the pose at 1 Hz";
   if (!result.windows_used) return usual;
   const auto& left_out = result.windows_used->left_out;
