@@ -9,8 +9,9 @@ namespace regoplan {
 /// found with 80 % power, to first order: the effect at the typical value, less what soil numbers
 /// can imitate, scaled. Mechanisms without parameters: the `share` of the whole effect. Of soil
 /// that differs somewhere or for a time: the factor on its first number, weaker, on the stretch of
-/// those tried that shows it least. \param jacobian by the soil numbers at the fit \param critical
-/// of the test (LackOfFit)
+/// those tried that shows it least.
+/// \param base the calibrated model
+/// \param critical of the test (LackOfFit)
 std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
                                                     const CandidateFit& base,
                                                     const std::vector<Effect>& effects,

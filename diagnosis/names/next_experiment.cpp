@@ -62,7 +62,8 @@ std::vector<double> positions_to_try(const TestBed& bed, const std::vector<Score
 }
 
 /// What is measured next comes after the last run.
-std::vector<Condition> trial_conditions(const TestBed& bed, const std::vector<ScoredId>& rivals) {
+std::vector<Condition> trial_conditions(const TestBed& bed,
+                                        const std::vector<double>& positions_m) {
   double low = INFINITY, high = -INFINITY, widest = 0, last_time_s = -INFINITY;
   std::vector<double> loads, speeds, passes;
   for (const Condition& at : bed.conditions) {
@@ -82,7 +83,6 @@ std::vector<Condition> trial_conditions(const TestBed& bed, const std::vector<Sc
       distinct({0.0, widest / 2, widest,
                 std::max(widest, std::min(1.5 * widest + 5 * kDegree, 45 * kDegree)), -widest});
   const std::vector<double> speed = distinct(speeds), pass = distinct(passes);
-  const std::vector<double> positions_m = positions_to_try(bed, rivals);
   std::vector<Condition> trials;
   const auto try_along_the_bed = [&](Condition at) {
     for (const double position_m : positions_m) {
@@ -125,9 +125,9 @@ double unmeasured_noise(const TestBed& bed, Channel channel) {
   return channel == Channel::kFx || channel == Channel::kFy ? force : sinkage;
 }
 
-std::vector<Trial> trials_of(const TestBed& bed, const std::vector<ScoredId>& rivals) {
+std::vector<Trial> trials_of(const TestBed& bed, const std::vector<double>& positions_m) {
   std::vector<Trial> trials;
-  for (const Condition& at : trial_conditions(bed, rivals)) {
+  for (const Condition& at : trial_conditions(bed, positions_m)) {
     Trial trial{.bed = {.setup = bed.setup,
                         .conditions = {at},
                         .base_model = bed.base_model,
@@ -186,7 +186,8 @@ std::vector<Experiment> next_experiments(const FitProblem& problem,
   constexpr double kNames_nats = 0.5;  // pairs parted at least so far are listed
   std::vector<Experiment> experiments;
   if (rivals.size() < 2) return experiments;
-  for (const Trial& trial : trials_of(problem.bed, rivals)) {
+  const std::vector<double> positions_m = positions_to_try(problem.bed, rivals);
+  for (const Trial& trial : trials_of(problem.bed, positions_m)) {
     std::vector<Forecast> forecasts;
     for (const ScoredId& rival : rivals) {
       auto f = forecast(trial.bed, problem, rival.fit);
@@ -218,9 +219,7 @@ std::vector<Experiment> next_experiments(const FitProblem& problem,
       if (at.conditions.speed_mps > 0) {
         experiment.conditions["speed_mps"] = at.conditions.speed_mps;
       }
-      if (positions_to_try(problem.bed, rivals).size() > 1) {
-        experiment.conditions["position_m"] = at.conditions.position_m;
-      }
+      if (positions_m.size() > 1) experiment.conditions["position_m"] = at.conditions.position_m;
       if (at.conditions.pass > 1) experiment.conditions["pass"] = at.conditions.pass;
     }
     experiment.separates.assign(parted.begin(), parted.end());

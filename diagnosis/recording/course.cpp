@@ -94,14 +94,12 @@ std::vector<Column> columns_of(const Recording& recording) {
   std::vector<Column> columns;
   const std::vector<double> time_s = each([&](std::size_t i) { return runs[i].conditions.time_s; });
   const std::vector<double> order = each([](std::size_t i) { return static_cast<double>(i); });
-  // Days go by the recording's own numbers.
+  // Days that are told go by the recording's own numbers; such as nobody told have no time.
   const std::string when = recording.columns.time ? "time_s" : "day";
   const std::vector<double> at =
       recording.columns.time ? time_s : each([&](std::size_t i) { return runs[i].day; });
   // Of two times alone, as of two days, each apart from the other says the same.
-  if (std::set(at.begin(), at.end()).size() > 2) {
-    add(when, at, columns);
-  }
+  if (std::set(time_s.begin(), time_s.end()).size() > 2) add(when, at, columns);
   const auto n = static_cast<double>(runs.size());
   add("run_order", order, columns);
   add("warm_up", each([&](std::size_t i) { return std::exp(-8 * static_cast<double>(i) / n); }),
