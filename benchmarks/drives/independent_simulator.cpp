@@ -17,7 +17,7 @@ constexpr double kFadeSpeed_mps = 1e-3, kTransferLag_s = 0.1;
 
 double faded(double force, double a, double b) {
   const double speed = std::hypot(a, b);
-  return force * speed / (speed + kFadeSpeed_mps);
+  return force * speed / std::hypot(speed, kFadeSpeed_mps);
 }
 
 double moved_to(double value, double target, double most) {

@@ -12,19 +12,21 @@ namespace regoplan {
 /// would jump.
 inline constexpr double kStandstill_mps = 1e-3;
 
-/// What makes forces vanish with the speed that they oppose, v/(v + kStandstill_mps), and its slope
-/// over the speed. One division: they are most of the cost.
+/// What makes forces vanish with the speed that they oppose, v/sqrt(v^2 + kStandstill_mps^2), and
+/// its slope over the speed. It leaves rolling wheels alone: 0.03 % of the forces at 0.04 m/s,
+/// where slow rovers drive. One root and one division: they are most of the cost.
 struct Fade {
   double value, slope_per_speed;
 
   /// \param a_mps, b_mps components of the speed
   Fade(double a_mps, double b_mps) {
-    const double speed = std::sqrt(a_mps * a_mps + b_mps * b_mps), whole = speed + kStandstill_mps;
-    constexpr double kLeast = 1e-300;  // at rest all of it is 0
-    const double per_both = 1 / std::max(speed * whole, kLeast);
-    const double per_whole = speed * per_both;
-    value = speed * per_whole;
-    slope_per_speed = kStandstill_mps * per_whole * per_both;
+    constexpr double kStandstill_m2ps2 = kStandstill_mps * kStandstill_mps;
+    constexpr double kLeast_m2ps2 = 1e-300;  // at rest all of it is 0
+    const double square = a_mps * a_mps + b_mps * b_mps;
+    const double per_both =
+        1 / std::max(std::sqrt(square * (square + kStandstill_m2ps2)), kLeast_m2ps2);
+    value = square * per_both;
+    slope_per_speed = kStandstill_m2ps2 * per_both * (value * per_both);
   }
 };
 

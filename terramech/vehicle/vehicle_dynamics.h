@@ -66,7 +66,7 @@ struct StepResult {
 /// method (Alexander 1977; the same gamma), whose stages Newton's method solves. Load transfer
 /// follows the wheels' forces with a delay of `kTransferTime_s`. Below about
 /// 1 mm/s the forces fade with the speed (`kStandstillSpeed_mps`): a vehicle with locked wheels
-/// creeps where friction would hold it, slower than that where it takes less than half of the
+/// creeps where friction would hold it, slower than that where it takes less than 0.7 of the
 /// friction there is. Deterministic; const and safe from many threads where the ground is.
 class VehicleDynamics {
  public:
