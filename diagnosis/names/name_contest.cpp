@@ -55,7 +55,7 @@ Worth worth_of(const CalibratedRecording& calibrated, const CandidateFit& fit,
 /// they may leave more to it than they have to.
 struct Leftover {
   double share = INFINITY;  ///< of the excess misfit, by the kind of families that leaves least
-  double deviations = 0;    ///< of noise, there
+  double deviations = 0;    ///< of noise and of what the rest leaves open, there
   /// By which a remainder predicts better in standard errors, or deviations of noise that are left
   /// where these are fewer: most over kinds of families.
   double clear = -INFINITY;
@@ -64,6 +64,19 @@ struct Leftover {
     return share > Thresholds::kWorthCorrecting && deviations > Thresholds::kClear_errors;
   }
 };
+
+/// Misfit beyond noise that predictions of held-out conditions have as the rest tells soil and
+/// effects so closely only.
+double expected_excess(const TestBed& bed, const HeldOut& proof) {
+  double sum = 0;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const ChannelData& data = bed.channels[c];
+    const Eigen::Index n = data.mean.size();
+    const auto deviation = proof.corrected_deviation.segment(bed.offset(c), n).array();
+    sum += (deviation.square() / data.noise.diagonal().array()).sum();
+  }
+  return sum;
+}
 
 /// \param names fitted alone
 Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& names,
@@ -77,8 +90,9 @@ Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& 
     const HeldOut with =
         calibrated.held_out({.fit = &names, .remainder = remainder}, families, threads);
     const double share = 1 - alone.share_explained;
-    const double deviations =
-        share * std::max(alone.excess, 0.0) / std::sqrt(2.0 * static_cast<double>(bed.size()));
+    const double expected = expected_excess(bed, alone);
+    const double deviations = (share * std::max(alone.excess, 0.0) - expected) /
+                              std::sqrt(2 * static_cast<double>(bed.size()) + 4 * expected);
     left.clear = std::max(
         left.clear, std::min(gain_in_errors(bed, with.corrected, alone.corrected), deviations));
     if (share >= left.share) continue;
