@@ -74,6 +74,9 @@ struct Effects {
   double flank_pressure_pa = 0;   ///< on the buried segment of the flank that pushes the soil
   double rim_friction_ratio = 1;  ///< friction angle at the rim over the soil's, at most 1
   double rim_adhesion_share = 1;  ///< adhesion at the rim over the soil's cohesion, at most 1
+  double shear_radius = 1;        ///< of the surface along which soil shears over the rim's
+  double block_cohesion = 1;      ///< of the soil that shears with the wheel over the soil's own
+  double block_friction = 1;      ///< its tan(phi) over the soil's own
   bool side_undisturbed = false;  ///< |Fy| as without digging and at the slip that was told
   double lug_height_m = 0;        ///< passive pressure on a lug
   double lug_share = 0;           ///< of the lugs' pressure that is mobilised

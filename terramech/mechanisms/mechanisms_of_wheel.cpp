@@ -41,6 +41,26 @@ std::vector<Definition> of_wheel() {
          return e;
        }},
       {{"grousers",
+        "soil_block",
+        "soil between lugs shears as one with the wheel at r + x hg, driving or braking: there c "
+        "(1 + "
+        "2 hg/b), tan(phi) (1 + 0.64 (hg/b) acot(hg/b)); digging hg s/2",
+        "Bekker 1960; Ding et al. 2011, J. Terramechanics 48, 27-45",
+        {{"lug_height_m", .004, .02, .01}, {"share", .1, 1, .5, 1}}},
+       [](E e, P p, S at) {
+         const double radius = 1 + p[1] * p[0] / e.wheel.radius_m;
+         const double slender = p[0] / e.wheel.width_m;
+         // the way along both axes is that of the larger radius
+         for (double* modulus_m : {&e.soil.kx0_m, &e.soil.kx1_m, &e.soil.ky0_m, &e.soil.ky1_m}) {
+           *modulus_m /= radius;
+         }
+         e.shear_radius *= radius;
+         e.block_cohesion *= 1 + 2 * slender;
+         e.block_friction *= 1 + 0.64 * slender * std::atan2(1, slender);
+         e.sinkage_added_m += p[0] * driving(at) / 2;
+         return e;
+       }},
+      {{"grousers",
         "carried_soil",
         "thrust m b hg (gamma hg Kp/2 + q Kp + 2 c sqrt(Kp)) a lug in the soil, q the ground "
         "pressure, rim radius r + hg/2, digging a hg s/(1 - s/2); Fy stays, the trench's sides "

@@ -33,6 +33,9 @@ Ground ground_of(const Effects& effects, double gravity_mps2) {
   // The rim bears no more shear than the soil (both at most 1); the soil beside keeps its own.
   ground.tan_phi = std::tan(effects.rim_friction_ratio * soil.friction_angle_rad);
   ground.soil.cohesion_pa *= effects.rim_adhesion_share;
+  // Likewise lugs: stress on the larger surface is referred to the rim's.
+  ground.tan_phi *= effects.shear_radius * effects.block_friction;
+  ground.soil.cohesion_pa *= effects.shear_radius * effects.block_cohesion;
   return ground;
 }
 
@@ -195,7 +198,8 @@ WheelChannels channels_under(const WheelModel& model, const Effects& effects,
   const double q = imposed ? plane.stress_scale(effects.load_n) : 1.0;
   if (!(q >= 0 && std::isfinite(q)))
     return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
-  const Resultant resultant = plane.at(q);
+  Resultant resultant = plane.at(q);
+  resultant.torque_nm *= effects.shear_radius;
   double side_n = 0, roll_nm = 0;
   if (effects.side_undisturbed) {
     const Ratios& as_told = told.ratios;

@@ -102,6 +102,8 @@ const std::vector<Case> kBundles{
     {"grousers", "passive_pressure", -0.3, 0, 60, "0", "0", "0", "0"},
     {"grousers", "effective_radius", 0.4, 0, 60, "+", "0", "+", "+"},
     {"grousers", "effective_radius", -0.3, 0, 60, "0", "0", "0", "0"},
+    {"grousers", "soil_block", 0.4, 0, 60, "+", "0", "+", "+"},
+    {"grousers", "soil_block", 0.4, 20, 60, "+", "+", "+", "+"},
     {"grousers", "carried_soil", 0.4, 0, 60, "+", "0", "+", "+"},
     {"sliding_sinkage", "power", 0.5, 0, 60, "-", "0", "?", "+"},
     {"sliding_sinkage", "power", -0.4, 0, 60, "?", "0", "?", "+"},
