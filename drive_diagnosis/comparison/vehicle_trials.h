@@ -28,8 +28,9 @@ struct VehicleTrial {
 
 /// Everything that may be otherwise all along: faults, and numbers of the map's soils.
 /// \param soils that were driven on, by index
-std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, const UncertainVehicle& uncertain,
-                                         const TerrainMap& map, const std::vector<bool>& soils);
+std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_mps2,
+                                         const UncertainVehicle& uncertain, const TerrainMap& map,
+                                         const std::vector<bool>& soils);
 
 /// The numbers of a vehicle that nobody knew well, as they are estimated.
 /// \param sizes, stds of each trial

@@ -324,7 +324,7 @@ TEST(WindowModel, MotionsAreSoughtAgainWhereTheVehicleMovesOtherwiseAndNowhereEl
   WindowMotions elsewhere = here;  // shows whether they are taken
   for (WindowMotions::Place& place : *elsewhere.places) place.found.motion.vx_mps += 1;
   int taken = 0, sought = 0;
-  for (const VehicleTrial& trial : vehicle_trials(compared.vehicle, {}, map, {true, true})) {
+  for (const VehicleTrial& trial : vehicle_trials(compared.vehicle, 1.62, {}, map, {true, true})) {
     const auto anew = model.predict(input, trial.deviation),
                known = model.predict(input, trial.deviation, {}, &here),
                shown = model.predict(input, trial.deviation, {}, &elsewhere);
