@@ -319,11 +319,11 @@ std::vector<int> WindowComparison::zones_under_wheels(std::size_t i,
   const WindowInput& input = inputs_[i];
   std::vector<int> under;
   for (const WindowInput::Place& place : input.places) {
-    for (const double at_s : model_.wheel_times_s(input, place, question.deviation)) {
+    for (const WheelTime& wheel : model_.wheel_times(input, place, question.deviation)) {
       int in = -1;
       for (std::size_t z = 0; z < question.zones.size() && in < 0; ++z) {
         if (!touches(i, question.zones[z])) continue;
-        if (stretch_of(question.zones[z]).holds(at_s)) in = static_cast<int>(z);
+        if (stretch_of(question.zones[z]).holds(wheel)) in = static_cast<int>(z);
       }
       under.push_back(in);
     }
@@ -350,17 +350,21 @@ SoilStretch WindowComparison::stretch_of(const WindowZone& zone) const {
   return {.starts_s = from_before ? -kNever_s : time_s(zone.begins),
           .ends_s = goes_on ? kNever_s : time_s(within),
           .soil = zone.soil,
-          .numbers = zone.numbers};
+          .numbers = zone.numbers,
+          .starts_slant = zone.begins_slant,
+          .ends_slant = zone.ends_slant};
 }
 
 bool WindowComparison::touches(std::size_t i, const WindowZone& zone) const {
   const auto first = static_cast<std::size_t>(std::floor(zone.begins));
   if (windows_[windows_of_[i]].drive != windows_[windows_of_[first]].drive) return false;
   const WindowInput& input = inputs_[i];
+  const double slant = std::max(std::abs(zone.begins_slant), std::abs(zone.ends_slant));
   double ahead_s = 0;
   for (const WheelMount& wheel : vehicle_.wheels) {
-    if (input.forward_mps != 0)
-      ahead_s = std::max(ahead_s, std::abs(wheel.x_m / input.forward_mps));
+    if (input.forward_mps == 0) continue;
+    const double ahead_m = std::abs(wheel.x_m) + slant * std::abs(wheel.y_m);
+    ahead_s = std::max(ahead_s, ahead_m / std::abs(input.forward_mps));
   }
   const SoilStretch stretch = stretch_of(zone);
   return input.places.front().part.start_s - ahead_s < stretch.ends_s &&
@@ -378,6 +382,15 @@ WindowSet WindowComparison::touching(const std::vector<WindowZone>& zones) const
   std::erase_if(windows, [&](std::size_t i) {
     return std::ranges::none_of(zones, [&](const WindowZone& zone) { return touches(i, zone); });
   });
+  return windows;
+}
+
+WindowSet WindowComparison::touching_in_run(std::size_t window, const WindowZone& zone) const {
+  std::size_t first = window, last = window;
+  while (consecutive(first) && touches(first - 1, zone)) --first;
+  while (last + 1 < size() && consecutive(last + 1) && touches(last + 1, zone)) ++last;
+  WindowSet windows(last + 1 - first);
+  std::iota(windows.begin(), windows.end(), first);
   return windows;
 }
 

@@ -37,8 +37,9 @@ struct WindowsUsed {
 /// One soil on a stretch of compared windows that follow each other, whatever the map says there.
 struct WindowZone {
   double begins = 0, ends = 0;  ///< in windows: 2.5 is half way through the third
-  int soil = 0;                 ///< of the map, that its numbers are told from
+  int soil = 0;                 ///< of the map, that its numbers are told from; may be kAsMapped
   SoilNumbers numbers{};
+  double begins_slant = 0, ends_slant = 0;  ///< of its borders; see SoilStretch
 };
 
 /// Compared windows, by index.
@@ -65,6 +66,8 @@ class WindowComparison {
   WindowSet all() const;
   /// Those in which some wheel is in one of the zones within what the window is smoothed over.
   WindowSet touching(const std::vector<WindowZone>& zones) const;
+  /// Those of them that a zone of this window touches and that no gap parts from it.
+  WindowSet touching_in_run(std::size_t window, const WindowZone& zone) const;
   /// A zone that begins and ends so many windows farther out, as far as windows follow each other.
   WindowZone widened(WindowZone zone, double windows) const;
   /// Index of the window that comparison `i` is of.

@@ -206,11 +206,11 @@ void add_place(const WindowPart& part, const WindowMotions::Place& found, double
   }
 }
 
-/// When the middle of the body is, was or will be where a wheel is at a place.
-double wheel_time_s(const WindowInput& input, const WindowInput::Place& place,
-                    const WheelMount& wheel) {
-  const double ahead_s = input.forward_mps == 0 ? 0 : wheel.x_m / input.forward_mps;
-  return (place.part.start_s + place.part.end_s) / 2 + ahead_s;
+WheelTime wheel_time(const WindowInput& input, const WindowInput::Place& place,
+                     const WheelMount& wheel) {
+  const double by_m_s = input.forward_mps == 0 ? 0 : 1 / input.forward_mps;
+  return {.at_s = (place.part.start_s + place.part.end_s) / 2 + by_m_s * wheel.x_m,
+          .left_s = by_m_s * wheel.y_m};
 }
 
 /// Whether two deviations move the vehicle alike: what they differ in is told by sensors alone, or
@@ -287,28 +287,29 @@ BodyMotion rolling_motion(const Vehicle& vehicle, const std::array<double, kMaxW
   return motion_of(normal.ldlt().solve(sum));
 }
 
-std::vector<double> WindowModel::wheel_times_s(const WindowInput& input,
-                                               const WindowInput::Place& place,
-                                               const VehicleDeviation& deviation) const {
-  std::vector<double> times_s;
+std::vector<WheelTime> WindowModel::wheel_times(const WindowInput& input,
+                                                const WindowInput::Place& place,
+                                                const VehicleDeviation& deviation) const {
+  std::vector<WheelTime> times;
   for (const WheelMount& wheel : deviating(vehicle_, deviation).wheels) {
-    times_s.push_back(wheel_time_s(input, place, wheel));
+    times.push_back(wheel_time(input, place, wheel));
   }
-  return times_s;
+  return times;
 }
 
 WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviation& deviation,
                                    const std::vector<SoilStretch>& stretches) const {
   const Vehicle changed = deviating(vehicle_, deviation);
   const LoadSharing sharing(changed);
-  // Of the map's soils, then of the stretches.
+  // On the map's soils, then in each of the stretches.
   const std::size_t soils = map_.soils().size();
   WindowMotions motions{.deviation = deviation,
                         .stretches = stretches,
                         .places = {},
                         .on_soil = std::vector<bool>(soils, false)};
-  std::vector<std::optional<WheelModel>> models(soils + stretches.size());
-  const auto model_of = [&](std::size_t model, std::size_t soil, const SoilNumbers& numbers) {
+  std::vector<std::optional<WheelModel>> models(soils * (1 + stretches.size()));
+  const auto model_of = [&](std::size_t group, std::size_t soil, const SoilNumbers& numbers) {
+    const std::size_t model = group * soils + soil;
     if (!models[model]) {
       motions.on_soil[soil] = true;
       models[model].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
@@ -319,12 +320,12 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
     }
     return &*models[model];
   };
-  const auto model_at = [&](double time_s, std::size_t soil) {
+  const auto model_at = [&](const WheelTime& time, std::size_t soil) {
     const auto on = std::ranges::find_if(
-        stretches, [time_s](const SoilStretch& stretch) { return stretch.holds(time_s); });
-    if (on == stretches.end()) return model_of(soil, soil, {});
-    return model_of(soils + static_cast<std::size_t>(on - stretches.begin()),
-                    static_cast<std::size_t>(on->soil), on->numbers);
+        stretches, [&time](const SoilStretch& stretch) { return stretch.holds(time); });
+    if (on == stretches.end()) return model_of(0, soil, {});
+    return model_of(1 + static_cast<std::size_t>(on - stretches.begin()),
+                    on->soil == kAsMapped ? soil : static_cast<std::size_t>(on->soil), on->numbers);
   };
   std::vector<WindowMotions::Place> places;
   places.reserve(input.places.size());
@@ -349,7 +350,7 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
       scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
       scene.rim_mps.at(i) =
           place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
-      scene.models.at(i) = model_at(wheel_time_s(input, place, changed.wheels[i]),
+      scene.models.at(i) = model_at(wheel_time(input, place, changed.wheels[i]),
                                     static_cast<std::size_t>(patch.soil.at(i)));
     }
     auto found = balanced(scene, place.near);

@@ -72,14 +72,29 @@ struct VehicleDeviation {
   void add(const VehicleDeviation& other, double times);
 };
 
+/// Whatever soil the map has below each wheel.
+inline constexpr int kAsMapped = -1;
+
+/// When a wheel is somewhere, along and across the way.
+struct WheelTime {
+  double at_s = 0;    ///< when the middle of the body is, was or will be as far on as the wheel is
+  double left_s = 0;  ///< in which the vehicle goes as far as the wheel is to the left
+};
+
 /// One soil on a stretch of the way, whatever the map says there: from when the middle of the body
 /// comes to it until it leaves it. Each wheel does so when it is there itself.
 struct SoilStretch {
   double starts_s = 0, ends_s = 0;
-  int soil = 0;           ///< of the map, that its numbers are told from
+  int soil = 0;           ///< of the map, that its numbers are told from; may be kAsMapped
   SoilNumbers numbers{};  ///< on top of the deviations of that soil
+  /// By how much farther on each border lies per length to the left of the track: the tangent of
+  /// the angle by which it is crossed obliquely.
+  double starts_slant = 0, ends_slant = 0;
 
-  bool holds(double time_s) const { return time_s >= starts_s && time_s < ends_s; }
+  bool holds(const WheelTime& wheel) const {
+    return wheel.at_s - starts_slant * wheel.left_s >= starts_s &&
+           wheel.at_s - ends_slant * wheel.left_s < ends_s;
+  }
   bool operator==(const SoilStretch&) const = default;
 };
 
@@ -115,9 +130,9 @@ class WindowModel {
 
   /// Whether the ground is known at each of its places.
   bool knows_ground(const WindowInput& input) const;
-  /// When the middle of the body is, was or will be where each wheel is at a place of a window.
-  std::vector<double> wheel_times_s(const WindowInput& input, const WindowInput::Place& place,
-                                    const VehicleDeviation& deviation) const;
+  /// When each wheel is where it is at a place of a window.
+  std::vector<WheelTime> wheel_times(const WindowInput& input, const WindowInput::Place& place,
+                                     const VehicleDeviation& deviation) const;
   /// The motions in a window.
   /// \param stretches the first that a wheel is on counts
   WindowMotions motions(const WindowInput& input, const VehicleDeviation& deviation,

@@ -24,7 +24,8 @@ struct EffectContest {
   /// A column for each parameter, by the size that a sound vehicle is off (one standard deviation).
   Eigen::MatrixXd parameters;
   std::vector<bool> claimable;  ///< of each parameter: a fault has a name
-  /// Columns of soil of its own: for each window one for each number, by a standard deviation.
+  /// Columns of soil of its own: for each window one for each number, by a standard deviation. Soil
+  /// along one window may change its neighbours too.
   Eigen::MatrixXd soil;
   std::size_t soil_numbers = 0;
   /// Ways in which soils differ from each other, each as far as one standard deviation among them:
@@ -44,6 +45,7 @@ struct EffectFound {
   std::size_t parameter = 0;
   double size = 0, std = 0;                     ///< in units of the parameter's column
   double begins = 0, ends = 0;                  ///< of the zone, in windows
+  double begins_slant = 0, ends_slant = 0;      ///< of its borders; see WindowZone
   Eigen::VectorXd share;                        ///< of each window that lies in the zone
   std::array<double, 2> first_at{}, last_at{};  ///< 95 % of where it begins and ends, in windows
   /// The likely soil whose evidence is most in the zone, and how much of it is there; nothing where

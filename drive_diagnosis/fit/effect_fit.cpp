@@ -52,16 +52,42 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
 }
 
 EffectFound EffectFit::strongest(std::uint64_t seed) {
+  silent_ = windows_at_borders();
+  EffectFound strongest = strongest_of_heard(seed);
+  silent_.clear();
+  return strongest;
+}
+
+/// Windows in which a wheel comes onto a known zone or leaves it, as nearly as that is told.
+WindowSet EffectFit::windows_at_borders() const {
+  std::vector<WindowZone> borders;
+  for (const WindowZone& zone : zones()) {
+    for (const auto& [at, slant] :
+         {std::pair{zone.begins, zone.begins_slant}, {zone.ends, zone.ends_slant}}) {
+      const auto all = static_cast<double>(comparison_.size());
+      borders.push_back({.begins = std::max(0.0, at - kEdgeErr),
+                         .ends = std::min(all, at + kEdgeErr),
+                         .begins_slant = slant,
+                         .ends_slant = slant});
+    }
+  }
+  return comparison_.touching(borders);
+}
+
+EffectFound EffectFit::strongest_of_heard(std::uint64_t seed) {
   Linearised here = linearise();
-  const std::vector<Eigen::MatrixXd> soil = soil_columns(here.windows.base);
+  const SoilColumns soil = soil_columns(here.windows.base);
   whiten_soil(soil, here.noise);
   EffectFound strongest = strongest_effect(contest_, seed);
   if (strongest.stands_out || !strongest.is_zone) return strongest;
   // A zone that is there has widened the noise that it was held against, and slopes that err alike
   // from window to window would pass for it.
   std::vector<Eigen::MatrixXd>& numbers = here.windows.zones.emplace_back();
-  for (const Eigen::MatrixXd& number : soil) {
-    numbers.emplace_back(strongest.share.asDiagonal() * number);
+  for (const std::vector<Eigen::MatrixXd>& by_window : soil) {
+    Eigen::MatrixXd& number = numbers.emplace_back(0 * here.windows.base);
+    for (std::size_t w = 0; w < by_window.size(); ++w) {
+      number += strongest.share[static_cast<Eigen::Index>(w)] * by_window[w];
+    }
   }
   contest_.zones_known.push_back({.share = strongest.share, .columns = {}});
   const ResidualNoise noise = whiten(here.windows);
@@ -70,14 +96,30 @@ EffectFound EffectFit::strongest(std::uint64_t seed) {
   return strongest_effect(contest_, seed);
 }
 
-/// What each number of another soil changes in each window.
-std::vector<Eigen::MatrixXd> EffectFit::soil_columns(const Eigen::MatrixXd& base) const {
-  std::vector<Eigen::MatrixXd> columns;
-  for (const std::size_t number : numbers_) {
-    VehicleDeviation there = deviation();
-    there.soils.resize(map_.soils().size());
-    for (SoilNumbers& numbers : there.soils) numbers.at(number) += 1;
-    columns.push_back(comparison_.predicted(comparison_.all(), there, zones(), base, stop_) - base);
+EffectFit::SoilColumns EffectFit::soil_columns(const Eigen::MatrixXd& base) const {
+  const std::size_t windows = comparison_.size();
+  const WindowQuestion here{deviation(), zones()};
+  std::vector<std::pair<std::size_t, WindowQuestion>> asked;
+  std::vector<std::array<std::size_t, 2>> of;  // number and stretch
+  for (std::size_t k = 0; k < numbers_.size(); ++k) {
+    for (std::size_t w = 0; w < windows; ++w) {
+      WindowQuestion question = here;
+      WindowZone& stretch = question.zones.emplace_back(WindowZone{
+          .begins = static_cast<double>(w), .ends = static_cast<double>(w + 1), .soil = kAsMapped});
+      stretch.numbers.at(numbers_[k]) = 1;
+      for (const std::size_t near : comparison_.touching_in_run(w, stretch)) {
+        asked.emplace_back(near, question);
+        of.push_back({k, w});
+      }
+    }
+  }
+  const std::vector<std::optional<Eigen::VectorXd>> there =
+      comparison_.predicted_each(asked, stop_);
+  SoilColumns columns(numbers_.size(), std::vector<Eigen::MatrixXd>(windows, 0 * base));
+  for (std::size_t n = 0; n < asked.size(); ++n) {
+    if (!there[n]) continue;
+    const auto near = static_cast<Eigen::Index>(asked[n].first);
+    columns[of[n][0]][of[n][1]].row(near) = there[n]->transpose() - base.row(near);
   }
   return columns;
 }
@@ -85,7 +127,7 @@ std::vector<Eigen::MatrixXd> EffectFit::soil_columns(const Eigen::MatrixXd& base
 void EffectFit::add(const EffectFound& effect) {
   if (effect.is_zone) {
     contest_.zones_known.push_back({.share = effect.share, .columns = {}});
-    edges_.push_back({effect.begins, effect.ends});
+    edges_.push_back(edges_of(effect));
     fit_.zones.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size())));
   } else {
     contest_.faults_known.push_back(effect.parameter);
@@ -127,10 +169,12 @@ std::vector<Eigen::VectorXd> EffectFit::differences_among_soils_driven() const {
 std::vector<WindowZone> EffectFit::zones() const {
   std::vector<WindowZone> result;
   for (std::size_t z = 0; z < fit_.zones.size(); ++z) {
-    result.push_back({.begins = edges_[z][0],
-                      .ends = edges_[z][1],
+    result.push_back({.begins = edges_[z].begins,
+                      .ends = edges_[z].ends,
                       .soil = soil_of(z),
-                      .numbers = numbers_of(fit_.zones[z])});
+                      .numbers = numbers_of(fit_.zones[z]),
+                      .begins_slant = edges_[z].begins_slant,
+                      .ends_slant = edges_[z].ends_slant});
   }
   return result;
 }
@@ -186,6 +230,9 @@ ResidualParts EffectFit::residual_parts(const LinearisedWindows& here) const {
     unknown.push_back(k >= comparison_.slope_along());
   }
   Eigen::MatrixXd more_std = comparison_.more_std();
+  if (border_std_.size() > 0) {
+    more_std = (more_std.cwiseAbs2() + border_std_.cwiseAbs2()).cwiseSqrt();
+  }
   constexpr double kAnything = 1e4;  // in any channel's unit
   for (const std::size_t w : silent_) {
     more_std.row(static_cast<Eigen::Index>(w)).setConstant(kAnything);
@@ -256,16 +303,14 @@ double EffectFit::persistence(const SlopeErrors& errors) const {
 }
 
 /// Makes columns of soil of its own white.
-void EffectFit::whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise) {
+void EffectFit::whiten_soil(const SoilColumns& soil, const ResidualNoise& noise) {
   const auto windows = static_cast<Eigen::Index>(comparison_.size());
   const auto numbers = static_cast<Eigen::Index>(numbers_.size());
   contest_.soil.resize(contest_.data.size(), windows * numbers);
   for (Eigen::Index k = 0; k < numbers; ++k) {
-    const Eigen::MatrixXd& column = soil[static_cast<std::size_t>(k)];
     for (Eigen::Index w = 0; w < windows; ++w) {
-      Eigen::MatrixXd alone = Eigen::MatrixXd::Zero(windows, column.cols());
-      alone.row(w) = column.row(w);
-      contest_.soil.col(w * numbers + k) = noise.whitened(alone);
+      contest_.soil.col(w * numbers + k) =
+          noise.whitened(soil[static_cast<std::size_t>(k)][static_cast<std::size_t>(w)]);
     }
   }
 }
@@ -326,7 +371,9 @@ void EffectFit::settle_with(EffectFound& effect) {
   } else if (fit_.zones.empty()) {
     settle();
   } else {
+    silent_ = windows_at_borders();
     go_on_from(settled_from_here());
+    silent_.clear();
   }
 }
 

@@ -13,6 +13,7 @@
 #include "drive_diagnosis/contest/effect_contest.h"
 #include "drive_diagnosis/contest/residual_noise.h"
 #include "drive_diagnosis/contest/slope_errors.h"
+#include "drive_diagnosis/fit/likely_edges.h"
 #include "drive_diagnosis/fit/likely_soils.h"
 #include "drive_diagnosis/fit/window_linearisation.h"
 
@@ -38,7 +39,9 @@ class EffectFit {
   EffectFit(const EffectFit&) = delete;
   EffectFit& operator=(const EffectFit&) = delete;
 
-  /// The strongest effect of those that are not known yet, about the present fit.
+  /// The strongest effect of those that are not known yet, about the present fit. Windows at the
+  /// borders of known zones say nothing of it: where a wheel changes soils is told no finer than to
+  /// `kEdgeErr`, and what that leaves is the zone's, whichever effect it looks like.
   EffectFound strongest(std::uint64_t seed);
   /// Of each likely soil, the fewest windows of a zone that the effect sought last would have been:
   /// see `shortest_zones_shown`.
@@ -111,8 +114,14 @@ class EffectFit {
   ResidualParts residual_parts(const LinearisedWindows& here) const;
   ResidualNoise whiten(const LinearisedWindows& here);
   double persistence(const SlopeErrors& errors) const;
-  std::vector<Eigen::MatrixXd> soil_columns(const Eigen::MatrixXd& base) const;
-  void whiten_soil(const std::vector<Eigen::MatrixXd>& soil, const ResidualNoise& noise);
+  EffectFound strongest_of_heard(std::uint64_t seed);
+  WindowSet windows_at_borders() const;
+  Eigen::MatrixXd border_std(const EdgesErr& err) const;
+  /// By number and window: what another soil along that window changes in all of them. A wheel
+  /// that is ahead of the body comes onto it in the window before.
+  using SoilColumns = std::vector<std::vector<Eigen::MatrixXd>>;
+  SoilColumns soil_columns(const Eigen::MatrixXd& base) const;
+  void whiten_soil(const SoilColumns& soil, const ResidualNoise& noise);
   std::optional<ScatterSources> scatter_outside(const LinearisedWindows& here,
                                                 const Eigen::VectorXd& zone) const;
   bool place_edges(EffectFound& zone);
@@ -135,10 +144,12 @@ class EffectFit {
   WindowLinearisation linearisation_;
   EffectContest contest_;
   ContestFit fit_;
-  std::vector<std::array<double, 2>> edges_;  ///< where each zone begins and ends, in windows
+  std::vector<ZoneEdges> edges_;  ///< of each zone
   /// How far residuals scatter, where fits are compared by it; else as each fit leaves it.
   std::optional<ScatterSources> scatter_;
   WindowSet silent_;  ///< windows that say nothing
+  /// By window and channel, what the borders of zones change as far as these may lie off.
+  Eigen::MatrixXd border_std_;
   std::vector<double> noise_;
 };
 

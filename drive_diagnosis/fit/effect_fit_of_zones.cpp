@@ -1,5 +1,6 @@
 // What EffectFit does with a zone: its soil and its edges, in turn.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -30,7 +31,7 @@ void EffectFit::settle_zone(EffectFound& zone) {
 WindowSet EffectFit::windows_far_from_linear(const LinearisedWindows& here) const {
   constexpr double kEdgesMove = 4;  // windows, in all rounds of place_edges
   std::vector<WindowZone> all = zones();
-  all.back() = comparison_.widened(all.back(), kEdgesMove);
+  all.back() = comparison_.widened(slanted_most(all.back()), kEdgesMove);
   WindowSet windows;
   std::ranges::set_union(here.unbalanced, comparison_.touching(all), std::back_inserter(windows));
   return windows;
@@ -60,18 +61,51 @@ EffectFit::Settled EffectFit::likeliest_soil(const Settled& start, EffectFound& 
 /// asks for a soil that is nowhere.
 EffectFit::Settled EffectFit::settled_with_edges(EffectFound& zone) {
   constexpr int kStepsBefore = 3, kRounds = 3;
+  border_std_ = border_std(kEdgesFound);
   Settled settled = settled_from_here(kStepsBefore);
   for (int round = 0; round < kRounds; ++round) {
     go_on_from(settled);
     if (!place_edges(zone) && round > 0) break;
+    border_std_ = border_std(kEdgesPlaced);
     settled = settled_from_here();
   }
   return settled;
 }
 
+/// What zones' borders that lie so far off and are crossed at such another angle change: in the
+/// windows where wheels come onto them, the data cannot hold the soil to more than that.
+Eigen::MatrixXd EffectFit::border_std(const EdgesErr& err) const {
+  const WindowSet windows = windows_at_borders();
+  const WindowQuestion here{deviation(), zones()};
+  std::vector<WindowQuestion> questions;
+  for (std::size_t z = 0; z < here.zones.size(); ++z) {
+    for (double WindowZone::*edge : {&WindowZone::begins, &WindowZone::ends}) {
+      for (const double off : {err.windows, -err.windows}) {
+        const double moved = here.zones[z].*edge + off;
+        questions.push_back(here);
+        questions.back().zones[z].*edge =
+            std::clamp(moved, 0.0, static_cast<double>(comparison_.size()));
+      }
+    }
+    for (double WindowZone::*slant : {&WindowZone::begins_slant, &WindowZone::ends_slant}) {
+      for (const double off : {err.angle_rad, -err.angle_rad}) {
+        questions.push_back(here);
+        questions.back().zones[z].*slant = std::tan(std::atan(here.zones[z].*slant) + off);
+      }
+    }
+  }
+  const std::vector<Eigen::MatrixXd> there = comparison_.predicted(
+      windows, questions, comparison_.measured(), MotionsByWindow(comparison_.size()), stop_);
+  Eigen::MatrixXd squares = 0 * comparison_.measured();
+  for (std::size_t n = 0; n < there.size(); n += 2) {
+    squares += ((there[n] - there[n + 1]) / 2).cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
 void EffectFit::take_edges(const EffectFound& zone) {
   contest_.zones_known.back().share = zone.share;
-  edges_.back() = {zone.begins, zone.ends};
+  edges_.back() = edges_of(zone);
 }
 
 /// Moves the edges of the zone that was added last to where its soil makes them likeliest.
@@ -88,12 +122,14 @@ bool EffectFit::place_edges(EffectFound& zone) {
                                           .predicted = here.windows.windows.base,
                                           .noise = here.noise},
                                          zones(), stop_);
-  zone.begins = edges.begins;
-  zone.ends = edges.ends;
+  zone.begins = edges.at.begins;
+  zone.ends = edges.at.ends;
+  zone.begins_slant = edges.at.begins_slant;
+  zone.ends_slant = edges.at.ends_slant;
   zone.first_at = edges.begins_ci95;
   zone.last_at = edges.ends_ci95;
-  zone.share = shares_between(edges.begins, edges.ends, comparison_.size());
-  const std::array<double, 2> before = edges_.back();
+  zone.share = shares_between(zone.begins, zone.ends, comparison_.size());
+  const ZoneEdges before = edges_.back();
   take_edges(zone);
   return edges_.back() != before;
 }

@@ -1,11 +1,14 @@
 #include "drive_diagnosis/fit/likely_edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
+
+#include "terramech/basics/angles.h"
 
 namespace regoplan {
 namespace {
@@ -13,16 +16,20 @@ namespace {
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 /// Steps by which edges are tried, and how far about the likeliest so far; windows.
 constexpr double kCoarse = 0.25, kReach = 1, kFine = 0.05, kNear = 0.2;
-/// How far off edges are told, in windows, though the nats of what they leave say that they are
-/// nearer: 95 % of 60 edges of concealed patches (benchmarks/drives, seeds 1351 to 1400) lie within
-/// .43, a quarter of a second of which is in the truth's own samples. The soil is another with each
-/// pair of edges, and a vehicle does not come onto a patch as onto a strip.
-constexpr double kErr = 0.4;
+/// Angles at which borders are crossed: those tried first, and steps about the likeliest so far.
+constexpr double kMost_rad = 60 * kDegree, kCoarse_rad = 20 * kDegree, kFine_rad = 7 * kDegree;
 
-/// Edges that were tried, and by how many nats what they leave is unlikely.
+/// Edges that were tried, and by how many nats they and what they leave are unlikely.
 struct Tried {
-  double begins, ends, nats;
+  WindowZone zone;
+  double nats;
 };
+
+/// By how many nats less likely it is to come onto a border at this slant than straight: the chance
+/// of an angle goes with its cosine, that of its tangent with the cubed cosine.
+double slant_nats(double slant) {
+  return 1.5 * std::log1p(slant * slant);
+}
 
 /// A window, and which zone each of its wheels is in all along: edges that leave those where they
 /// are leave the window as it is.
@@ -36,7 +43,7 @@ class EdgeSearch {
         zones_(std::move(zones)),
         stop_(stop),
         within_reach_(windows.comparison.touching(
-            {windows.comparison.widened(zones_.back(), kReach + kNear)})) {
+            {windows.comparison.widened(slanted_most(zones_.back()), kReach + kNear)})) {
     // Windows that balance now have to with other edges too.
     otherwise_ = windows.predicted;
     const Eigen::MatrixXd now =
@@ -58,22 +65,34 @@ class EdgeSearch {
         if (!is_possible(place)) places.pop_back();
       }
     }
-    predict_in(places);
-    for (const WindowZone& place : places) weigh(place);
-    if (tried_.empty()) return;
-    const Tried& most = *std::ranges::min_element(tried_, {}, &Tried::nats);
-    zones_.back().begins = most.begins;
-    zones_.back().ends = most.ends;
+    try_all(places);
+  }
+
+  /// All slants of one border, then of the other, by `step` and no farther than `reach` from the
+  /// present one.
+  void try_slants(double step_rad, double reach_rad) {
+    for (double WindowZone::*slant : {&WindowZone::begins_slant, &WindowZone::ends_slant}) {
+      const double about_rad = std::atan(zones_.back().*slant);
+      std::vector<WindowZone> places;
+      for (double off_rad = -reach_rad; off_rad <= reach_rad + 1e-9; off_rad += step_rad) {
+        if (std::abs(about_rad + off_rad) > kMost_rad + 1e-9) continue;
+        WindowZone& place = places.emplace_back(zones_.back());
+        place.*slant = std::tan(about_rad + off_rad);
+      }
+      try_all(places);
+    }
   }
 
   LikelyEdges likeliest() const {
     const WindowZone& zone = zones_.back();
     const auto all = static_cast<double>(windows_.comparison.size());
     const auto about = [all](double edge) {
-      return std::array{std::max(0.0, edge - kErr), std::min(all, edge + kErr)};
+      return std::array{std::max(0.0, edge - kEdgeErr), std::min(all, edge + kEdgeErr)};
     };
-    LikelyEdges edges{.begins = zone.begins,
-                      .ends = zone.ends,
+    LikelyEdges edges{.at = {.begins = zone.begins,
+                             .ends = zone.ends,
+                             .begins_slant = zone.begins_slant,
+                             .ends_slant = zone.ends_slant},
                       .begins_ci95 = about(zone.begins),
                       .ends_ci95 = about(zone.ends)};
     const auto take = [](std::array<double, 2>& range, double value) {
@@ -84,13 +103,20 @@ class EdgeSearch {
     for (const Tried& one : tried_) {
       constexpr double kWithin_nats = 1.92;  // half of chi squared, 95 %
       if (one.nats > least + kWithin_nats) continue;
-      take(edges.begins_ci95, one.begins);
-      take(edges.ends_ci95, one.ends);
+      take(edges.begins_ci95, one.zone.begins);
+      take(edges.ends_ci95, one.zone.ends);
     }
     return edges;
   }
 
  private:
+  void try_all(const std::vector<WindowZone>& places) {
+    predict_in(places);
+    for (const WindowZone& place : places) weigh(place);
+    if (tried_.empty()) return;
+    zones_.back() = std::ranges::min_element(tried_, {}, &Tried::nats)->zone;
+  }
+
   Eigen::MatrixXd predicted(const Eigen::MatrixXd& otherwise) const {
     return windows_.comparison.predicted(within_reach_, windows_.deviation, zones_, otherwise,
                                          stop_);
@@ -129,7 +155,8 @@ class EdgeSearch {
       if (values) there.row(static_cast<Eigen::Index>(w)) = *values;
     }
     if (!there.allFinite()) return;
-    tried_.push_back({place.begins, place.ends, windows_.noise.nats(windows_.measured - there)});
+    tried_.push_back({place, windows_.noise.nats(windows_.measured - there) +
+                                 slant_nats(place.begins_slant) + slant_nats(place.ends_slant)});
   }
 
   bool is_possible(const WindowZone& place) const {
@@ -159,11 +186,18 @@ class EdgeSearch {
 
 }  // namespace
 
+WindowZone slanted_most(WindowZone zone) {
+  zone.begins_slant = zone.ends_slant = std::tan(kMost_rad);
+  return zone;
+}
+
 LikelyEdges likely_edges(const FittedWindows& windows, std::vector<WindowZone> zones,
                          const std::stop_token& stop) {
   EdgeSearch search(windows, std::move(zones), stop);
   search.try_about(kCoarse, kReach);
+  search.try_slants(kCoarse_rad, 2 * kMost_rad);
   search.try_about(kFine, kNear);
+  search.try_slants(kFine_rad, kFine_rad);
   return search.likeliest();
 }
 

@@ -227,26 +227,32 @@ TEST(WindowComparison, AZoneIsWidenedAsFarAsWindowsFollowEachOther) {
   EXPECT_DOUBLE_EQ(all.ends, windows);
 }
 
-TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {
-  const OverAStretch drive;
-  WindowZone said = drive.zone;
-  said.begins += 0.8;
-  said.ends -= 0.7;
+/// Scatter as what the stretch leaves of the measurement has it.
+ResidualNoise noise_of(const OverAStretch& drive) {
   const Eigen::MatrixXd& measured = drive.comparison->measured();
   const auto channels = static_cast<std::size_t>(measured.cols());
   std::vector<bool> follows;
   for (std::size_t i = 0; i < drive.comparison->size(); ++i) {
     follows.push_back(drive.comparison->consecutive(i));
   }
-  const ResidualNoise noise({.residuals = measured - drive.predicted({drive.zone}),
-                             .columns = {},
-                             .may_be_wrong = {},
-                             .inputs = {},
-                             .scatters_unknown = {},
-                             .follows = follows,
-                             .sizes = Eigen::MatrixXd::Zero(measured.rows(), measured.cols()),
-                             .sampled_std = std::vector<double>(channels, 0.0),
-                             .more_std = Eigen::MatrixXd::Zero(measured.rows(), measured.cols())});
+  return ResidualNoise({.residuals = measured - drive.predicted({drive.zone}),
+                        .columns = {},
+                        .may_be_wrong = {},
+                        .inputs = {},
+                        .scatters_unknown = {},
+                        .follows = follows,
+                        .sizes = Eigen::MatrixXd::Zero(measured.rows(), measured.cols()),
+                        .sampled_std = std::vector<double>(channels, 0.0),
+                        .more_std = Eigen::MatrixXd::Zero(measured.rows(), measured.cols())});
+}
+
+TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {
+  const OverAStretch drive;
+  WindowZone said = drive.zone;
+  said.begins += 0.8;
+  said.ends -= 0.7;
+  const Eigen::MatrixXd& measured = drive.comparison->measured();
+  const ResidualNoise noise = noise_of(drive);
   const LikelyEdges edges = likely_edges({.comparison = *drive.comparison,
                                           .deviation = {},
                                           .measured = measured,
@@ -254,12 +260,31 @@ TEST(LikelyEdges, AreWhereASoftStretchBeginsAndEnds) {
                                           .noise = noise},
                                          {said}, {});
   constexpr double kNear = 0.15;  // windows
-  EXPECT_NEAR(edges.begins, drive.zone.begins, kNear);
-  EXPECT_NEAR(edges.ends, drive.zone.ends, kNear);
+  EXPECT_NEAR(edges.at.begins, drive.zone.begins, kNear);
+  EXPECT_NEAR(edges.at.ends, drive.zone.ends, kNear);
   EXPECT_LE(edges.begins_ci95[0], drive.zone.begins);
   EXPECT_GE(edges.begins_ci95[1], drive.zone.begins);
   EXPECT_LE(edges.ends_ci95[0], drive.zone.ends);
   EXPECT_GE(edges.ends_ci95[1], drive.zone.ends);
+}
+
+TEST(LikelyEdges, SlantWhereTheWheelsOfOneSideComeOntoASoftStretchFirst) {
+  const OverAStretch drive;
+  WindowZone truth = drive.zone, said = drive.zone;
+  truth.begins_slant = 0.7;
+  truth.ends_slant = -0.7;
+  said.begins += 0.3;
+  const ResidualNoise noise = noise_of(drive);
+  const LikelyEdges edges = likely_edges({.comparison = *drive.comparison,
+                                          .deviation = {},
+                                          .measured = drive.predicted({truth}),
+                                          .predicted = drive.predicted({said}),
+                                          .noise = noise},
+                                         {said}, {});
+  constexpr double kNear = 0.1, kSlant = 0.35;
+  EXPECT_NEAR(edges.at.begins, truth.begins, kNear);
+  EXPECT_NEAR(edges.at.begins_slant, truth.begins_slant, kSlant);
+  EXPECT_NEAR(edges.at.ends_slant, truth.ends_slant, kSlant);
 }
 
 TEST(WindowComparison, WindowsWhoseWheelsAreInTheSameZonesArePredictedAlike) {
@@ -344,6 +369,45 @@ TEST(WindowModel, MotionsAreSoughtAgainWhereTheVehicleMovesOtherwiseAndNowhereEl
   }
   EXPECT_GT(taken, 10);
   EXPECT_GT(sought, 10);
+}
+
+TEST(SoilStretch, AWheelToTheLeftComesLaterOntoABorderThatLiesFartherThere) {
+  const SoilStretch straight{.starts_s = 10, .ends_s = 20};
+  const SoilStretch oblique{.starts_s = 10, .ends_s = 20, .starts_slant = 1, .ends_slant = -0.5};
+  const WheelTime left{.at_s = 11, .left_s = 2}, right{.at_s = 9, .left_s = -2};
+  EXPECT_TRUE(straight.holds(left));
+  EXPECT_FALSE(straight.holds(right));
+  EXPECT_FALSE(oblique.holds(left));
+  EXPECT_TRUE(oblique.holds(right));
+  EXPECT_FALSE(oblique.holds({.at_s = 19.5, .left_s = 2}));
+  EXPECT_TRUE(oblique.holds({.at_s = 20.5, .left_s = -2}));
+}
+
+TEST(WindowModel, NumbersOnTopOfWhateverTheMapHasAreThoseOfItsSoils) {
+  const Compared compared({.seed = 3});
+  const TerrainMap map = of_two_soils(1);
+  const WindowModel model(map, compared.vehicle, 1.62);
+  const WindowInput& input = compared.comparison->input(20);
+  const SoilNumbers weaker = weaker_by(1);
+  const auto soils = model.predict(input, {.soils = {weaker, weaker}});
+  const auto stretch = model.predict(
+      input, {}, {{.starts_s = -1e9, .ends_s = 1e9, .soil = kAsMapped, .numbers = weaker}});
+  ASSERT_TRUE(soils && stretch);
+  EXPECT_EQ(stretch->torque_nm, soils->torque_nm);
+}
+
+TEST(VehicleTrials, WhatASoundVehicleIsOffGrowsWithItsWeightAndLength) {
+  const TerrainMap map = rolling_map();
+  const auto unit = [&map](const char* vehicle, double gravity_mps2, std::string_view parameter) {
+    const auto trials = vehicle_trials(preset_vehicle(vehicle), gravity_mps2, {}, map, {true});
+    return std::ranges::find(trials, parameter, &VehicleTrial::parameter)->unit;
+  };
+  EXPECT_DOUBLE_EQ(unit("lrv", 1.62, "drag_front_left_nm"), 0.2);
+  EXPECT_DOUBLE_EQ(unit("lrv", 1.62, "drag_n"), 3);
+  EXPECT_DOUBLE_EQ(unit("lrv", 1.62, "forward_m"), 0.015);
+  EXPECT_NEAR(unit("curiosity", 3.71, "drag_front_left_nm"), 0.36, 0.005);
+  EXPECT_NEAR(unit("tohoku", 9.81, "drag_front_left_nm"), 0.01, 0.0005);
+  EXPECT_NEAR(unit("tohoku", 9.81, "up_m"), 0.0066, 0.0001);
 }
 
 TEST(WindowModel, AZoneIsOfItsOwnSoilWhateverTheMapSays) {
