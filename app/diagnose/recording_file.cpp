@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 
 #include "app/io/csv_table.h"
@@ -231,7 +232,15 @@ RecordingFile read_recording(std::istream& stream, const std::string& file) {
   }
   RecordingFile read{.file = file, .columns = table.columns()};
   Recording& recording = read.recording;
+  std::map<Cells, std::int64_t> line_of;
   while (std::optional<Cells> cells = table.next()) {
+    const auto [copied, is_new] = line_of.try_emplace(*cells, table.line());
+    if (!is_new) {
+      throw table.error(
+          fmt::format("run_id: {}: this row is a copy of line {} (allowed: each run "
+                      "once; a copy is no replicate)",
+                      (*cells)[table.column("run_id")], copied->second));
+    }
     try {
       recording.runs.push_back(read_run(table, *cells));
     } catch (const OutOfRangeError& bad) {

@@ -158,6 +158,20 @@ void WindowComparison::estimate_more_std() {
           std::sqrt(std::max(0.0, std * std - of_most * of_most));
     }
   }
+  more_std_ = (more_std_.cwiseAbs2() + model_std().cwiseAbs2()).cwiseSqrt();
+}
+
+/// What the comparison errs by itself: motions are sought at some places of a window only, and
+/// polynomials stand for them in between. It counts where sensors are better than any, as of a
+/// simulated drive without scatter.
+Eigen::MatrixXd WindowComparison::model_std() const {
+  constexpr double kVelocity_mps = 5e-4, kYawRate_rad_s = 1e-4, kAttitude_rad = 1e-4;
+  constexpr double kTorqueShare = 2e-3;
+  Eigen::MatrixXd stds = kTorqueShare * sizes_;  // of torques alone
+  stds.leftCols(2).setConstant(kVelocity_mps);
+  stds.col(2).setConstant(kYawRate_rad_s);
+  if (has_attitude_) stds.middleCols(3, 2).setConstant(kAttitude_rad);
+  return stds;
 }
 
 void WindowComparison::choose_channels() {

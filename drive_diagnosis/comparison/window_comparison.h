@@ -137,8 +137,9 @@ class WindowComparison {
   const Eigen::MatrixXd& sizes() const { return sizes_; }
   /// What neighbouring samples say of the scatter of each channel's windows; 0 where nothing.
   const std::vector<double>& sampled_std() const { return sampled_std_; }
-  /// By window and channel, what the smoothing of fixes scatters more than in most windows, in
-  /// quadrature: it has fewer of them, or all to one side, where a recording begins or ends.
+  /// By window and channel, in quadrature: what the smoothing of fixes scatters more than in most
+  /// windows, as it has fewer of them, or all to one side, where a recording begins or ends; and
+  /// what the comparison errs by itself.
   const Eigen::MatrixXd& more_std() const { return more_std_; }
   /// How far a channel's scatter goes with what it measures: torques, by their mean.
   bool scales(std::size_t channel) const { return channels_[channel].starts_with("torque"); }
@@ -160,6 +161,7 @@ class WindowComparison {
   void estimate_sampled_std();
   void measure_sizes();
   void estimate_more_std();
+  Eigen::MatrixXd model_std() const;
 
   const std::vector<DriveRecording>& drives_;
   const std::vector<DriveWindow>& windows_;

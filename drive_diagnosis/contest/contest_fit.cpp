@@ -33,7 +33,7 @@ Eigen::MatrixXd free_columns(const EffectContest& contest) {
   columns.leftCols(parameters) = contest.parameters;
   if (ground > 0) columns.rightCols(ground) = contest.ground;
   for (const std::size_t fault : contest.faults_known) {
-    columns.col(static_cast<Eigen::Index>(fault)) *= kFault;
+    columns.col(static_cast<Eigen::Index>(fault)) *= kClaimedFault;
   }
   if (zones == 0) return columns;
   const Eigen::MatrixXd factor = zone_factor(contest);
@@ -54,8 +54,8 @@ ContestFit fit_contest(const EffectContest& contest) {
   const Eigen::Index parameters = contest.parameters.cols();
   ContestFit fit{.parameters = x.head(parameters), .parameters_std = std.head(parameters)};
   for (const std::size_t fault : contest.faults_known) {
-    fit.parameters[static_cast<Eigen::Index>(fault)] *= kFault;
-    fit.parameters_std[static_cast<Eigen::Index>(fault)] *= kFault;
+    fit.parameters[static_cast<Eigen::Index>(fault)] *= kClaimedFault;
+    fit.parameters_std[static_cast<Eigen::Index>(fault)] *= kClaimedFault;
   }
   const auto q = static_cast<Eigen::Index>(contest.soil_numbers);
   if (contest.zones_known.empty()) return fit;
@@ -81,7 +81,7 @@ double likelihood_nats(const EffectContest& contest) {
 double prior_nats(const EffectContest& contest, const ContestFit& fit) {
   Eigen::VectorXd parameters = fit.parameters;
   for (const std::size_t fault : contest.faults_known) {
-    parameters[static_cast<Eigen::Index>(fault)] /= kFault;
+    parameters[static_cast<Eigen::Index>(fault)] /= kClaimedFault;
   }
   double squares = parameters.squaredNorm();
   if (!fit.zones.empty()) {

@@ -127,10 +127,14 @@ Eigen::VectorXd ResidualNoise::variances(Eigen::Index window) const {
 }
 
 std::vector<double> ResidualNoise::scales() const {
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(parts_.residuals.cols());
-  for (Eigen::Index w = 0; w < parts_.residuals.rows(); ++w) mean += variances(w);
-  mean = (mean / static_cast<double>(parts_.residuals.rows())).cwiseSqrt();
-  return {mean.begin(), mean.end()};
+  std::vector<double> result;
+  for (Eigen::Index k = 0; k < parts_.residuals.cols(); ++k) {
+    std::vector<double> of_windows;
+    for (Eigen::Index w = 0; w < parts_.residuals.rows(); ++w)
+      of_windows.push_back(variances(w)[k]);
+    result.push_back(std::sqrt(median_value(of_windows)));
+  }
+  return result;
 }
 
 void ResidualNoise::factor() {

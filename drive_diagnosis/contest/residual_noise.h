@@ -56,7 +56,8 @@ class ResidualNoise {
   /// By how many nats residuals are unlikely as such noise, but for what all have in common; far
   /// ones count less.
   double nats(const Eigen::MatrixXd& residuals) const;
-  /// Of each channel, the root mean square of its own scatter.
+  /// Of each channel, the scatter of its own in the median window: some windows may be told to say
+  /// nothing.
   std::vector<double> scales() const;
   const ScatterSources& sources() const { return sources_; }
 

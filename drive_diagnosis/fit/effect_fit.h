@@ -144,7 +144,7 @@ class EffectFit {
   WindowLinearisation linearisation_;
   EffectContest contest_;
   ContestFit fit_;
-  std::vector<ZoneEdges> edges_;  ///< of each zone
+  std::vector<ZoneBorders> edges_;  ///< of each zone
   /// How far residuals scatter, where fits are compared by it; else as each fit leaves it.
   std::optional<ScatterSources> scatter_;
   WindowSet silent_;  ///< windows that say nothing

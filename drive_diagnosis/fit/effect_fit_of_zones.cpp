@@ -129,7 +129,7 @@ bool EffectFit::place_edges(EffectFound& zone) {
   zone.first_at = edges.begins_ci95;
   zone.last_at = edges.ends_ci95;
   zone.share = shares_between(zone.begins, zone.ends, comparison_.size());
-  const ZoneEdges before = edges_.back();
+  const ZoneBorders before = edges_.back();
   take_edges(zone);
   return edges_.back() != before;
 }

@@ -13,12 +13,12 @@
 namespace regoplan {
 
 /// Where a zone begins and ends, in windows, and how its borders slant.
-struct ZoneEdges {
+struct ZoneBorders {
   double begins = 0, ends = 0, begins_slant = 0, ends_slant = 0;
-  bool operator==(const ZoneEdges&) const = default;
+  bool operator==(const ZoneBorders&) const = default;
 };
 
-inline ZoneEdges edges_of(const EffectFound& zone) {
+inline ZoneBorders edges_of(const EffectFound& zone) {
   return {.begins = zone.begins,
           .ends = zone.ends,
           .begins_slant = zone.begins_slant,
@@ -44,7 +44,7 @@ WindowZone slanted_most(WindowZone zone);
 
 /// The likeliest, and 95 % of where the zone begins and ends while its soil is what it is.
 struct LikelyEdges {
-  ZoneEdges at;
+  ZoneBorders at;
   std::array<double, 2> begins_ci95{}, ends_ci95{};
 };
 

@@ -116,6 +116,14 @@ std::string recording_with(int rows, int out_of_range) {
   return text;
 }
 
+TEST(RecordingFile, ARowThatIsACopyOfAnotherIsNoReplicate) {
+  const std::string row = "r1,64.7,0.3,16,4.5\n", head = recording_with(1, 0);
+  EXPECT_EQ(read(head + row + "r2,64.7,0.3,16,4.5\n").recording.runs.size(), 3u);
+  EXPECT_EQ(error_text([&] { read(head + row + row); }),
+            "r.csv:4: run_id: r1: this row is a copy of line 3 (allowed: each run once; a copy is "
+            "no replicate)");
+}
+
 TEST(RecordingFile, ARowOutOfRangeIsLeftOutAndListedAndTheRestIsKept) {
   const RecordingFile file = read(recording_with(40, 2));
   EXPECT_EQ(file.recording.runs.size(), 38u);

@@ -41,6 +41,17 @@ TEST(FitContest, NumbersOfAZoneThatAreNotSeenGoWithThoseThatAre) {
   EXPECT_GT(together.zones_covariance[0](1, 1), 1.5 * 1.5);  // it may still be otherwise
 }
 
+/// A fault of 60 deviations of a sound vehicle, each as large as a standard error of eight windows.
+TEST(FitContest, AFaultThatIsClaimedIsAsLargeAsItIsMeasured) {
+  EffectContest contest{.data = Eigen::VectorXd::Constant(8, 60),
+                        .parameters = Eigen::MatrixXd::Ones(8, 1),
+                        .soil = Eigen::MatrixXd::Zero(8, 0)};
+  EXPECT_LT(fit_contest(contest).parameters[0], 54);
+  contest.faults_known = {0};
+  const ContestFit claimed = fit_contest(contest);
+  EXPECT_NEAR(claimed.parameters[0], 60, 0.1 * claimed.parameters_std[0]);
+}
+
 TEST(FitContest, ADeviationCostsByHowFarItIsFromWhatIsLikely) {
   const EffectContest contest = with_a_known_zone(Eigen::Vector2d(-6, -6), -5);
   const ContestFit nothing{.parameters = Eigen::VectorXd::Zero(0),

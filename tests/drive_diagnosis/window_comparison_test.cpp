@@ -103,9 +103,13 @@ TEST(WindowComparison, TheLastWindowIsToldToScatterMoreThanMostAsItsFixesLieToOn
                                                  std::pow(inner.velocity_by_fix_1ps, 2));
   EXPECT_GT(expected_mps, 0.003);
   EXPECT_NEAR(more(last, 0), expected_mps, 0.3 * expected_mps);
-  EXPECT_LT(more(10, 0), 0.1 * expected_mps);
+  EXPECT_LT(more(10, 0), 0.2 * expected_mps);  // what the comparison errs by itself
   EXPECT_GT(more(last, 2), 0.002);
-  for (Eigen::Index k = 3; k < more.cols(); ++k) EXPECT_EQ(more(last, k), 0);
+  // Torques are no fixes.
+  for (Eigen::Index k = 3; k < more.cols(); ++k) {
+    EXPECT_GT(more(last, k), 0);
+    EXPECT_LT(more(last, k), 0.02);
+  }
 }
 
 TEST(WindowComparison, TorquesThatJumpWhereSteeringDoesAreNotTakenForScatter) {
