@@ -10,6 +10,14 @@
 #include "app/io/number_text.h"
 
 namespace regoplan {
+namespace {
+
+std::string trimmed(const std::string& cell) {
+  const std::size_t from = cell.find_first_not_of(' ');
+  return from == std::string::npos ? "" : cell.substr(from, cell.find_last_not_of(' ') - from + 1);
+}
+
+}  // namespace
 
 CsvTable::CsvTable(std::istream& stream, std::string file)
     : stream_(stream), file_(std::move(file)) {
@@ -18,9 +26,7 @@ CsvTable::CsvTable(std::istream& stream, std::string file)
   constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
   if (header->front().starts_with(kByteOrderMark)) header->front().erase(0, 3);
   for (std::string& column : *header) {
-    const std::size_t from = column.find_first_not_of(' ');
-    const std::size_t to = column.find_last_not_of(' ');
-    column = from == std::string::npos ? "" : column.substr(from, to - from + 1);
+    column = trimmed(column);
     if (std::ranges::count(*header, column) > 1) throw error("column " + column + " given twice");
   }
   columns_ = std::move(*header);
@@ -58,6 +64,7 @@ std::optional<CsvTable::Cells> CsvTable::next() {
   if (cells && cells->size() != columns_.size()) {
     throw error(fmt::format("{} cells (the header has {})", cells->size(), columns_.size()));
   }
+  if (cells) std::ranges::transform(*cells, cells->begin(), trimmed);
   return cells;
 }
 

@@ -106,6 +106,11 @@ TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
   EXPECT_EQ(rows_error("\xFF\xFEl"), "c.csv:1: the file is UTF-16 (allowed: UTF-8)");
 }
 
+TEST(WheelRows, BlanksAroundCellsSayNothing) {
+  EXPECT_EQ(rows_of("load_n, slip_ratio, slip_angle_deg\n64.7, 0, 0 \n"),
+            rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n"));
+}
+
 TEST(WheelRows, ATableWithoutRowsIsATableWithoutRows) {
   EXPECT_EQ(rows_of("load_n,slip_ratio,slip_angle_deg\n").size(), 1);
   EXPECT_EQ(rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n\n\n").size(), 2);
