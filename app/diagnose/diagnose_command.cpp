@@ -155,7 +155,8 @@ Command add_diagnose_command(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "diagnose",
       "Where a recording of a single wheel and the model differ, and what physics was left out.\n"
-      "Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html. Exit status 0: "
+      "Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html; with --scenario "
+      "windows.csv and corrected-map/ in place of the middle two. Exit status 0: "
       "consistent or explained, 2: unexplained.");
   parser
       ->add_option("RECORDING.csv", options->recording,
