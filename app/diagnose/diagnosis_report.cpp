@@ -122,9 +122,12 @@ json report_data(const DiagnosisRun& run) {
   return data;
 }
 
-std::string verdict_sentence(Verdict verdict) {
+std::string verdict_sentence(Verdict verdict, bool has_reference) {
   switch (verdict) {
     case Verdict::kConsistent:
+      if (has_reference) {
+        return "Consistent: the recording does not differ from its reference beyond the noise.";
+      }
       return "Consistent: the model at the soil numbers' prior means says what was measured, "
              "within the noise.";
     case Verdict::kParameters:
@@ -172,8 +175,9 @@ std::string basis_sentence(const DiagnosisRun& run) {
 }  // namespace
 
 std::string diagnosis_headline(const DiagnosisRun& run) {
-  return run.diagnosis.sentence.empty() ? verdict_sentence(run.diagnosis.verdict)
-                                        : run.diagnosis.sentence;
+  return run.diagnosis.sentence.empty()
+             ? verdict_sentence(run.diagnosis.verdict, !run.references.empty())
+             : run.diagnosis.sentence;
 }
 
 std::string diagnosis_report(const DiagnosisRun& run) {
@@ -183,7 +187,8 @@ std::string diagnosis_report(const DiagnosisRun& run) {
         "The diagnosis was interrupted: this is what it had found by then, and no "
         "verdict to rely on.");
   }
-  if (!run.diagnosis.sentence.empty()) lead.push_back(verdict_sentence(run.diagnosis.verdict));
+  if (!run.diagnosis.sentence.empty())
+    lead.push_back(verdict_sentence(run.diagnosis.verdict, !run.references.empty()));
   lead.push_back(basis_sentence(run));
   return render(
       {.title = fmt::format("Diagnosis of {}",

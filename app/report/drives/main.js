@@ -112,8 +112,9 @@ const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) => {
               .map(key => [withUnit(key), spreadText(soil_of_map[key]), spreadText(soil[key])])));
 };
 /// Numbers of a soil of the map that the drives tell otherwise, all along.
-const soilTable = ([name, {map, drives}]) => element(
+const soilTable = ([name, {map, drives, withheld}]) => element(
     'div', {}, element('h3', {}, words(name)),
+    element('p', {class: 'note'}, `corrected-map/ has what ${withheld ? 'the map has' : 'the drives tell'}.`),
     wideTable(
         `${words(name)}, as the map has it and as the drives tell it`,
         columns('number', 'the map', 'the drives'),
@@ -124,7 +125,7 @@ const soilsTold = Object.entries(REPORT.soils || {});
 if (soilsTold.length) {
   byId('soils-section').hidden = false;
   byId('soils').append(
-      element('p', {class: 'note'}, 'By the windows that no zone touches, fitted along with all else. corrected-map/ has these numbers.'),
+      element('p', {class: 'note'}, 'By the windows that no zone touches, fitted along with all else.'),
       ...soilsTold.map(soilTable));
 }
 const zonesText = REPORT.windows_used ? 'No zone of other soil.' :
