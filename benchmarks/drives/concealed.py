@@ -17,7 +17,7 @@ import subprocess
 from pathlib import Path
 
 from concealed_scores import score, table
-from nulls import NUMBERS, ROOT, SCENARIO, wave
+from nulls import NUMBERS, ROOT, scenario, wave
 
 SOIL = "firm_regolith"
 
@@ -75,7 +75,7 @@ def cratered(chance):
                 "rim_height_m": 0.005 * diameter_m}
                for diameter_m in (chance.uniform(20, 60) for _ in range(16))]
     level = "roughness_m: 0.06"
-    return SCENARIO.replace(level, f"{level}, craters: {json.dumps(craters)}")
+    return scenario().replace(level, f"{level}, craters: {json.dumps(craters)}")
 
 
 def at_speed(path):

@@ -56,13 +56,13 @@ VEHICLES = {
 }
 
 
-def scenario(vehicle):
+def scenario(vehicle="lrv"):
     driven = VEHICLES[vehicle]
     return SCENARIO.format(root=ROOT, vehicle=vehicle, gravity_mps2=driven.gravity_mps2,
                            goal_x_m=driven.end_x_m + 15, speed_max_mps=driven.speed_max_mps)
 
 
-def wave(chance, driven):
+def wave(chance, driven=VEHICLES["lrv"]):
     """A path that swings from side to side, from rest."""
     amplitude_m, length_m = chance.uniform(2, 8), chance.uniform(40, 90)
     speed_mps = chance.uniform(*driven.speeds_mps)
