@@ -84,6 +84,9 @@ class EffectFit {
   int soil_at(std::size_t window) const;
 
  private:
+  /// Windows that no zone touches, by which they can be compared with each other.
+  static constexpr std::size_t kFewestOutside = 10;
+
   /// The windows about the present fit.
   struct Linearised {
     LinearisedWindows windows;

@@ -72,6 +72,22 @@ EffectFit::Settled EffectFit::settled_with_edges(EffectFound& zone) {
   return settled;
 }
 
+/// Windows in which a wheel comes onto a known zone or leaves it, as nearly as that is told.
+WindowSet EffectFit::windows_at_borders() const {
+  std::vector<WindowZone> borders;
+  for (const WindowZone& zone : zones()) {
+    for (const auto& [at, slant] :
+         {std::pair{zone.begins, zone.begins_slant}, {zone.ends, zone.ends_slant}}) {
+      const auto all = static_cast<double>(comparison_.size());
+      borders.push_back({.begins = std::max(0.0, at - kEdgeErr),
+                         .ends = std::min(all, at + kEdgeErr),
+                         .begins_slant = slant,
+                         .ends_slant = slant});
+    }
+  }
+  return comparison_.touching(borders);
+}
+
 /// What zones' borders that lie so far off and are crossed at such another angle change: in the
 /// windows where wheels come onto them, the data cannot hold the soil to more than that.
 Eigen::MatrixXd EffectFit::border_std(const EdgesErr& err) const {
