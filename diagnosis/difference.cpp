@@ -41,6 +41,17 @@ struct Treatment {
   }
 };
 
+/// The least that a p value leaves to chance, by the bound of Sellke, Bayarri & Berger (2001, The
+/// American Statistician 55, 62-71), with prior odds by which none and some are as likely as each
+/// other where a difference begins to be told.
+double probability_of_no_difference(double p) {
+  const auto bayes_factor = [](double p_value) {
+    return p_value < std::exp(-1) ? -std::exp(1) * p_value * std::log(p_value) : 1;
+  };
+  const double odds = bayes_factor(p) / bayes_factor(Thresholds::kDifference_p);
+  return odds / (1 + odds);
+}
+
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,
@@ -65,11 +76,10 @@ class Differing {
     found_.before = primary().lack;
     found_.after = found_.before;
     complete_ = found_;
-    const bool differ = std::ranges::all_of(
-        treatments_, [](const Treatment& t) { return t.lack.f > t.lack.critical; });
-    if (!differ) {
-      found_.verdict = Verdict::kConsistent;
-      no_name();
+    const bool alike =
+        std::ranges::any_of(treatments_, [](const Treatment& t) { return explained(t.lack); });
+    if (alike) {
+      consistent();
       complete_ = found_;
     } else {
       found_.where = locate(primary().calibrated->recording(),
@@ -207,9 +217,15 @@ class Differing {
         found_.notes.push_back(fmt::format("{} is not claimed: {}", id, doubt));
       }
     }
-    const std::string doubt = objection_to_class(claimed.ids);
-    if (claimed.ids.empty() || !doubt.empty()) {
-      if (!doubt.empty()) found_.notes.push_back(doubt);
+    if (claimed.ids.empty()) {
+      found_.verdict = Verdict::kUnexplained;
+      no_name();
+      return;
+    }
+    const bool leave_nothing = explained(left_by(primary().find(claimed.ids.front())->fit));
+    const std::string doubt = objection_to_class(claimed.ids, leave_nothing);
+    if (!doubt.empty()) {
+      found_.notes.push_back(doubt);
       found_.verdict = Verdict::kUnexplained;
       no_name();
       return;
@@ -229,14 +245,19 @@ class Differing {
     found_.names_added = steps_of(*t.calibrated, partial, options_.threads);
     found_.claims = std::move(partial.claims);
     found_.remainder_share = remainder_share(found_.claims);
-    found_.after = lack_of_fit(t.calibrated->recording(), t.calibrated->remainder_of(fit),
-                               options_.seed, Thresholds::kDifference_p);
-    const bool whole_difference = found_.after.f <= found_.after.critical;
-    found_.verdict = !whole_difference         ? Verdict::kPartly
+    found_.after = left_by(fit);
+    found_.verdict = !explained(found_.after)  ? Verdict::kPartly
                      : claimed.ids.size() == 1 ? Verdict::kNamed
                                                : Verdict::kClass;
     hand_out(fit);
   }
+
+  LackOfFit left_by(const CandidateFit& fit) {
+    const CalibratedRecording& calibrated = *primary().calibrated;
+    return lack_of_fit(calibrated.recording(), calibrated.remainder_of(fit), options_.seed,
+                       Thresholds::kDifference_p);
+  }
+  static bool explained(const LackOfFit& left) { return left.f <= left.critical; }
 
   /// How often nameless differences let some name do as well as the first.
   double chance_p() {
@@ -246,13 +267,28 @@ class Differing {
     return chance_of(reached_, t.names.front().gain_nats, share.share.low);
   }
 
-  void no_name() {
-    if (found_.verdict == Verdict::kConsistent) {
-      using Kind = Account::Kind;
-      for (const Kind kind : {Kind::kNone, Kind::kParameters, Kind::kUnexplained}) {
-        found_.ranking.push_back({Account{kind}.id(), kind == Kind::kNone ? 1.0 : 0.0, 0});
-      }
+  /// No difference is proven: how likely none is goes by the setting that lets them differ least.
+  void consistent() {
+    using Kind = Account::Kind;
+    found_.verdict = Verdict::kConsistent;
+    const auto least = std::ranges::max_element(treatments_, {},
+                                                [](const Treatment& t) { return t.lack.p_value; });
+    found_.before = found_.after = least->lack;
+    const double p = least->lack.p_value;
+    if (p < Thresholds::kConsistent_p) {
+      found_.notes.push_back(
+          fmt::format("test and reference may differ: p = {:.2g} with {}, where they differ least; "
+                      "a difference is told below {}, and more runs would decide",
+                      p, regoplan::name(least->base), Thresholds::kDifference_p));
     }
+    const double none = probability_of_no_difference(p);
+    found_.ranking = {{Account{Kind::kNone}.id(), none, 0},
+                      {Account{Kind::kUnexplained}.id(), 1 - none, 0},
+                      {Account{Kind::kParameters}.id(), 0, 0}};
+    no_name();
+  }
+
+  void no_name() {
     found_.remainder_share = found_.verdict == Verdict::kUnexplained ? 1 : 0;
     hand_out(primary().calibrated->base());
   }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/recording/thresholds.h"
+
 namespace regoplan {
 namespace {
 
@@ -239,6 +241,15 @@ std::string probability_words(double probability) {
 
 namespace {
 
+std::string no_difference_words(double p_value) {
+  if (p_value >= Thresholds::kConsistent_p) {
+    return "The recording and its reference do not differ beyond their noise.";
+  }
+  return fmt::format(
+      "The recording and its reference may differ (p = {:.2g}), but not by as much as proves it.",
+      p_value);
+}
+
 std::string words_of(const Diagnosis& diagnosis) {
   std::string where;
   if (!diagnosis.where.empty()) {
@@ -248,9 +259,7 @@ std::string words_of(const Diagnosis& diagnosis) {
   }
   switch (diagnosis.verdict) {
     case Verdict::kConsistent:
-      if (!diagnosis.references.empty()) {
-        return "The recording and its reference do not differ beyond their noise.";
-      }
+      if (!diagnosis.references.empty()) return no_difference_words(diagnosis.before.p_value);
       return "The recording agrees with the model at the prior soil numbers: nothing beyond noise.";
     case Verdict::kParameters:
       return parameters_words(diagnosis);

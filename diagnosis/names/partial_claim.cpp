@@ -126,11 +126,15 @@ PartialClaim first_claim(const CalibratedRecording& calibrated,
   return result;
 }
 
-std::string objection_to_class(const std::vector<std::string>& ids) {
+std::string objection_to_class(const std::vector<std::string>& ids, bool leave_nothing) {
+  if (ids.size() > Thresholds::kLargestClass) {
+    return fmt::format("{} names fit alike: {}", ids.size(), fmt::join(ids, ", "));
+  }
   const bool mixed =
       std::ranges::any_of(ids, is_instrument) && !std::ranges::all_of(ids, is_instrument);
-  if (!mixed && ids.size() <= Thresholds::kLargestClass) return "";
-  return "names that fit alike are too many, or of wheel and instrument both";
+  if (!mixed || leave_nothing) return "";
+  return fmt::format("names of wheel and instrument fit alike and leave a part unexplained: {}",
+                     fmt::join(ids, ", "));
 }
 
 double remainder_share(const std::vector<Claim>& claims) {
@@ -255,7 +259,7 @@ PartialDecision by_evidence(const CalibratedRecording& calibrated, const CappedC
         ids.front(), top, p);
     return decision;
   }
-  decision.refused = objection_to_class(ids);
+  decision.refused = objection_to_class(ids, false);
   if (!decision.refused.empty()) return decision;
   decision.claim = first_claim(calibrated, names, ids, p, threads);
   add_further_names(calibrated, contest, effects, top, threads, *decision.claim);

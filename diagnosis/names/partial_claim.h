@@ -31,8 +31,10 @@ double chance_of(const std::vector<ByChance>& reached, double gain_nats, double 
 /// Gain that one nameless world in forty reaches.
 double reached_by_chance(const std::vector<ByChance>& reached);
 
-/// Why names that fit alike are no class; empty where they are.
-std::string objection_to_class(const std::vector<std::string>& ids);
+/// Why names that fit alike are no class; empty where they are. Names of wheel and instrument both
+/// are one only where they explain everything: an instrument that leaves something unexplained is
+/// as likely to stand for that.
+std::string objection_to_class(const std::vector<std::string>& ids, bool leave_nothing);
 
 /// What claims leave of the excess misfit; nothing where no share of it was measured.
 double remainder_share(const std::vector<Claim>& claims);

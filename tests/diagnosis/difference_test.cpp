@@ -62,6 +62,54 @@ TEST(Difference, ThatOneEffectMakesHasItsNameAndItsShare) {
   EXPECT_GE(claim.share->high, claim.share->explained);
 }
 
+/// A test whose drawbar pull lies off its reference's by a constant, on a bed of one load.
+Diagnosis off_by(double bias_n) {
+  const DiagnosisSetup setup = simulant_setup();
+  std::mt19937_64 random(11);
+  const Soil soil = draw(setup.soil, setup.wheel.width_m, random);
+  const BedPlan plan{.slips = {-0.3, 0, 0.2, 0.4, 0.7},
+                     .angles_deg = {0, 8, 16},
+                     .loads_n = {64.7},
+                     .conditions = 26,
+                     .replicates = 4};
+  TrueWheel off;
+  off.fx_n = [bias_n](const WheelRun&, double) { return bias_n; };
+  return diagnose_difference(record(off, setup, soil, plan, 11), setup,
+                             {{"reference", record({}, setup, soil, plan, 111), setup}});
+}
+
+double probability_of(const Diagnosis& found, const std::string& id) {
+  const auto ranked = std::ranges::find(found.ranking, id, &ScoredCandidate::id);
+  return ranked == found.ranking.end() ? 0 : ranked->probability;
+}
+
+TEST(Difference, IsDoubtfulBeforeItIsProven) {
+  bool doubtful = false;
+  double none = 1;
+  for (double bias_n = 0; bias_n < 4; bias_n += 0.1) {
+    const Diagnosis found = off_by(bias_n);
+    if (found.verdict != Verdict::kConsistent) break;
+    const bool noted = std::ranges::any_of(found.notes, [](const std::string& note) {
+      return note.starts_with("test and reference may differ");
+    });
+    EXPECT_EQ(noted, found.before.p_value < 0.05);
+    EXPECT_EQ(noted, found.sentence.find("may differ") != std::string::npos) << found.sentence;
+    EXPECT_GE(probability_of(found, "none"), 0.5);
+    doubtful = doubtful || noted;
+    none = std::min(none, probability_of(found, "none"));
+  }
+  EXPECT_TRUE(doubtful);
+  EXPECT_LT(none, 0.96);
+}
+
+TEST(Difference, OfOneLoadIsOfASensorOrOfATiltedBed) {
+  const Diagnosis found = off_by(-5);
+  ASSERT_EQ(found.verdict, Verdict::kClass) << found.sentence;
+  EXPECT_TRUE(found.claims.front().is_of("sensor_bias")) << found.sentence;
+  EXPECT_TRUE(found.claims.front().is_of("slope_tilt")) << found.sentence;
+  EXPECT_GT(found.claims.front().probability, 0.9);
+}
+
 TEST(Difference, AFurtherPassOfOneSeriesAloneIsNoDifferenceBetweenTwo) {
   // In the rut of the first pass the wheel sinks half as deep: far beyond the noise, on passes that
   // the reference happens not to have driven.
