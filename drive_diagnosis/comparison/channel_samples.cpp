@@ -47,4 +47,25 @@ double mean_size(const DriveRecording& drive, const DriveWindow& window, const s
   return count == 0 ? 0 : std::sqrt(squares / count);
 }
 
+double step_error(const DriveRecording& drive, const DriveWindow& window, const std::string& name,
+                  double sample_std) {
+  const DriveChannel* channel = drive.channel(name);
+  if (!channel) return 0;
+  const auto begin = std::ranges::lower_bound(drive.time_s, window.start_s) - drive.time_s.begin();
+  double squares = 0, last_s = NAN, last = NAN;
+  for (auto i = static_cast<std::size_t>(begin);
+       i < drive.size() && drive.time_s[i] <= window.end_s; ++i) {
+    const auto value = static_cast<double>(channel->values[i]);
+    if (std::isnan(value)) continue;
+    if (!std::isnan(last)) {
+      const double length_s = drive.time_s[i] - last_s;
+      squares +=
+          ((value - last) * (value - last) - 2 * sample_std * sample_std) * length_s * length_s;
+    }
+    last_s = drive.time_s[i];
+    last = value;
+  }
+  return std::sqrt(std::max(0.0, squares)) / 2 / (window.end_s - window.start_s);
+}
+
 }  // namespace regoplan

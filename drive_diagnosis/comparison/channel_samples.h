@@ -17,4 +17,9 @@ int samples_in(const DriveRecording& drive, const DriveWindow& window, const std
 /// Root mean square of a channel's samples in a window; 0 where it has none.
 double mean_size(const DriveRecording& drive, const DriveWindow& window, const std::string& name);
 
+/// How far a window's mean of a channel may err as nobody knows when within a step from sample to
+/// sample the channel changed: by half of each step at most. \param sample_std that is no step
+double step_error(const DriveRecording& drive, const DriveWindow& window, const std::string& name,
+                  double sample_std);
+
 }  // namespace regoplan

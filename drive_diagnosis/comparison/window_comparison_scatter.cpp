@@ -79,12 +79,24 @@ void WindowComparison::estimate_more_std() {
 }
 
 /// What the comparison errs by itself: motions are sought at some places of a window only, and
-/// polynomials stand for them in between. It counts where sensors are better than any, as of a
-/// simulated drive without scatter.
+/// polynomials stand for them in between, as lines do between samples. It counts where sensors are
+/// better than any, as of a simulated drive without scatter.
 Eigen::MatrixXd WindowComparison::model_std() const {
   constexpr double kVelocity_mps = 5e-4, kYawRate_rad_s = 1e-4, kAttitude_rad = 1e-4;
   constexpr double kTorqueShare = 2e-3;
   Eigen::MatrixXd stds = kTorqueShare * sizes_;  // of torques alone
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    if (!scales(k)) continue;
+    std::vector<double> of_drives;
+    for (const DriveRecording& drive : drives_)
+      of_drives.push_back(sample_std(drive, channels_[k]));
+    for (std::size_t i = 0; i < windows_of_.size(); ++i) {
+      const DriveWindow& window = windows_[windows_of_[i]];
+      double& std = stds(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
+      std = std::hypot(
+          std, step_error(drives_[window.drive], window, channels_[k], of_drives[window.drive]));
+    }
+  }
   stds.leftCols(2).setConstant(kVelocity_mps);
   stds.col(2).setConstant(kYawRate_rad_s);
   if (has_attitude_) stds.middleCols(3, 2).setConstant(kAttitude_rad);
