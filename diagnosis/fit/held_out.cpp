@@ -42,6 +42,7 @@ TestBed without(const TestBed& bed, const Families& families, std::size_t family
 
 struct Prediction {
   Eigen::VectorXd calibrated, named, remainder, variance;  // of the whole bed
+  Eigen::MatrixXd spread;  // of the named: its columns' products are the covariance
 };
 
 /// Mean and variance of the discrepancy at all conditions, given what the rest left.
@@ -130,8 +131,8 @@ Prediction predict_without(const TestBed& bed, const std::vector<SoilCoordinate>
                      {.residual = rest.measured() - named->prediction, .jacobian = named->jacobian},
                      corrected.fit != nullptr ? corrected.fit->evidence.settings : noise_only);
     const Eigen::MatrixXd& j = corrected.fit != nullptr ? corrected.fit->jacobian : base.jacobian;
-    const Eigen::MatrixXd half = posterior.precision.llt().matrixL().solve(j.transpose());
-    prediction.variance = half.colwise().squaredNorm().transpose();
+    prediction.spread = posterior.precision.llt().matrixL().solve(j.transpose());
+    prediction.variance = prediction.spread.colwise().squaredNorm().transpose();
     if (!corrected.remainder.empty()) {
       add_remainder(bed, rest, discrepancy, rest.measured() - named->prediction,
                     corrected.remainder, prediction);
@@ -193,6 +194,31 @@ Fall fall_of(const TestBed& bed, std::size_t channel, const Eigen::VectorXd& bet
   const Eigen::VectorXd off = white(data.mean - better.segment(from, n)),
                         apart = white(better.segment(from, n) - worse.segment(from, n));
   return {.misfit = (off + apart).squaredNorm() - off.squaredNorm(), .spread = apart.squaredNorm()};
+}
+
+/// \param folds one a family
+ExpectedExcess expected_excess(const TestBed& bed, const Families& families,
+                               const std::vector<Prediction>& folds) {
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(bed.size(), bed.size());
+  std::vector<std::vector<Eigen::Index>> rows(families.count);
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const ChannelData& data = bed.channels[c];
+    const Eigen::Index from = bed.offset(c), n = data.mean.size();
+    covariance.block(from, from, n, n) = data.noise;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      rows[families.of_condition[data.conditions[static_cast<std::size_t>(i)]]].push_back(from + i);
+    }
+  }
+  const Eigen::VectorXd noise = covariance.diagonal();
+  for (std::size_t family = 0; family < families.count; ++family) {
+    if (folds[family].spread.size() == 0) continue;
+    const Eigen::MatrixXd spread = folds[family].spread(Eigen::all, rows[family]);
+    covariance(rows[family], rows[family]) += spread.transpose() * spread;
+  }
+  const Eigen::VectorXd per_noise = noise.cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd white = per_noise.asDiagonal() * covariance * per_noise.asDiagonal();
+  return {.mean = white.trace() - static_cast<double>(bed.size()),
+          .standard_deviation = std::sqrt(2.0) * white.norm()};
 }
 
 }  // namespace
@@ -304,6 +330,7 @@ HeldOut hold_out(const CondensedRecording& recording, const std::vector<SoilCoor
   const double excess = chi2_calibrated - dof;
   result.share_explained = excess > 0 ? 1 - (chi2_corrected - dof) / excess : 0;
   result.excess = excess;
+  result.expected = expected_excess(bed, families, folds);
   return result;
 }
 

@@ -32,6 +32,13 @@ struct CorrectedModel {
   std::vector<std::size_t> remainder;
 };
 
+/// Misfit over the degrees of freedom that predictions of held-out conditions have by noise and by
+/// what the rest leaves open of soil and effects: many conditions of a family err together, as
+/// those of a day do.
+struct ExpectedExcess {
+  double mean = 0, standard_deviation = 0;
+};
+
 /// How models do on conditions that they were not fitted to.
 struct HeldOut {
   Families families;
@@ -41,6 +48,7 @@ struct HeldOut {
   Eigen::VectorXd corrected_deviation;
   double share_explained = 0;
   double excess = 0;                    ///< of the calibrated misfit over the degrees of freedom
+  ExpectedExcess expected;              ///< of a corrected model without a remainder that is true
   std::vector<double> remainder_share;  ///< per channel: of the remainder that proves itself
 };
 

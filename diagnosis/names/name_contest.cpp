@@ -65,19 +65,6 @@ struct Leftover {
   }
 };
 
-/// Misfit beyond noise that predictions of held-out conditions have as the rest tells soil and
-/// effects so closely only.
-double expected_excess(const TestBed& bed, const HeldOut& proof) {
-  double sum = 0;
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const ChannelData& data = bed.channels[c];
-    const Eigen::Index n = data.mean.size();
-    const auto deviation = proof.corrected_deviation.segment(bed.offset(c), n).array();
-    sum += (deviation.square() / data.noise.diagonal().array()).sum();
-  }
-  return sum;
-}
-
 /// \param names fitted alone
 Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& names,
                      int threads) {
@@ -90,9 +77,8 @@ Leftover leftover_of(const CalibratedRecording& calibrated, const CandidateFit& 
     const HeldOut with =
         calibrated.held_out({.fit = &names, .remainder = remainder}, families, threads);
     const double share = 1 - alone.share_explained;
-    const double expected = expected_excess(bed, alone);
-    const double deviations = (share * std::max(alone.excess, 0.0) - expected) /
-                              std::sqrt(2 * static_cast<double>(bed.size()) + 4 * expected);
+    const double deviations = (share * std::max(alone.excess, 0.0) - alone.expected.mean) /
+                              alone.expected.standard_deviation;
     left.clear = std::max(
         left.clear, std::min(gain_in_errors(bed, with.corrected, alone.corrected), deviations));
     if (share >= left.share) continue;

@@ -131,9 +131,9 @@ struct Thresholds {
   static constexpr double kRoughName = 0.5;
   /// Of a remainder beside names whose effect is known to the last term: standard errors by which
   /// it may predict held-out conditions better, and deviations, of noise and of what the rest
-  /// leaves open, that the names may leave there. One of both stayed below 1.8 in 77 of 79
-  /// recordings with a fault of an instrument, of three series and two generators; the others
-  /// had 3.4, and 4.0 of a wrong name.
+  /// leaves open, that the names may leave there. The usual 95 %: one of both stayed below 1.7 in
+  /// all but two of the recordings with a fault of an instrument of two series of 30 each, 2.2 and
+  /// 3.4 there.
   static constexpr double kBesideExact_deviations = 2;
   /// By which a name beats an unnamed remainder alone: asked of the verdict `partly`; and every
   /// other name, or they are a class: half of it.

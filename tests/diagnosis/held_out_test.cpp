@@ -68,6 +68,25 @@ TEST(HeldOut, TheCalibratedModelReachesTheNoiseWhereNothingIsMissing) {
   }
 }
 
+TEST(HeldOut, TheExcessOfATrueModelScattersAsIsExpectedOfIt) {
+  // Days that differ by as much as runs scatter move whole families at once.
+  const DiagnosisSetup setup = simulant_setup();
+  constexpr int kRecordings = 12;
+  double sum = 0, squares = 0;
+  for (std::uint64_t seed = 1; seed <= kRecordings; ++seed) {
+    std::mt19937_64 random(seed);
+    const Soil soil = draw(setup.soil, setup.wheel.width_m, random);
+    const CalibratedBed made(record({}, setup, soil, {.replicates = 4, .day = 1}, seed));
+    const HeldOut out =
+        hold_out(made.recording, made.soil, made.fit, {}, families_of(made.recording.bed), 2);
+    const double z = (out.excess - out.expected.mean) / out.expected.standard_deviation;
+    sum += z;
+    squares += z * z;
+  }
+  EXPECT_NEAR(sum / kRecordings, 0, 1);
+  EXPECT_NEAR(std::sqrt(squares / kRecordings), 1.2, 0.8);
+}
+
 TEST(HeldOut, FamiliesAreSlipAnglesWhereThereAreFour) {
   const CalibratedBed made = base({});
   const Families families = families_of(made.recording.bed);
