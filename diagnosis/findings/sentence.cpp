@@ -161,9 +161,20 @@ std::string against(const Diagnosis& diagnosis) {
   return diagnosis.references.empty() ? "mismatch" : "difference from the reference";
 }
 
+/// "noise", and where nobody told it, whence it comes.
+std::string noise_words(const Diagnosis& diagnosis) {
+  if (diagnosis.guessed_noise.empty()) return "noise";
+  std::string channels;
+  for (const Channel channel : diagnosis.guessed_noise) {
+    channels += fmt::format("{}{}", channels.empty() ? "" : ", ", name(channel));
+  }
+  return "noise, which is guessed from neighbouring conditions for " + channels;
+}
+
 /// Whose soil number was pulled most, and how far.
 std::string parameters_words(const Diagnosis& diagnosis) {
-  std::string text = "Other soil numbers explain the recording to within its noise";
+  std::string text =
+      "Other soil numbers explain the recording to within its " + noise_words(diagnosis);
   const auto worst = std::ranges::max_element(
       diagnosis.soil, {}, [](const SoilPull& one) { return std::abs(one.pull); });
   if (worst != diagnosis.soil.end()) {
@@ -251,7 +262,8 @@ std::string words_of(const Diagnosis& diagnosis) {
       if (!diagnosis.references.empty()) {
         return "The recording and its reference do not differ beyond their noise.";
       }
-      return "The recording agrees with the model at the prior soil numbers: nothing beyond noise.";
+      return "The recording agrees with the model at the prior soil numbers: nothing beyond " +
+             noise_words(diagnosis) + ".";
     case Verdict::kParameters:
       return parameters_words(diagnosis);
     case Verdict::kNamed:

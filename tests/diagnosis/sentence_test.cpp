@@ -28,6 +28,16 @@ TEST(Sentence, OfOtherSoilNumbersSaysWhatWasTakenForChance) {
   expect_says(sentence_of(diagnosis), {"is taken for chance (see the notes)"});
 }
 
+TEST(Sentence, ThatNothingIsMissingSaysWhereItsNoiseIsGuessed) {
+  for (const Verdict verdict : {Verdict::kConsistent, Verdict::kParameters}) {
+    Diagnosis diagnosis{.verdict = verdict};
+    EXPECT_EQ(sentence_of(diagnosis).find("guessed"), std::string::npos);
+    diagnosis.guessed_noise = {Channel::kFx, Channel::kSinkage};
+    expect_says(sentence_of(diagnosis),
+                {"noise, which is guessed from neighbouring conditions for fx_n, sinkage_m"});
+  }
+}
+
 TEST(Sentence, TellsFormAndFittedNumbersOfANameThatStandsAlone) {
   Diagnosis diagnosis = named();
   Claim& claim = diagnosis.claims.front();
