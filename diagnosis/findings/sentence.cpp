@@ -204,14 +204,20 @@ std::string named_words(const Diagnosis& diagnosis) {
   if (diagnosis.correction_refused) {
     return text + " Named, but the corrected model leaves it out (see the notes).";
   }
-  const double left = 1 - diagnosis.share_explained;
-  if (diagnosis.excess_is_clear && left > 0.1) {
-    text += fmt::format(
-        " Named, but the corrected model leaves {:.0f} % of the excess misfit on held-out "
-        "conditions.",
-        100 * std::min(left, 1.0));
+  if (!diagnosis.excess_is_clear) return text;
+  constexpr double kTold = 0.1;
+  // What the table of shares says as well, where there is one.
+  if (std::ranges::any_of(diagnosis.claims, [](const Claim& claim) { return !!claim.share; })) {
+    if (diagnosis.remainder_share <= kTold) return text;
+    return text + fmt::format(" {:.0f} % of the excess misfit on held-out conditions has no name.",
+                              100 * diagnosis.remainder_share);
   }
-  return text;
+  const double left = 1 - diagnosis.share_explained;
+  if (left <= kTold) return text;
+  return text + fmt::format(
+                    " Named, but the corrected model leaves {:.0f} % of the excess misfit on "
+                    "held-out conditions.",
+                    100 * std::min(left, 1.0));
 }
 
 /// What would part names that fit alike; empty where there are none.

@@ -87,6 +87,15 @@ TEST(Sentence, SaysWhatANameLeavesUnexplained) {
   expect_says(sentence_of(named()), {"leaves 30 % of the excess misfit on held-out conditions"});
 }
 
+TEST(Sentence, LeavesWithoutANameWhatTheSharesLeave) {
+  Diagnosis diagnosis = named();
+  diagnosis.claims.front().share = Share{.explained = 0.68, .low = 0.6, .high = 0.7};
+  diagnosis.remainder_share = 0.32;
+  expect_says(sentence_of(diagnosis),
+              {"32 % of the excess misfit on held-out conditions has no name"});
+  EXPECT_EQ(sentence_of(diagnosis).find("30 %"), std::string::npos);
+}
+
 TEST(Sentence, TellsNoShareOfAnExcessThatNoiseMayBe) {
   Diagnosis diagnosis = named();
   diagnosis.excess_is_clear = false;
