@@ -41,6 +41,9 @@ class Diagnosing {
     found_.soil = calibrated_.soil_pulls();
     found_.notes = recording.warnings;
     add_notes(calibrated_.recording().notes);
+    for (const ChannelNoise& noise : calibrated_.recording().noise) {
+      if (noise.source == NoiseSource::kNeighbours) found_.guessed_noise.push_back(noise.channel);
+    }
     add_notes(instrument_checks(calibrated_.recording()));
   }
 

@@ -33,8 +33,8 @@ std::optional<std::int64_t> whole_number(std::string_view text) {
 CLI::Validator in_range(const ValueRange& allowed) {
   return {[allowed](std::string& text) {
             const std::optional<double> value = parse_number(text);
-            return value && allowed.contains(*value) ? std::string()
-                                                     : not_valid(text, allowed.text());
+            if (value && allowed.contains(*value)) return std::string();
+            return not_valid(text, value ? allowed.text() : number_text(allowed));
           },
           ""};
 }

@@ -122,7 +122,7 @@ ExitStatus run_diagnosis(const Options& options) {
   notify_of_left_out(run.recording.left_out, options.quiet);
   if (!recording.ignored.empty()) {
     notify(fmt::format("{}: {} kept and not used", options.recording,
-                       fmt::join(recording.ignored, ", ")),
+                       fmt::join(ignored_columns(run.recording), ", ")),
            options.quiet);
   }
 

@@ -7,7 +7,10 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
+#include "app/diagnose/modelled_recording.h"
+#include "app/diagnose/recording_signs.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/wheel/wheel_model.h"
@@ -24,29 +27,6 @@ struct Sample {
   double model_share = 0;
 };
 
-double modelled(const WheelChannels& at, Channel channel) {
-  switch (channel) {
-    case Channel::kFx:
-      return at.forces.fx_n;
-    case Channel::kFy:
-      return at.forces.fy_n;
-    case Channel::kTorque:
-      return at.forces.torque_nm;
-    case Channel::kSinkage:
-      return at.forces.sinkage_m;
-    case Channel::kRutLeft:
-      return at.rut_left_m;
-    case Channel::kRutRight:
-      return at.rut_right_m;
-  }
-  return 0;
-}
-
-bool is_length(Channel channel) {
-  return channel == Channel::kSinkage || channel == Channel::kRutLeft ||
-         channel == Channel::kRutRight;
-}
-
 double quantile(std::vector<double> values, double share) {
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -54,32 +34,44 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-/// The unit in which a channel may have been written, from how many times too large it is.
+struct SuspectedUnit {
+  double times = 1;  ///< so many times too large the channel seems
+  std::string_view suspected;
+};
+
+/// The unit that a column may have been written in, from how many times too large the channel is.
 std::string suspected_unit(Channel channel, double times) {
-  const auto nearest = [times](std::initializer_list<std::pair<double, const char*>> units) {
-    return std::ranges::min_element(
-               units, {},
-               [times](const auto& unit) { return std::abs(std::log(times / unit.first)); })
-        ->second;
-  };
-  if (is_length(channel)) return nearest({{1e3, "mm"}, {1e2, "cm"}, {1e-3, "km"}});
-  if (channel == Channel::kTorque) {
-    return nearest({{1e3, "N mm"}, {1e2, "N cm"}, {1e-3, "kN m"}});
-  }
-  return nearest({{1e3, "mN"}, {1e-3, "kN"}});
+  static constexpr std::array kLengths{SuspectedUnit{1e3, "{} in mm"},
+                                       SuspectedUnit{1e2, "{} in cm"},
+                                       SuspectedUnit{1e-3, "{} in km"}};
+  static constexpr std::array kForces{SuspectedUnit{1e3, "{} in mN, or load_n in kN"},
+                                      SuspectedUnit{kStandardGravity_mps2, "load_n in kg (kgf)"},
+                                      SuspectedUnit{1 / kStandardGravity_mps2, "{} in kgf"},
+                                      SuspectedUnit{1e-3, "{} in kN, or load_n in mN"}};
+  static constexpr std::array kTorques{SuspectedUnit{1e3, "{} in N mm, or load_n in kN"},
+                                       SuspectedUnit{1e2, "{} in N cm"},
+                                       SuspectedUnit{kStandardGravity_mps2, "load_n in kg (kgf)"},
+                                       SuspectedUnit{1 / kStandardGravity_mps2, "{} in kgf m"},
+                                       SuspectedUnit{1e-3, "{} in kN m, or load_n in mN"}};
+  std::span<const SuspectedUnit> units = kForces;
+  if (is_length(channel)) units = kLengths;
+  if (channel == Channel::kTorque) units = kTorques;
+  const SuspectedUnit& nearest = *std::ranges::min_element(
+      units, {},
+      [times](const SuspectedUnit& unit) { return std::abs(std::log(times / unit.times)); });
+  return fmt::format(fmt::runtime(nearest.suspected), name(channel));
 }
 
 class Checks {
  public:
   Checks(const RecordingFile& recording, const DiagnosisSetup& setup)
-      : file_(recording), setup_(setup) {
+      : recording_(recording, setup) {
     const WheelModel model({.variant = setup.variant,
                             .wheel = setup.wheel,
                             .soil = setup.soil.mean,
                             .gravity_mps2 = setup.gravity_mps2},
                            WheelAccuracy::kFast);
     for (const WheelRun& run : runs()) {
-      at_.push_back(model.channels(run.load_n, motion_at(run.slip_ratio, run.slip_angle_rad)));
       // What is written in radians and read as degrees is 57 times too small.
       const double as_radians = std::clamp(run.slip_angle_rad / kDegree, -1.5, 1.5);
       as_radians_.push_back(
@@ -89,14 +81,12 @@ class Checks {
 
   std::vector<std::string> run_all() {
     check_that_the_wheel_is_carried();
-    for (const Channel channel : file_.recording.channels) check_size(channel);
+    for (const Channel channel : recording_.file().recording.channels) {
+      check_that_it_lives(channel);
+      check_size(channel);
+    }
     check_angle_unit();
-    check_sign(Channel::kFy,
-               "the convention (positive for a positive slip angle: it opposes the "
-               "lateral motion); is an axis of the sensor turned round?");
-    check_sign(Channel::kTorque,
-               "a driving wheel (positive); is an axis of the sensor turned "
-               "round?");
+    std::ranges::copy(doubtful_signs(recording_), std::back_inserter(warnings_));
     check_exchanged();
     check_kilograms();
     check_speed();
@@ -113,8 +103,8 @@ class Checks {
       double with_model = 0, own = 0, model = 0;
       int measured = 0;
       for (std::size_t i = 0; i < runs().size(); ++i) {
-        const double value = runs()[i].value(channel), expected = modelled(at_[i], channel);
-        if (std::isnan(value) || !has_forces(at_[i].forces.status)) continue;
+        const double value = runs()[i].value(channel), expected = recording_.modelled(i, channel);
+        if (!recording_.is_comparable(i, channel)) continue;
         ++measured;
         with_model += value * expected;
         own += value * value;
@@ -129,16 +119,12 @@ class Checks {
   }
 
  private:
-  const std::vector<WheelRun>& runs() const { return file_.recording.runs; }
-
-  std::string place(std::size_t run) const {
-    return fmt::format("{}:{}", file_.file, file_.lines[run]);
-  }
+  const std::vector<WheelRun>& runs() const { return recording_.runs(); }
 
   void check_that_the_wheel_is_carried() {
     std::vector<std::size_t> sunk;
-    for (std::size_t i = 0; i < at_.size(); ++i) {
-      if (!has_forces(at_[i].forces.status)) sunk.push_back(i);
+    for (std::size_t i = 0; i < runs().size(); ++i) {
+      if (!has_forces(recording_.forces(i).status)) sunk.push_back(i);
     }
     if (sunk.empty()) return;
     const std::size_t first = sunk.front();
@@ -146,9 +132,9 @@ class Checks {
         "{}: load_n: {} is not carried by the model at the setup's means ({}), nor are the loads "
         "of {} of {} rows; suspected: load_n not in N, or kc, kphi, n, radius_m, width_m in other "
         "units (kN, mm)",
-        place(first), runs()[first].load_n, name(at_[first].forces.status), sunk.size(),
-        at_.size());
-    if (sunk.size() == at_.size()) throw InputError(what);
+        recording_.place(first), runs()[first].load_n, name(recording_.forces(first).status),
+        sunk.size(), runs().size());
+    if (sunk.size() == runs().size()) throw InputError(what);
     warnings_.push_back(what);
   }
 
@@ -158,16 +144,31 @@ class Checks {
     for (std::size_t i = 0; i < runs().size(); ++i) {
       const WheelRun& run = runs()[i];
       const double value = run.value(channel);
-      if (std::isnan(value) || !has_forces(at_[i].forces.status)) continue;
+      if (!recording_.is_comparable(i, channel)) continue;
       if (channel == Channel::kFy && std::abs(run.slip_angle_rad) < kHardlySideways_rad) continue;
-      double scale = setup_.wheel.radius_m;
-      if (channel == Channel::kTorque) scale *= run.load_n;
-      if (channel == Channel::kFx || channel == Channel::kFy) scale = run.load_n;
+      const double scale = recording_.reach(i, channel);
       samples.push_back({.run = i,
                          .share = std::abs(value) / scale,
-                         .model_share = std::abs(modelled(at_[i], channel)) / scale});
+                         .model_share = std::abs(recording_.modelled(i, channel)) / scale});
     }
     return samples;
+  }
+
+  /// A sensor that says nothing but 0 where the model says something.
+  void check_that_it_lives(Channel channel) {
+    const std::vector<Sample> all = samples(channel);
+    constexpr double kClear_share = 0.01;
+    const auto says_zero = [&](const WheelRun& run) {
+      return std::isnan(run.value(channel)) || run.value(channel) == 0;
+    };
+    const auto is_clear = [](const Sample& at) { return at.model_share > kClear_share; };
+    const auto expected = std::ranges::find_if(all, is_clear);
+    if (expected == all.end() || !std::ranges::all_of(runs(), says_zero)) return;
+    throw InputError(fmt::format(
+        "{}: {}: 0 is not valid in every run (allowed: what was measured; the model has {:.3g} "
+        "here); suspected: a dead channel; remedy: leave the column out",
+        recording_.place(expected->run), name(channel),
+        recording_.modelled(expected->run, channel)));
   }
 
   void check_size(Channel channel) {
@@ -187,21 +188,16 @@ class Checks {
       const std::string of = is_length(channel)            ? "the wheel's radius"
                              : channel == Channel::kTorque ? "load times radius"
                                                            : "the load";
-      std::string suspected =
-          fmt::format("{} in {}", name(channel), suspected_unit(channel, most / model_most));
-      if (!is_length(channel)) {
-        suspected += too_large ? ", or load_n in kN or kg" : ", or load_n in mN";
-      }
       throw InputError(fmt::format(
           "{}: {}: {} is not valid (allowed: nine tenths of the values within {} to {} times {}; "
           "here {:.2g}, the model {:.2g}); suspected: {}",
-          place(worst.run), name(channel), runs()[worst.run].value(channel), low, high, of, most,
-          model_most, suspected));
+          recording_.place(worst.run), name(channel), runs()[worst.run].value(channel), low, high,
+          of, most, model_most, suspected_unit(channel, most / model_most)));
     }
     for (const Sample& sample : all) {
       if (sample.share <= 3 * high) continue;
       warnings_.push_back(fmt::format("{}: {}: {} is an outlier by size ({:.3g} times {})",
-                                      place(sample.run), name(channel),
+                                      recording_.place(sample.run), name(channel),
                                       runs()[sample.run].value(channel), sample.share,
                                       is_length(channel) ? "the radius" : "what the load allows"));
     }
@@ -219,12 +215,12 @@ class Checks {
     std::size_t first = runs().size();
     for (std::size_t i = 0; i < runs().size(); ++i) {
       const double fy = runs()[i].value(Channel::kFy);
-      if (std::isnan(fy) || !has_forces(at_[i].forces.status)) continue;
+      if (!recording_.is_comparable(i, Channel::kFy)) continue;
       if (first == runs().size() && runs()[i].slip_angle_rad != 0) first = i;
       with_model += fy * as_radians_[i];
       own += fy * fy;
       model += as_radians_[i] * as_radians_[i];
-      as_degrees += at_[i].forces.fy_n * at_[i].forces.fy_n;
+      as_degrees += recording_.forces(i).fy_n * recording_.forces(i).fy_n;
     }
     const bool too_large = own > 25 * as_degrees && own > model / 9;
     const bool alike = std::abs(with_model) > 0.9 * std::sqrt(own * model);
@@ -232,28 +228,8 @@ class Checks {
     throw InputError(fmt::format(
         "{}: slip_angle_deg: {} is not valid (allowed: degrees, -90 to 90); the side forces are "
         "{:.0f} times those of such small angles; suspected: radians",
-        place(first), runs()[first].slip_angle_rad / kDegree, std::sqrt(own / as_degrees)));
-  }
-
-  /// A channel that has the model's opposite sign wherever the model's is clear.
-  void check_sign(Channel channel, std::string_view convention) {
-    int clear = 0, against = 0;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < runs().size(); ++i) {
-      const WheelRun& run = runs()[i];
-      const double value = run.value(channel), expected = modelled(at_[i], channel);
-      const double scale =
-          channel == Channel::kTorque ? run.load_n * setup_.wheel.radius_m : run.load_n;
-      const bool applies = channel == Channel::kTorque ? run.slip_ratio > 0.1 : true;
-      if (std::isnan(value) || !applies || std::abs(expected) < 0.05 * scale) continue;
-      ++clear;
-      if (value * expected >= 0) continue;
-      if (against++ == 0) first = i;
-    }
-    constexpr int kFewest = 4;
-    if (clear < kFewest || 5 * against < 4 * clear) return;
-    warnings_.push_back(fmt::format("{}: {} opposes {} In {} of {} runs where its sign is clear.",
-                                    place(first), name(channel), convention, against, clear));
+        recording_.place(first), runs()[first].slip_angle_rad / kDegree,
+        std::sqrt(own / as_degrees)));
   }
 
   /// Both forces of the runs that have them, each over its load, beside the model's.
@@ -262,8 +238,8 @@ class Checks {
     for (std::size_t i = 0; i < runs().size(); ++i) {
       const WheelRun& run = runs()[i];
       const double fx = run.value(Channel::kFx), fy = run.value(Channel::kFy);
-      if (std::isnan(fx + fy) || !has_forces(at_[i].forces.status)) continue;
-      const WheelForces& model = at_[i].forces;
+      if (std::isnan(fx + fy) || !has_forces(recording_.forces(i).status)) continue;
+      const WheelForces& model = recording_.forces(i);
       pairs.push_back(
           {fx / run.load_n, fy / run.load_n, model.fx_n / run.load_n, model.fy_n / run.load_n});
     }
@@ -286,33 +262,31 @@ class Checks {
     warnings_.push_back(fmt::format(
         "{}: fx_n and fy_n lie {:.2g} of the load off the model, and {:.2g} with their columns "
         "exchanged; are they?",
-        file_.file, rms(told), rms(exchanged)));
+        recording_.file().file, rms(told), rms(exchanged)));
   }
 
   void check_kilograms() {
     for (const auto& [channel, factor] : in_kilograms()) {
       warnings_.push_back(fmt::format("{}: {} is {:.2g} times the model's; suspected: {}",
-                                      file_.file, name(channel), factor,
+                                      recording_.file().file, name(channel), factor,
                                       channel == Channel::kTorque ? "kgf m for N m" : "kgf for N"));
     }
   }
 
   void check_speed() {
-    if (!file_.recording.columns.speed) return;
+    if (!recording_.file().recording.columns.speed) return;
     constexpr double kFast_mps = 10;
     for (std::size_t i = 0; i < runs().size(); ++i) {
       const double speed_mps = runs()[i].conditions.speed_mps;
       if (speed_mps <= kFast_mps) continue;
       warnings_.push_back(
-          fmt::format("{}: speed_mps: {} is fast for a test bed; suspected: mm/s or cm/s", place(i),
-                      speed_mps));
+          fmt::format("{}: speed_mps: {} is fast for a test bed; suspected: mm/s or cm/s",
+                      recording_.place(i), speed_mps));
       return;
     }
   }
 
-  const RecordingFile& file_;
-  const DiagnosisSetup& setup_;
-  std::vector<WheelChannels> at_;
+  ModelledRecording recording_;
   std::vector<double> as_radians_;
   std::vector<std::string> warnings_;
 };

@@ -10,8 +10,8 @@
 namespace regoplan {
 
 /// Holds a recording against the wheel model at the prior means by size and sign only: units that
-/// are off by a power of ten, slip angles in radians, axes turned round. What can only be a wrong
-/// unit throws; what is merely odd comes back, a sentence each.
+/// are off by a power of ten, loads in kilograms, slip angles in radians, axes turned round, dead
+/// channels. What no physics can give throws; what is merely odd comes back, a sentence each.
 ///
 /// Sizes are those of nine tenths of the values: forces over the load, torque over load and radius
 /// above 3 or below 0.002; sinkage and ruts above the radius or below a thousandth of it. Real

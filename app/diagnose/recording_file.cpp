@@ -180,13 +180,16 @@ RecordedWheel recorded_wheel(const RecordingFile& read) {
   return wheel;
 }
 
-bool is_known(std::string_view column) {
-  const auto among = [column](const auto& names) {
-    return std::ranges::find(names, column) != names.end();
-  };
-  return among(kRequired) || among(kOtherCircumstances) || among(kWheelColumns) ||
-         std::ranges::any_of(kCircumstances, [&](const auto& c) { return c.column == column; }) ||
-         std::ranges::any_of(kChannels, [&](Channel c) { return name(c) == column; });
+const std::vector<std::string>& known_columns() {
+  static const std::vector<std::string> kKnown = [] {
+    std::vector<std::string> known(kRequired.begin(), kRequired.end());
+    for (const Channel channel : kChannels) known.emplace_back(name(channel));
+    for (const Circumstance& at : kCircumstances) known.emplace_back(at.column);
+    known.insert(known.end(), kOtherCircumstances.begin(), kOtherCircumstances.end());
+    known.insert(known.end(), kWheelColumns.begin(), kWheelColumns.end());
+    return known;
+  }();
+  return kKnown;
 }
 
 /// Whether an optional column says something of every run; one that says nothing of any counts as
@@ -223,7 +226,7 @@ RecordingFile read_recording(std::istream& stream, const std::string& file) {
         "column run_id is missing; a drive, which has x_m, is diagnosed with --scenario "
         "SCENARIO.yaml");
   }
-  for (const std::string_view column : kRequired) table.column(column);
+  for (const std::string_view column : kRequired) table.required_column(column, known_columns());
   if (std::ranges::none_of(kChannels,
                            [&](Channel c) { return table.find_column(name(c)).has_value(); })) {
     throw table.error(
@@ -270,8 +273,19 @@ RecordingFile read_recording(std::istream& stream, const std::string& file) {
   }
   if (recording.channels.empty()) throw InputError(file + ": no channel is measured in any run");
   std::ranges::copy_if(read.columns, std::back_inserter(recording.ignored),
-                       [](const std::string& column) { return !is_known(column); });
+                       [](const std::string& column) {
+                         return std::ranges::find(known_columns(), column) == known_columns().end();
+                       });
   return read;
+}
+
+std::vector<std::string> ignored_columns(const RecordingFile& read) {
+  std::vector<std::string> told;
+  for (const std::string& column : read.recording.ignored) {
+    const auto meant = meant_column(column, read.columns, known_columns());
+    told.push_back(meant ? fmt::format("{} (did you mean {}?)", column, *meant) : column);
+  }
+  return told;
 }
 
 RecordingFile read_recording(const std::string& file) {

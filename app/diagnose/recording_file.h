@@ -48,6 +48,9 @@ struct RecordingFile {
 RecordingFile read_recording(const std::string& file);
 RecordingFile read_recording(std::istream& stream, const std::string& file);
 
+/// Columns that are not used, each with the known one that it may be meant for.
+std::vector<std::string> ignored_columns(const RecordingFile& read);
+
 /// The setup with the wheel that the recording tells.
 DiagnosisSetup setup_with(DiagnosisSetup setup, const RecordedWheel& wheel);
 

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 
@@ -28,9 +31,16 @@ struct Options {
   std::optional<double> chart_speed_mps;
 };
 
-/// The value of a settings file that stands on the command line.
-SettingsNode as_node(const std::string& text, const std::string& option) {
-  return parse_settings(quoted_text(text), option);
+/// `--vehicle` names a preset or a vehicle file.
+Vehicle vehicle_of_option(const std::string& name) {
+  const std::vector<std::string> presets = preset_vehicle_names();
+  if (std::ranges::find(presets, name) != presets.end()) return preset_vehicle(name);
+  if (!std::filesystem::exists(name)) {
+    throw InputError(fmt::format(
+        "--vehicle: {} is not valid (allowed: {}, or a vehicle file; there is no such file)",
+        name.empty() ? "\"\"" : name, fmt::join(presets, " | ")));
+  }
+  return read_vehicle(read_settings(name));
 }
 
 /// `--soils` names a soils file, or a mapping with `soils` in it.
@@ -67,7 +77,7 @@ ChartSettings chart_settings(const Options& options) {
     settings.limits = problem.limits;
   }
   if (options.vehicle) {
-    settings.vehicle = named_vehicle(as_node(*options.vehicle, "--vehicle"), "");
+    settings.vehicle = vehicle_of_option(*options.vehicle);
     settings.limits = default_limits(settings.vehicle);
   }
   if (options.soils_file) settings.soils = read_soils(*options.soils_file, settings.wheel_variant);

@@ -41,6 +41,7 @@ class PathTable {
       if (columns_.empty()) {
         columns_ = std::move(*cells);
         header_line_ = number;
+        if (const auto why = why_no_table(columns_)) throw error(number, *why);
       } else if (cells->size() != columns_.size()) {
         throw error(number,
                     fmt::format("{} cells (the header has {})", cells->size(), columns_.size()));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace regoplan {
 
@@ -24,6 +25,20 @@ std::string own_text_cell(std::string_view text) {
   const bool formula =
       !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
   return text_cell(formula ? fmt::format("'{}", text) : std::string(text));
+}
+
+std::optional<std::string> why_no_table(const std::vector<std::string>& columns) {
+  const std::string& first = columns.front();
+  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF")) {
+    return "the file is UTF-16 (allowed: UTF-8)";
+  }
+  if (columns.size() > 1) return {};
+  for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
+    if (first.find(separator) != std::string::npos) {
+      return fmt::format("cells are separated by {} (allowed: commas)", name);
+    }
+  }
+  return {};
 }
 
 std::optional<std::vector<std::string>> split_cells(std::string_view line) {

@@ -17,6 +17,10 @@ std::string text_cell(std::string_view text);
 /// where a spreadsheet would take it for a formula, an apostrophe stands in front.
 std::string own_text_cell(std::string_view text);
 
+/// What a header of one column shows of a table that other programs wrote, in words: separated by
+/// something else than commas, or UTF-16. Nothing where it is a column.
+std::optional<std::string> why_no_table(const std::vector<std::string>& columns);
+
 /// The cells of one line, quotes taken off. Nothing where a quote is not closed.
 std::optional<std::vector<std::string>> split_cells(std::string_view line);
 

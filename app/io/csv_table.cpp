@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <istream>
+#include <iterator>
 #include <utility>
 
 #include "app/io/csv_cells.h"
 #include "app/io/number_text.h"
+#include "terramech/basics/nearest_name.h"
 
 namespace regoplan {
 namespace {
@@ -18,6 +20,16 @@ std::string trimmed(const std::string& cell) {
 }
 
 }  // namespace
+
+std::optional<std::string> meant_column(std::string_view written,
+                                        const std::vector<std::string>& columns,
+                                        const std::vector<std::string>& known) {
+  std::vector<std::string> absent;
+  std::ranges::copy_if(known, std::back_inserter(absent), [&](const std::string& name) {
+    return std::ranges::find(columns, name) == columns.end();
+  });
+  return nearest_name(written, absent);
+}
 
 CsvTable::CsvTable(std::istream& stream, std::string file)
     : stream_(stream), file_(std::move(file)) {
@@ -30,21 +42,7 @@ CsvTable::CsvTable(std::istream& stream, std::string file)
     if (std::ranges::count(*header, column) > 1) throw error("column " + column + " given twice");
   }
   columns_ = std::move(*header);
-  require_commas();
-}
-
-/// Of what other programs export, the two that would be told as missing columns.
-void CsvTable::require_commas() const {
-  const std::string& first = columns_.front();
-  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF")) {
-    throw error("the file is UTF-16 (allowed: UTF-8)");
-  }
-  if (columns_.size() > 1) return;
-  for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
-    if (first.find(separator) != std::string::npos) {
-      throw error(fmt::format("cells are separated by {} (allowed: commas)", name));
-    }
-  }
+  if (const auto why = why_no_table(columns_)) throw error(*why);
 }
 
 std::optional<std::size_t> CsvTable::find_column(std::string_view sought) const {
@@ -57,6 +55,17 @@ std::size_t CsvTable::column(std::string_view sought) const {
   const auto found = find_column(sought);
   if (!found) throw error(fmt::format("column {} is missing", sought));
   return *found;
+}
+
+std::size_t CsvTable::required_column(std::string_view sought,
+                                      const std::vector<std::string>& known) const {
+  if (const auto found = find_column(sought)) return *found;
+  for (const std::string& written : columns_) {
+    if (std::ranges::find(known, written) != known.end()) continue;
+    if (meant_column(written, columns_, known) != sought) continue;
+    throw error(fmt::format("column {} is missing (the header has {})", sought, written));
+  }
+  return column(sought);
 }
 
 std::optional<CsvTable::Cells> CsvTable::next() {

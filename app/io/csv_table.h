@@ -31,6 +31,12 @@ class OutOfRangeError : public InputError {
   CellOutOfRange cell_;
 };
 
+/// The known name that a column of another writing (`Load_N`, `load_n [N]`) most likely stands for:
+/// none that the table has.
+std::optional<std::string> meant_column(std::string_view written,
+                                        const std::vector<std::string>& columns,
+                                        const std::vector<std::string>& known);
+
 /// A CSV table with a header (RFC 4180, one line a row), read row by row. What is wrong with it is
 /// an InputError that names file and line.
 class CsvTable {
@@ -45,6 +51,10 @@ class CsvTable {
   std::optional<std::size_t> find_column(std::string_view sought) const;
   /// \throws InputError where there is none
   std::size_t column(std::string_view sought) const;
+
+  /// As `column`; where there is none, the error says which column may be meant to be it.
+  /// \param known all names that mean something in such a table
+  std::size_t required_column(std::string_view sought, const std::vector<std::string>& known) const;
 
   /// The next row, as wide as the header; nothing at the end. Empty lines count at the end only.
   std::optional<Cells> next();
@@ -61,7 +71,6 @@ class CsvTable {
 
  private:
   std::optional<Cells> next_line();
-  void require_commas() const;
 
   std::istream& stream_;
   std::string file_;

@@ -1,6 +1,9 @@
 #include "app/settings/settings_mapping.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
 
 #include "terramech/basics/nearest_name.h"
 
@@ -65,9 +68,13 @@ double SettingsMapping::number_or(std::string_view key, const ValueRange& allowe
 }
 
 void SettingsMapping::reject_unread_keys() const {
+  std::vector<std::string> not_given(asked_.begin(), asked_.end());
+  for (const SettingsEntry& entry : node_.mapping()) std::erase(not_given, entry.key);
   for (const SettingsEntry& entry : node_.mapping()) {
     if (asked_.contains(entry.key)) continue;
-    const std::string hint = name_hint(entry.key, {asked_.begin(), asked_.end()});
+    const auto nearest = nearest_name(entry.key, not_given);
+    const std::string hint = nearest ? fmt::format("did you mean {}?", *nearest)
+                                     : fmt::format("known: {}", fmt::join(asked_, ", "));
     throw SettingsError(fmt::format("{}:{}: {}: unknown key ({})", node_.file(), entry.line,
                                     entry.value.path(), hint));
   }

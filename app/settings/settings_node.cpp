@@ -151,10 +151,15 @@ SettingsError SettingsNode::not_allowed(std::string_view allowed) const {
   return error(fmt::format("{} is not valid (allowed: {})", shown, allowed));
 }
 
+std::string number_text(const ValueRange& allowed) {
+  const std::string range = allowed.text();
+  return range == kAnyNumber.text() ? range : "a number, " + range;
+}
+
 double SettingsNode::number(const ValueRange& allowed) const {
-  if (kind_ != Kind::kScalar || quoted_) throw not_allowed("a number, " + allowed.text());
+  if (kind_ != Kind::kScalar || quoted_) throw not_allowed(number_text(allowed));
   const std::optional<double> value = parse_number(scalar_);
-  if (!value) throw not_allowed("a number, " + allowed.text());
+  if (!value) throw not_allowed(number_text(allowed));
   if (!allowed.contains(*value)) throw not_allowed(allowed.text());
   return *value;
 }

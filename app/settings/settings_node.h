@@ -20,6 +20,9 @@ class SettingsError : public InputError {
 /// The largest seed, in files and on the command line.
 inline constexpr std::int64_t kSeedMax = INT64_MAX;
 
+/// What is allowed where a number is wanted and something else is given: "a number, 1 to 5".
+std::string number_text(const ValueRange& allowed);
+
 /// What is allowed where a whole number is wanted, in words: "a whole number, 1 to 5".
 std::string whole_number_text(std::int64_t min, std::int64_t max);
 

@@ -9,6 +9,7 @@
 
 #include "app/command/command.h"
 #include "app/io/share_files.h"
+#include "app/settings/preset_soils.h"
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "app/starter_files/commented_yaml.h"
@@ -23,17 +24,12 @@ std::string vehicle_file(const std::string& name) {
       name, commented_yaml(vehicle_text(preset_vehicle(name))));
 }
 
-SoilCatalogue demo_soils() {
-  return read_soil_catalogue(read_settings(share_file("scenarios/demo/soils.yaml")),
-                             WheelVariant::kIshigami2007);
-}
-
 std::string soil_file(const std::string& name) {
-  const SoilCatalogue known = demo_soils();
-  const auto soil = std::ranges::find(known.soils, name, &MapSoil::name);
-  if (soil == known.soils.end()) {
+  const std::vector<MapSoil> known = preset_soils(share_file("scenarios/demo/soils.yaml"));
+  const auto soil = std::ranges::find(known, name, &MapSoil::name);
+  if (soil == known.end()) {
     std::vector<std::string> names;
-    for (const MapSoil& each : known.soils) names.push_back(each.name);
+    for (const MapSoil& each : known) names.push_back(each.name);
     throw InputError(
         fmt::format("soil: {} is not known (allowed: {})", name, fmt::join(names, " | ")));
   }
@@ -76,7 +72,9 @@ Command add_soil_command(CLI::App& program) {
   const auto name = std::make_shared<std::string>();
   CLI::App* parser =
       program.add_subcommand("soil", "Print a soils file to copy, with comments and sources.");
-  parser->add_option("NAME", *name, "a soil of demo; any other name is answered with theirs")
+  parser
+      ->add_option("NAME", *name,
+                   "a soil that comes with regoplan; any other name is answered with theirs")
       ->required();
   return print_command(*parser, [name] { return soil_file(*name); });
 }

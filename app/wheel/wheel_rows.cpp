@@ -51,6 +51,14 @@ constexpr std::array<const char*, 7> kResults{"fx_n", "fy_n", "torque_nm", "sink
 
 using Cells = CsvTable::Cells;
 
+std::vector<std::string> known_columns() {
+  std::vector<std::string> known(kResults.begin(), kResults.end());
+  for (const Condition& condition : kConditions) known.emplace_back(condition.column);
+  for (const Circumstance& circumstance : kCircumstances) known.emplace_back(circumstance.column);
+  known.emplace_back("pass");
+  return known;
+}
+
 /// What a row says of the circumstances; only where a mechanism asks for them is it read.
 WheelConditions read_circumstances(const CsvTable& table, const Cells& cells) {
   WheelConditions conditions;
@@ -109,7 +117,7 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
   CsvTable table(conditions, file);
   std::array<std::size_t, kConditions.size()> condition_columns{};
   for (std::size_t i = 0; i < kConditions.size(); ++i) {
-    condition_columns.at(i) = table.column(kConditions.at(i).column);
+    condition_columns.at(i) = table.required_column(kConditions.at(i).column, known_columns());
   }
 
   WheelRowsResult result;

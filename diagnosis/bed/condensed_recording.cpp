@@ -8,6 +8,7 @@
 #include <set>
 #include <string_view>
 
+#include "diagnosis/bed/turned_channels.h"
 #include "diagnosis/recording/course_note.h"
 #include "diagnosis/recording/run_times.h"
 #include "diagnosis/recording/thresholds.h"
@@ -66,35 +67,6 @@ void note_left_out(const Usable& usable, std::vector<std::string>& notes) {
                     "not judged",
                     usable.without_forces));
   }
-}
-
-/// A channel whose sign the wheel's motion tells: that of a number of the run, where it is clear.
-struct SignConvention {
-  Channel channel;
-  double WheelRun::*motion;
-  double clearly_from, clearly_below;  ///< of the motion; between them nothing is told
-  std::string_view text;
-};
-
-constexpr std::array kSignConventions{
-    SignConvention{Channel::kFy, &WheelRun::slip_angle_rad, 0.05, -0.05,
-                   "the convention (positive for a positive slip angle)"},
-    // a wheel that is held back may be driven all the same
-    SignConvention{Channel::kTorque, &WheelRun::slip_ratio, 0.1, -INFINITY,
-                   "a driving wheel (positive)"}};
-
-/// Whether most of a channel's values have the other sign.
-bool is_turned(const Recording& recording, const std::vector<std::size_t>& used,
-               const SignConvention& convention) {
-  double as_told = 0, turned = 0;
-  for (const std::size_t i : used) {
-    const WheelRun& run = recording.runs[i];
-    const double value = run.value(convention.channel), motion = run.*convention.motion;
-    if (!std::isfinite(value)) continue;
-    if (motion < convention.clearly_from && motion > convention.clearly_below) continue;
-    (value * motion > 0 ? as_told : turned) += std::abs(value);
-  }
-  return turned > 3 * as_told;
 }
 
 /// Between its smallest and its largest value.
@@ -356,13 +328,12 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   const Usable usable = usable_runs(recording, model, stop);
   note_left_out(usable, result.notes);
   result.used = usable.runs;
-  for (const SignConvention& convention : kSignConventions) {
-    if (!is_turned(recording, usable.runs, convention)) continue;
-    result.turned.push_back(convention.channel);
+  for (const TurnedChannel& turned : turned_channels(recording, usable.runs)) {
+    result.turned.push_back(turned.channel);
     result.notes.push_back(fmt::format("{} opposes {}: it was turned for the analysis",
-                                       name(convention.channel), convention.text));
+                                       name(turned.channel), turned.opposes));
     for (WheelRun& run : recording.runs) {
-      double& value = run.measured[static_cast<std::size_t>(convention.channel)];
+      double& value = run.measured[static_cast<std::size_t>(turned.channel)];
       value = -value;
     }
   }

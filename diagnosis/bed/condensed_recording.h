@@ -29,7 +29,7 @@ struct CondensedRecording {
 /// cannot be trusted for (slip outside [-0.9, 0.95], slip angle beyond 60 deg, no forces at the
 /// prior means) are left out and noted. Where replicates differ by a course in time, time is a
 /// place: runs of different times are no replicates, and the noise is what the course leaves. A
-/// side force or a torque whose sign opposes the convention is turned and noted.
+/// channel whose sign opposes the convention is turned and noted (`turned_channels`).
 /// \param fewest different conditions that are needed
 /// \param stop of this work, and of all work on the bed that comes of it
 /// \throws InputError with fewer different conditions, no channel, or replicates that are all

@@ -173,6 +173,8 @@ struct Diagnosis {
   bool correction_refused = false;  ///< none proved its worth: what is handed on has no name's part
   /// All that is unexplained is that replicates follow what the run before left in the bed.
   bool only_bed_memory = false;
+  /// Channels whose noise neither replicates nor the setup tell, but neighbouring conditions.
+  std::vector<Channel> guessed_noise = {};
   LackOfFit before, after;
   std::vector<SoilPull> soil;
   std::vector<Experiment> next_experiments;

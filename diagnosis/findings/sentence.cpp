@@ -163,9 +163,20 @@ std::string against(const Diagnosis& diagnosis) {
   return diagnosis.references.empty() ? "mismatch" : "difference from the reference";
 }
 
+/// "noise", and where nobody told it, whence it comes.
+std::string noise_words(const Diagnosis& diagnosis) {
+  if (diagnosis.guessed_noise.empty()) return "noise";
+  std::string channels;
+  for (const Channel channel : diagnosis.guessed_noise) {
+    channels += fmt::format("{}{}", channels.empty() ? "" : ", ", name(channel));
+  }
+  return "noise, which is guessed from neighbouring conditions for " + channels;
+}
+
 /// Whose soil number was pulled most, and how far.
 std::string parameters_words(const Diagnosis& diagnosis) {
-  std::string text = "Other soil numbers explain the recording to within its noise";
+  std::string text =
+      "Other soil numbers explain the recording to within its " + noise_words(diagnosis);
   const auto worst = std::ranges::max_element(
       diagnosis.soil, {}, [](const SoilPull& one) { return std::abs(one.pull); });
   if (worst != diagnosis.soil.end()) {
@@ -195,14 +206,20 @@ std::string named_words(const Diagnosis& diagnosis) {
   if (diagnosis.correction_refused) {
     return text + " Named, but the corrected model leaves it out (see the notes).";
   }
-  const double left = 1 - diagnosis.share_explained;
-  if (diagnosis.excess_is_clear && left > 0.1) {
-    text += fmt::format(
-        " Named, but the corrected model leaves {:.0f} % of the excess misfit on held-out "
-        "conditions.",
-        100 * std::min(left, 1.0));
+  if (!diagnosis.excess_is_clear) return text;
+  constexpr double kTold = 0.1;
+  // What the table of shares says as well, where there is one.
+  if (std::ranges::any_of(diagnosis.claims, [](const Claim& claim) { return !!claim.share; })) {
+    if (diagnosis.remainder_share <= kTold) return text;
+    return text + fmt::format(" {:.0f} % of the excess misfit on held-out conditions has no name.",
+                              100 * diagnosis.remainder_share);
   }
-  return text;
+  const double left = 1 - diagnosis.share_explained;
+  if (left <= kTold) return text;
+  return text + fmt::format(
+                    " Named, but the corrected model leaves {:.0f} % of the excess misfit on "
+                    "held-out conditions.",
+                    100 * std::min(left, 1.0));
 }
 
 /// What would part names that fit alike; empty where there are none.
@@ -260,7 +277,8 @@ std::string words_of(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case Verdict::kConsistent:
       if (!diagnosis.references.empty()) return no_difference_words(diagnosis.before.p_value);
-      return "The recording agrees with the model at the prior soil numbers: nothing beyond noise.";
+      return "The recording agrees with the model at the prior soil numbers: nothing beyond " +
+             noise_words(diagnosis) + ".";
     case Verdict::kParameters:
       return parameters_words(diagnosis);
     case Verdict::kNamed:

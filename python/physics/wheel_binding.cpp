@@ -244,6 +244,7 @@ void bind_wheels(py::module_& module) {
   module.def("checked_soil", &checked_soil);
   module.def("model_file_settings", &model_file_settings);
   module.def("soils_file_settings", &soils_file_settings);
+  module.def("preset_soil_settings", &preset_soil_settings);
   module.def("paper_wheel_settings", &paper_wheel_settings);
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/settings/model_settings.h"
+#include "app/settings/preset_soils.h"
 #include "app/settings/soil_settings.h"
 #include "python/shared/settings_text.h"
 #include "terramech/basics/input_error.h"
@@ -64,14 +65,25 @@ std::string paper_wheel_settings() {
   return json_of(settings_of(model_text(settings), "model"));
 }
 
-std::string soils_file_settings(const std::string& file) {
+namespace {
+
+std::string json_of_soils(const std::vector<MapSoil>& soils) {
   std::string text;
-  for (const MapSoil& soil :
-       read_soil_catalogue(read_settings(file), WheelVariant::kIshigami2007).soils) {
+  for (const MapSoil& soil : soils) {
     text += quoted_text(soil.name) + ":\n  source: " + quoted_text(soil.source) + "\n" +
             soil_keys_text({.mean = soil.soil.mean}, "  ");
   }
   return json_of(settings_of(text, "soils"));
+}
+
+}  // namespace
+
+std::string soils_file_settings(const std::string& file) {
+  return json_of_soils(read_soil_catalogue(read_settings(file), WheelVariant::kIshigami2007).soils);
+}
+
+std::string preset_soil_settings(const std::string& demo_soils) {
+  return json_of_soils(preset_soils(demo_soils));
 }
 
 }  // namespace regoplan::python

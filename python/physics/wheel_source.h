@@ -40,4 +40,8 @@ std::string paper_wheel_settings();
 /// The soils of a soils file as JSON, each `{source, <soil keys>}`: numbers at their means.
 std::string soils_file_settings(const std::string& file);
 
+/// The soils that come with regoplan, as `soils_file_settings` gives them.
+/// \param demo_soils the soils file of the demo
+std::string preset_soil_settings(const std::string& demo_soils);
+
 }  // namespace regoplan::python

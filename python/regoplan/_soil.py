@@ -62,7 +62,8 @@ class Soil(Settings):
     @classmethod
     def presets(cls):
         """Names of the soils that come with regoplan: three of the demo's lunar map (sources there)
-        and ``simulant_2004``, the paper's Lunar Regolith Simulant in consistent units."""
+        and ``simulant_2004``, the paper's Lunar Regolith Simulant in consistent units; those that
+        ``regoplan soil`` prints."""
         return list(cls._presets())
 
     @classmethod
@@ -78,12 +79,8 @@ class Soil(Settings):
 
     @classmethod
     def _presets(cls):
-        soils = json.loads(
-            _physics.soils_file_settings(str(Path(__file__).with_name("soils.yaml")))
-        )
-        paper = json.loads(_physics.paper_wheel_settings())["soil"]
-        soils["simulant_2004"] = {**paper, "source": "Yoshida & Ishigami 2004, Table I"}
-        return soils
+        demo_soils = str(Path(__file__).with_name("soils.yaml"))
+        return json.loads(_physics.preset_soil_settings(demo_soils))
 
     @property
     def lambda_(self):

@@ -72,6 +72,14 @@ def test_safe_curvatures_are_those_of_the_programs_chart(program, soil, tmp_path
     assert [row["limited_by"] for row in rows] == found.limit.tolist()
 
 
+def test_soils_that_come_with_regoplan_are_those_that_the_program_prints(program, tmp_path):
+    for name in regoplan.Soil.presets():
+        file = tmp_path / f"{name}.yaml"
+        file.write_text(program("soil", name).stdout)
+        assert regoplan.Soil.from_file(file)[name] == regoplan.Soil.preset(name)
+    assert " | ".join(regoplan.Soil.presets()) in program("soil", "dust").stderr
+
+
 def test_vehicles_read_and_write_what_files_say(tmp_path):
     assert set(regoplan.Vehicle.presets()) == {"tohoku", "lrv", "curiosity"}
     for name in regoplan.Vehicle.presets():

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -62,6 +63,24 @@ TEST_F(DiagnosisReportInTheBrowser, DrawsALineForEachLoadAndNamesIt) {
   for (const char* load : {"32", "65"}) {
     EXPECT_NE(page.find(label_of(load)), std::string::npos) << load;
   }
+}
+
+TEST_F(DiagnosisReportInTheBrowser, BreaksTheLineOfMeansWhereTheRunsPause) {
+  const auto lines_of = [&](double pause_s) {
+    DiagnosisRun run = claimed_diagnosis();
+    run.recording.recording.columns.time = true;
+    double time_s = 0;
+    for (WheelRun& at : run.recording.recording.runs) {
+      at.conditions.time_s = time_s;
+      time_s += at.run_id == "c2" ? pause_s : 600;
+    }
+    const std::string page = drawn(diagnosis_report(run));
+    const std::size_t from = page.find("mean-in-time\" d=\"");
+    const std::string path = page.substr(from, page.find('>', from) - from);
+    return std::ranges::count(path, 'M');
+  };
+  EXPECT_EQ(lines_of(600), 1);
+  EXPECT_EQ(lines_of(40000), 2);
 }
 
 TEST_F(DiagnosisReportInTheBrowser, DrawsEveryVerdictWithoutAnError) {

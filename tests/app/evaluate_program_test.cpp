@@ -300,6 +300,9 @@ TEST_F(Evaluate, AChartTakesNothingThatIsOfPaths) {
            std::pair{scenario + "--draws 9", "--chart takes no --draws"},
            std::pair{scenario + "--seed 3", "--chart takes no --seed"},
            std::pair{scenario + "--json", "--chart takes no --json"},
+           std::pair{scenario + "--vehicle nope",
+                     "regoplan: --vehicle: nope is not valid (allowed: tohoku | lrv | curiosity, "
+                     "or a vehicle file; there is no such file)"},
            std::pair{" --vehicle lrv --model " + model, "--model only with a SCENARIO.yaml"},
        }) {
     const ProgramRun run = run_program(folder_, "evaluate " + chart + given);

@@ -127,8 +127,8 @@ TEST(ModelSettings, WhatCannotBeAGenericCorrectionIsAnErrorWithItsLine) {
             "m.yaml:30: mechanisms[2].parameters.region.slip_ratio: 1 numbers (allowed: [from, "
             "to])");
   EXPECT_EQ(error("torque_nm: .1", "torque_nm: .nan"),
-            "m.yaml:34: mechanisms[2].parameters.nodes[1].torque_nm: .nan is not valid (allowed: a "
-            "number, any finite number)");
+            "m.yaml:34: mechanisms[2].parameters.nodes[1].torque_nm: .nan is not valid (allowed: "
+            "any finite number)");
   EXPECT_NE(error("fx_n: 1.25", "fz_n: 1.25").find("m.yaml:33: "), std::string::npos);
   EXPECT_EQ(error("fade_share: 0.05", "fade_share: 0.7"),
             "m.yaml:31: mechanisms[2].parameters.fade_share: 0.7 is not valid (allowed: 0 to 0.5)");

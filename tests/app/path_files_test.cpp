@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tests/app/plan_report_fixture.h"
+#include "tests/error_text.h"
 #include "tests/scratch_folder.h"
 
 namespace regoplan {
@@ -78,6 +79,19 @@ TEST(PathFiles, ACandidateEndsAtTheSpeedOfItsLastRowHoweverNearTheOneBeforeLies)
     ASSERT_EQ(path.legs.size(), 1u);
     EXPECT_EQ(path.legs[0].speed.at(path.length_m()).speed_mps, end_mps);
   }
+}
+
+TEST(PathFiles, AFileOfAnotherProgramSaysWhatIsWrongWithIt) {
+  const ScratchFolder folder;
+  const PlanningProblem problem = report_test_problem(report_test_map(40));
+  const auto refusal = [&](const std::string& text) {
+    folder.write("path.csv", text);
+    return error_text([&] { read_path(folder.path("path.csv"), problem, 3); });
+  };
+  EXPECT_TRUE(refusal("x_m;y_m\n1050;5100\n")
+                  .ends_with("path.csv:1: cells are separated by semicolons (allowed: commas)"));
+  EXPECT_TRUE(refusal("x_m\ty_m\n1050\t5100\n").ends_with("by tabs (allowed: commas)"));
+  EXPECT_TRUE(refusal("\xFF\xFEx").ends_with("path.csv:1: the file is UTF-16 (allowed: UTF-8)"));
 }
 
 }  // namespace

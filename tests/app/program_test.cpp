@@ -294,6 +294,11 @@ TEST_F(Program, ABadNumberIsToldBeforeFilesAreReadOrFolders) {
   }
 }
 
+TEST_F(Program, ATextInPlaceOfANumberIsToldThatANumberIsWanted) {
+  expect_refusal(run("plan none.yaml --out o --time abc"),
+                 {"regoplan: --time: abc is not valid (allowed: a number, above 0)"});
+}
+
 TEST_F(Program, ACountThatIsNoWholeNumberIsToldWithItsRange) {
   for (const auto& [command, option, allowed] :
        {std::tuple{"plan none.yaml --out o", "--iterations", "1 to 2000000000"},

@@ -1,5 +1,6 @@
 #include "app/diagnose/recording_checks.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +59,7 @@ TEST(RecordingChecks, FindNothingWhereUnitsAndSignsAreRight) {
   EXPECT_EQ(doubtful_values(changed([](WheelRun&) {}), simulant()), std::vector<std::string>{});
   // far off as physics goes, yet no unit does that
   const auto wrong_physics = [](WheelRun& run) {
-    scale(run, Channel::kFx, -2);
+    run.measured[0] -= 0.7 * run.load_n;  // loose soil, in which even driving wheels need a push
     scale(run, Channel::kFy, 2.5);
     scale(run, Channel::kSinkage, 3);
   };
@@ -85,6 +86,7 @@ TEST(RecordingChecks, AUnitOffByPowersOfTenIsRefusedByItsName) {
 
 TEST(RecordingChecks, ALoadInOtherUnitsIsSuspected) {
   expect_words(refusal([](WheelRun& run) { run.load_n /= 1000; }), {"load_n in kN"});
+  expect_words(refusal([](WheelRun& run) { run.load_n /= 9.80665; }), {"load_n in kg (kgf)"});
   expect_words(refusal([](WheelRun& run) { run.load_n *= 1000; }),
                {"r.csv:2: load_n: 64700", "suspected: load_n not in N"});
 }
@@ -156,6 +158,55 @@ TEST(RecordingChecks, ASideForceThatOpposesTheConventionIsReported) {
       doubtful_values(changed([](WheelRun& run) { scale(run, Channel::kFy, -1); }), simulant());
   ASSERT_EQ(warnings.size(), 1u);
   expect_words(warnings[0], {"r.csv:", "fy_n opposes the convention", "8 of 8 runs"});
+}
+
+TEST(RecordingChecks, ADrawbarPullThatOpposesTheMotionIsReported) {
+  const auto warnings =
+      doubtful_values(changed([](WheelRun& run) { scale(run, Channel::kFx, -1); }), simulant());
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_words(warnings[0], {"r.csv:2: fx_n opposes a wheel that drives",
+                             "is an axis of the sensor turned round?"});
+}
+
+TEST(RecordingChecks, WithoutATorqueTheSlipMayBeWhatIsTurned) {
+  RecordingFile file = changed([](WheelRun& run) {
+    scale(run, Channel::kFx, -1);
+    run.measured[static_cast<std::size_t>(Channel::kTorque)] = WheelRun::kNotMeasured;
+  });
+  std::erase(file.recording.channels, Channel::kTorque);
+  const auto warnings = doubtful_values(file, simulant());
+  ASSERT_EQ(warnings.size(), 1u);
+  expect_words(warnings[0], {"fx_n opposes", "or the sign of slip_ratio, turned round?"});
+}
+
+TEST(RecordingChecks, ASlipOfTheOtherSignIsRefused) {
+  expect_words(refusal([](WheelRun& run) { run.slip_ratio = -run.slip_ratio; }),
+               {"r.csv:2: slip_ratio: 0.4 is not valid", "above 0 where the wheel drives",
+                "suspected: slip_ratio of the other sign"});
+}
+
+TEST(RecordingChecks, SinkageAboveTheSoilIsRefused) {
+  expect_words(refusal([](WheelRun& run) { scale(run, Channel::kSinkage, -1); }),
+               {"r.csv:2: sinkage_m: -0.0", "(allowed: from 0, the depth below the soil",
+                "negative in 12 of 12 runs", "suspected: an axis that points up"});
+  const auto noise_about_hard_ground = [side = -1](WheelRun& run) mutable {
+    run.measured[static_cast<std::size_t>(Channel::kSinkage)] = 1e-3 * (side = -side);
+  };
+  EXPECT_EQ(refusal(noise_about_hard_ground), "");
+}
+
+TEST(RecordingChecks, AChannelOfZerosIsCalledDead) {
+  for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque, Channel::kSinkage}) {
+    expect_words(refusal([&](WheelRun& run) { scale(run, channel, 0); }),
+                 {"r.csv:", fmt::format("{}: 0 is not valid in every run", name(channel)),
+                  "suspected: a dead channel; remedy: leave the column out"});
+  }
+  // straight ahead there is no side force
+  const auto straight = [](WheelRun& run) {
+    run.slip_angle_rad = 0;
+    scale(run, Channel::kFy, 0);
+  };
+  EXPECT_EQ(refusal(straight), "");
 }
 
 TEST(RecordingChecks, OneOddValueIsAnOutlierNotAUnit) {

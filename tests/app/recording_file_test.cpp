@@ -1,5 +1,6 @@
 #include "app/diagnose/recording_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -176,6 +177,22 @@ TEST(RecordingFile, ASlipInPerCentIsSuspectedAsSuch) {
       std::string::npos);
   EXPECT_NE(recording_error("-0.25", "-1.5").find("a braking wheel's slip is (r w - Vx)/Vx"),
             std::string::npos);
+}
+
+TEST(RecordingFile, AColumnInAnotherWritingIsToldWhereTheKnownOneIsMissing) {
+  for (const char* written : {"Load_N", "load_n [N]", "load [N]"}) {
+    EXPECT_EQ(recording_error("load_n", written),
+              fmt::format("r.csv:1: column load_n is missing (the header has {})", written));
+  }
+  // a column that means something itself is not meant to be another
+  EXPECT_EQ(recording_error("run_id,", "wheel_radius_m,"), "r.csv:1: column run_id is missing");
+}
+
+TEST(RecordingFile, AnIgnoredColumnIsHeldAgainstTheKnownOnesThatAreNotGiven) {
+  const RecordingFile file =
+      read("run_id,load_n,slip_ratio,slip_angle_deg,fx_n,Fy [N],fx_n [N],oven\na,60,0,0,1,2,3,4\n");
+  EXPECT_EQ(ignored_columns(file),
+            (std::vector<std::string>{"Fy [N] (did you mean fy_n?)", "fx_n [N]", "oven"}));
 }
 
 TEST(RecordingFile, MissingColumnsAreNamed) {

@@ -24,6 +24,11 @@ TEST(SettingsMapping, AKeyNearNoneIsAnErrorThatListsAll) {
             "f.yaml:2: colour: unknown key (known: radius_m, width_m)");
 }
 
+TEST(SettingsMapping, AKeyThatIsGivenIsNotOfferedAgain) {
+  EXPECT_EQ(error_text([] { read_radius("radius_m: 1\nwidth_m: 2\nwidht_m: 2\n"); }),
+            "f.yaml:3: widht_m: unknown key (known: radius_m, width_m)");
+}
+
 TEST(SettingsMapping, AMissingKeyNamesWhatLooksLikeIt) {
   EXPECT_EQ(error_text([] { read_radius("\nradius: 1\n"); }),
             "f.yaml:2: radius_m is missing (line 2 has radius)");

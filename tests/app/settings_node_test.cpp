@@ -48,7 +48,7 @@ TEST(SettingsNode, AnErrorQuotesTheBeginningOfALongValue) {
                 " is not valid (allowed: a mapping of keys to values)");
   EXPECT_EQ(number_error("\"" + std::string(41, 'x') + "\""),
             "f.yaml:1: key: \"" + std::string(40, 'x') +
-                "...\" is not valid (allowed: a number, any finite number)");
+                "...\" is not valid (allowed: any finite number)");
   // A table where settings are expected.
   std::string table = "time_s,x_m,y_m,z_m,yaw_deg,speed_mps,steer_deg\n";
   for (int i = 0; i < 1000; ++i) table += "0.6,7.02,7.02,0.61,44.9,0.12,-4.02\n";

@@ -3,6 +3,7 @@
 
 #include <regex>
 
+#include "app/settings/preset_soils.h"
 #include "app/settings/scenario_settings.h"
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
@@ -48,9 +49,7 @@ TEST_F(StarterFiles, AVehicleReadsBackToThePresetWithEveryNumberExplained) {
 }
 
 TEST_F(StarterFiles, ASoilReadsBackWithEveryNumberExplained) {
-  const SoilCatalogue demo =
-      read_soil_catalogue(read_settings("scenarios/demo/soils.yaml"), WheelVariant::kIshigami2007);
-  for (const MapSoil& soil : demo.soils) {
+  for (const MapSoil& soil : preset_soils("scenarios/demo/soils.yaml")) {
     const std::string yaml = printed("soil " + soil.name);
     const SoilCatalogue read =
         read_soil_catalogue(parse_settings(yaml, "soils.yaml"), WheelVariant::kIshigami2007);
@@ -65,7 +64,8 @@ TEST_F(StarterFiles, ASoilReadsBackWithEveryNumberExplained) {
 
 TEST_F(StarterFiles, ASoilThatIsNotKnownIsRefusedWithThoseThatAre) {
   expect_refusal(run_program(folder_, "soil dust"),
-                 {"dust is not known (allowed: firm_regolith | loose_regolith | soft_patch)"});
+                 {"dust is not known (allowed: firm_regolith | loose_regolith | soft_patch | "
+                  "simulant_2004)"});
 }
 
 TEST_F(StarterFiles, TheScenarioPlansAsItIsAndWithTheOtherFilesInIt) {

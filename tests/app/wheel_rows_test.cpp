@@ -97,6 +97,8 @@ TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
   EXPECT_EQ(rows_error(header + "64.7,0\n"), "c.csv:3: 2 cells (the header has 3)");
   EXPECT_EQ(rows_error(header + "\n64.7,0,0\n"), "c.csv:3: an empty line");
   EXPECT_EQ(rows_error("load_n,slip_ratio\n1,0\n"), "c.csv:1: column slip_angle_deg is missing");
+  EXPECT_EQ(rows_error("load_n,slip_ratio,Slip angle [deg]\n1,0,0\n"),
+            "c.csv:1: column slip_angle_deg is missing (the header has Slip angle [deg])");
   EXPECT_EQ(rows_error("load_n,load_n\n"), "c.csv:1: column load_n given twice");
   EXPECT_EQ(rows_error(""), "c.csv: empty (expected a header line)");
   EXPECT_EQ(rows_error("load_n;slip_ratio\n1;0\n"),

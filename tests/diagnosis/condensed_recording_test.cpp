@@ -38,11 +38,27 @@ std::vector<Channel> turned(Channel channel, int turned_of_ten) {
 }
 
 TEST(CondensedRecording, AForceIsTurnedWhereNearlyAllOfItOpposesTheConvention) {
-  for (const Channel channel : {Channel::kFy, Channel::kTorque}) {
+  for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
     EXPECT_EQ(turned(channel, 0), std::vector<Channel>{});
     EXPECT_EQ(turned(channel, 3), std::vector<Channel>{});  // some other fault, which turning hides
     EXPECT_EQ(turned(channel, 5), std::vector<Channel>{});
     EXPECT_EQ(turned(channel, 10), std::vector{channel});
+  }
+}
+
+TEST(CondensedRecording, DrawbarPullIsNotTurnedForASensorsZeroOrSoilThatHoldsTheWheel) {
+  const auto with_pull_off_by = [](double share_of_load, std::vector<double> slips) {
+    const DiagnosisSetup setup = simulant_setup();
+    const BedPlan plan{
+        .slips = std::move(slips), .replicates = 1, .instruments = [&](WheelRun& run) {
+          run.measured[static_cast<std::size_t>(Channel::kFx)] += share_of_load * run.load_n;
+        }};
+    return condense(record({}, setup, setup.soil.mean, plan, 1), setup).turned;
+  };
+  const std::vector<double> both_sides{-0.3, 0, 0.15, 0.3, 0.5, 0.8}, driving{0.15, 0.3, 0.5, 0.8};
+  for (const double share : {-0.8, 0.8}) {
+    EXPECT_EQ(with_pull_off_by(share, both_sides), std::vector<Channel>{});
+    EXPECT_EQ(with_pull_off_by(share, driving), std::vector<Channel>{});
   }
 }
 

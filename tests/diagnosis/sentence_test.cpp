@@ -28,6 +28,16 @@ TEST(Sentence, OfOtherSoilNumbersSaysWhatWasTakenForChance) {
   expect_says(sentence_of(diagnosis), {"is taken for chance (see the notes)"});
 }
 
+TEST(Sentence, ThatNothingIsMissingSaysWhereItsNoiseIsGuessed) {
+  for (const Verdict verdict : {Verdict::kConsistent, Verdict::kParameters}) {
+    Diagnosis diagnosis{.verdict = verdict};
+    EXPECT_EQ(sentence_of(diagnosis).find("guessed"), std::string::npos);
+    diagnosis.guessed_noise = {Channel::kFx, Channel::kSinkage};
+    expect_says(sentence_of(diagnosis),
+                {"noise, which is guessed from neighbouring conditions for fx_n, sinkage_m"});
+  }
+}
+
 TEST(Sentence, TellsFormAndFittedNumbersOfANameThatStandsAlone) {
   Diagnosis diagnosis = named();
   Claim& claim = diagnosis.claims.front();
@@ -75,6 +85,15 @@ TEST(Sentence, IsNeverQuiteCertain) {
 
 TEST(Sentence, SaysWhatANameLeavesUnexplained) {
   expect_says(sentence_of(named()), {"leaves 30 % of the excess misfit on held-out conditions"});
+}
+
+TEST(Sentence, LeavesWithoutANameWhatTheSharesLeave) {
+  Diagnosis diagnosis = named();
+  diagnosis.claims.front().share = Share{.explained = 0.68, .low = 0.6, .high = 0.7};
+  diagnosis.remainder_share = 0.32;
+  expect_says(sentence_of(diagnosis),
+              {"32 % of the excess misfit on held-out conditions has no name"});
+  EXPECT_EQ(sentence_of(diagnosis).find("30 %"), std::string::npos);
 }
 
 TEST(Sentence, TellsNoShareOfAnExcessThatNoiseMayBe) {

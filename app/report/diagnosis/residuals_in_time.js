@@ -24,7 +24,7 @@ function residualsInTime(host) {
   if (!channels.length) return;
   host.append(element(
       'p', {class: 'note'},
-      'Measured minus modelled of each run, in standard deviations of the noise. The line is the mean of nine neighbouring runs.'));
+      'Measured minus modelled of each run, in standard deviations of the noise. The line is the mean of nine neighbouring runs, broken where the runs pause.'));
   for (const channel of channels) {
     const shown = IN_TIME_MODELS.map(({key}) => residualsInTimeOf(channel, key));
     const most = d3.max([].concat(...shown), r => Math.abs(r.z)) || 1;
@@ -35,17 +35,26 @@ function residualsInTime(host) {
   }
 }
 
-/// Means over a run and its four neighbours on each side, in the order of time.
-function runningMean(rows) {
+/// Runs in the order of time, parted by pauses: five times as long as three of four steps are.
+function stretchesOf(rows) {
   const order = rows.slice().sort((a, b) => a.at - b.at);
-  return order.map((r, i) => ({
-                     at: r.at,
-                     z: d3.mean(order.slice(Math.max(0, i - 4), i + 5), n => n.z)
-                   }));
+  const steps = order.slice(1).map((r, i) => r.at - order[i].at);
+  const pause = 5 * d3.quantile(steps.filter(step => step > 0), 0.75);
+  const stretches = [];
+  order.forEach((r, i) => {
+    if (i === 0 || steps[i - 1] > pause) stretches.push([]);
+    stretches[stretches.length - 1].push(r);
+  });
+  return stretches;
 }
 
+/// Means over a run and its four neighbours on each side, none of them beyond a pause.
+const runningMean = stretch => stretch.map(
+    (r, i) => ({at: r.at, z: d3.mean(stretch.slice(Math.max(0, i - 4), i + 5), n => n.z)}));
+
 function timeChart(channel, name, rows, most) {
-  const {title} = channelOf(channel), means = runningMean(rows);
+  const {title} = channelOf(channel), lines = stretchesOf(rows).map(runningMean);
+  const means = lines.flat();
   return figure(
              {
                title: capital(name),
@@ -59,11 +68,11 @@ function timeChart(channel, name, rows, most) {
                  rows: rows.map(r => [RUNS.run_id[r.run], r.at, r.z])
                })
              },
-             (svg, width) => drawInTime(svg, width, rows, means, most))
+             (svg, width) => drawInTime(svg, width, rows, lines, most))
       .node;
 }
 
-function drawInTime(svg, width, rows, means, most) {
+function drawInTime(svg, width, rows, lines, most) {
   const box = chartBox(svg, width, 150, {left: 44, right: 12, top: 20, bottom: 34});
   const x = d3.scaleLinear().domain(d3.extent(TIME.of)).range([box.left + 4, box.right - 4]);
   const y = d3.scaleLinear().domain([-most * 1.05, most * 1.05]).range([box.bottom, box.top]);
@@ -77,7 +86,7 @@ function drawInTime(svg, width, rows, means, most) {
   svg.append('path')
       .attr('class', 'dots-in-time')
       .attr('d', marks.map(m => `M${m.x.toFixed(1)},${m.y.toFixed(1)}h0`).join(''));
-  svg.append('path').attr('class', 'mean-in-time').attr(
-      'd', d3.line().x(m => x(m.at)).y(m => y(m.z))(means));
+  const line = d3.line().x(m => x(m.at)).y(m => y(m.z));
+  svg.append('path').attr('class', 'mean-in-time').attr('d', lines.map(line).join(''));
   return marks;
 }
