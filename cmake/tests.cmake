@@ -79,6 +79,22 @@ if(Python3_FOUND)
   add_test(NAME clang_tidy.manifest COMMAND ${Python3_EXECUTABLE}
                                             ${CMAKE_SOURCE_DIR}/tests/tooling/clang_tidy_test.py)
 endif()
+if(Python3_FOUND AND NOT REGOPLAN_DEV)
+  # Some scripts take numpy or yaml: an interpreter that has them, where there is one.
+  set(script_python ${Python3_EXECUTABLE})
+  foreach(candidate ${Python3_EXECUTABLE} /usr/bin/python3)
+    execute_process(COMMAND ${candidate} -c "import numpy, yaml" RESULT_VARIABLE failed OUTPUT_QUIET
+                    ERROR_QUIET)
+    if(failed STREQUAL "0")
+      set(script_python ${candidate})
+      break()
+    endif()
+  endforeach()
+  add_test(NAME benchmark_scripts COMMAND ${script_python}
+                                          ${CMAKE_SOURCE_DIR}/tests/tooling/benchmark_scripts_test.py
+                                          $<TARGET_FILE:regoplan>)
+  set_tests_properties(benchmark_scripts PROPERTIES TIMEOUT 120)
+endif()
 include(cmake/browser_tests.cmake)
 include(cmake/robustness_tests.cmake)
 

@@ -41,17 +41,15 @@ std::vector<std::optional<double>> values_of(const Json& entry, ResultKind kind)
   return values;
 }
 
-std::vector<std::optional<Standing>> standings_of(const Json& entry, ResultKind kind) {
-  std::vector<std::optional<Standing>> standings;
+std::vector<std::optional<Interval>> intervals_of(const Json& entry, ResultKind kind) {
+  std::vector<std::optional<Interval>> intervals;
   for (const ComparedMetric& metric : metrics_of(kind)) {
-    std::optional<Standing>& standing = standings.emplace_back();
+    std::optional<Interval>& interval = intervals.emplace_back();
     const auto found = entry.find(std::string(metric.interval_key));
-    const auto value = number_at(entry, metric.key);
-    if (metric.interval_key.empty() || found == entry.end() || !found->is_array() || !value)
-      continue;
-    set_by_draws(standing.emplace(), *value, found->at(1).get<double>(), {});
+    if (metric.interval_key.empty() || found == entry.end() || !found->is_array()) continue;
+    interval = {found->at(0).get<double>(), found->at(1).get<double>()};
   }
-  return standings;
+  return intervals;
 }
 
 ComparedPath path_of(CsvTable& table, std::size_t x, std::size_t y) {
@@ -104,7 +102,7 @@ void read_plan(const Json& json, ComparedResult& result) {
                               .verdict = "feasible",
                               .feasible = true,
                               .values = values_of(candidate, ResultKind::kPlan),
-                              .standings = standings_of(candidate, ResultKind::kPlan),
+                              .intervals = intervals_of(candidate, ResultKind::kPlan),
                               .path = read_compared_path(result.file.parent_path() /
                                                          candidate.at("file").get<std::string>())});
   }
@@ -121,7 +119,7 @@ void read_evaluation(const Json& json, ComparedResult& result) {
                         .verdict = feasible ? "feasible" : path.at("reason").get<std::string>(),
                         .feasible = feasible,
                         .values = values_of(path, ResultKind::kEvaluation),
-                        .standings = standings_of(path, ResultKind::kEvaluation)};
+                        .intervals = intervals_of(path, ResultKind::kEvaluation)};
     if (of_file) entry.path = read_compared_path(shown);
     result.entries.push_back(std::move(entry));
   }

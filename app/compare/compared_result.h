@@ -1,13 +1,12 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "planner/soils/standing.h"
 
 namespace regoplan {
 
@@ -34,15 +33,18 @@ struct ComparedPath {
   std::vector<double> margin;  ///< NaN where none is known; empty of a path without a record
 };
 
+/// From, to.
+using Interval = std::array<double, 2>;
+
 /// A candidate, an evaluated path, or a planner in an experiment.
 struct ComparedEntry {
   std::string name;     ///< entries of two results with one name are held against each other
   std::string verdict;  ///< in words
   bool feasible = false;
   std::vector<std::optional<double>> values;  ///< of the kind's metrics
-  /// Of the same metrics: how the value ranks within its sampling error; none of a value that is
-  /// exact, or whose result tells no interval.
-  std::vector<std::optional<Standing>> standings = {};
+  /// Of the same metrics: how far the sampling error reaches to either side; none of a value that
+  /// is exact, or whose result tells no interval.
+  std::vector<std::optional<Interval>> intervals = {};
   std::optional<ComparedPath> path = {};
 };
 

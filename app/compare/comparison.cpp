@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "planner/problem/margin_spread.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
@@ -24,11 +25,12 @@ std::vector<ComparedSetting> differing_settings(const ComparedResult& a, const C
   const Json of_a = a.asked.flatten(), of_b = b.asked.flatten();
   std::vector<ComparedSetting> settings;
   for (const auto& [pointer, value] : of_a.items()) {
-    const Json other = of_b.contains(pointer) ? of_b.at(pointer) : Json();
+    const Json other = of_b.value(pointer, Json());
     if (other != value) settings.push_back({key_of(pointer), value, other});
   }
   for (const auto& [pointer, value] : of_b.items()) {
-    if (!of_a.contains(pointer)) settings.push_back({key_of(pointer), Json(), value});
+    if (of_a.contains(pointer) || value.is_null()) continue;
+    settings.push_back({key_of(pointer), Json(), value});
   }
   if (a.version != b.version) settings.push_back({"version", a.version, b.version});
   return settings;
@@ -56,15 +58,21 @@ std::vector<std::optional<double>> change(const ComparedEntry& a, const Compared
   return differences;
 }
 
-/// Whether a ranking of both by one of their metrics would call them tied.
+bool holds(const Interval& interval, double value) {
+  return interval[0] <= value && value <= interval[1];
+}
+
+/// By metric, whether one of the two lies within the other's sampling error. Limits that broke in
+/// draws are no smaller margin, but another thing.
 std::vector<bool> ties(const ComparedEntry& a, const ComparedEntry& b) {
-  std::vector<bool> of_metrics;
-  for (std::size_t i = 0; i < std::min(a.standings.size(), b.standings.size()); ++i) {
-    const std::optional<Standing>&of_a = a.standings[i], &of_b = b.standings[i];
-    of_metrics.push_back(of_a && of_b &&
-                         (leads(*of_a, *of_b) ? tied(*of_a, *of_b) : tied(*of_b, *of_a)));
+  const auto is_broken = [](double value) { return value <= MarginSpread::kBroken; };
+  std::vector<bool> of_metrics(a.values.size(), false);
+  for (std::size_t i = 0; i < std::min(a.intervals.size(), b.intervals.size()); ++i) {
+    if (!a.values[i] || !b.values[i] || !a.intervals[i] || !b.intervals[i]) continue;
+    const double of_a = *a.values[i], of_b = *b.values[i];
+    of_metrics[i] = is_broken(of_a) == is_broken(of_b) &&
+                    (holds(*a.intervals[i], of_b) || holds(*b.intervals[i], of_a));
   }
-  of_metrics.resize(a.values.size(), false);
   return of_metrics;
 }
 

@@ -88,7 +88,8 @@ def driven_candidate(options, scenario, entry, folder, numbers, chance):
 
 
 def main():
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--time", type=float, default=15)
     parser.add_argument("--draws", type=int, default=20)

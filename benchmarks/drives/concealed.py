@@ -75,6 +75,7 @@ def cratered(chance):
                 "rim_height_m": 0.005 * diameter_m}
                for diameter_m in (chance.uniform(20, 60) for _ in range(16))]
     level = "roughness_m: 0.06"
+    assert level in scenario()
     return scenario().replace(level, f"{level}, craters: {json.dumps(craters)}")
 
 

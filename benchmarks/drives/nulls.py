@@ -149,7 +149,8 @@ def diagnosed(options, seed):
 
 
 def main():
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=lambda program: Path(program).resolve())
     parser.add_argument("first", type=int)
     parser.add_argument("last", type=int)

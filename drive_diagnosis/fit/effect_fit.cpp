@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drive_diagnosis/contest/held_out_stretches.h"
+#include "drive_diagnosis/fit/zone_borders.h"
 
 namespace regoplan {
 namespace {
@@ -49,7 +50,7 @@ EffectFit::EffectFit(WindowComparison& comparison, const TerrainMap& map,
 }
 
 EffectFound EffectFit::strongest(std::uint64_t seed) {
-  silent_ = windows_at_borders();
+  silent_ = windows_at_borders(comparison_, zones());
   EffectFound strongest = strongest_of_heard(seed);
   silent_.clear();
   return strongest;
@@ -57,7 +58,8 @@ EffectFound EffectFit::strongest(std::uint64_t seed) {
 
 EffectFound EffectFit::strongest_of_heard(std::uint64_t seed) {
   Linearised here = linearise();
-  const SoilColumns soil = soil_columns(here.windows.base);
+  const SoilColumns soil =
+      soil_columns(comparison_, numbers_, {deviation(), zones()}, here.windows.base, stop_);
   whiten_soil(soil, here.noise);
   EffectFound strongest = strongest_effect(contest_, seed);
   if (strongest.stands_out || !strongest.is_zone) return strongest;
@@ -75,34 +77,6 @@ EffectFound EffectFit::strongest_of_heard(std::uint64_t seed) {
   contest_.zones_known.pop_back();
   whiten_soil(soil, noise);
   return strongest_effect(contest_, seed);
-}
-
-EffectFit::SoilColumns EffectFit::soil_columns(const Eigen::MatrixXd& base) const {
-  const std::size_t windows = comparison_.size();
-  const WindowQuestion here{deviation(), zones()};
-  std::vector<std::pair<std::size_t, WindowQuestion>> asked;
-  std::vector<std::array<std::size_t, 2>> of;  // number and stretch
-  for (std::size_t k = 0; k < numbers_.size(); ++k) {
-    for (std::size_t w = 0; w < windows; ++w) {
-      WindowQuestion question = here;
-      WindowZone& stretch = question.zones.emplace_back(WindowZone{
-          .begins = static_cast<double>(w), .ends = static_cast<double>(w + 1), .soil = kAsMapped});
-      stretch.numbers.at(numbers_[k]) = 1;
-      for (const std::size_t near : comparison_.touching_in_run(w, stretch)) {
-        asked.emplace_back(near, question);
-        of.push_back({k, w});
-      }
-    }
-  }
-  const std::vector<std::optional<Eigen::VectorXd>> there =
-      comparison_.predicted_each(asked, stop_);
-  SoilColumns columns(numbers_.size(), std::vector<Eigen::MatrixXd>(windows, 0 * base));
-  for (std::size_t n = 0; n < asked.size(); ++n) {
-    if (!there[n]) continue;
-    const auto near = static_cast<Eigen::Index>(asked[n].first);
-    columns[of[n][0]][of[n][1]].row(near) = there[n]->transpose() - base.row(near);
-  }
-  return columns;
 }
 
 void EffectFit::add(const EffectFound& effect) {
@@ -253,7 +227,7 @@ void EffectFit::settle_with(EffectFound& effect) {
   } else if (fit_.zones.empty()) {
     settle();
   } else {
-    silent_ = windows_at_borders();
+    silent_ = windows_at_borders(comparison_, zones());
     go_on_from(settled_from_here());
     silent_.clear();
   }

@@ -15,6 +15,7 @@
 #include "drive_diagnosis/contest/slope_errors.h"
 #include "drive_diagnosis/fit/likely_edges.h"
 #include "drive_diagnosis/fit/likely_soils.h"
+#include "drive_diagnosis/fit/soil_columns.h"
 #include "drive_diagnosis/fit/window_linearisation.h"
 
 namespace regoplan {
@@ -118,12 +119,6 @@ class EffectFit {
   ResidualNoise whiten(const LinearisedWindows& here);
   double persistence(const SlopeErrors& errors) const;
   EffectFound strongest_of_heard(std::uint64_t seed);
-  WindowSet windows_at_borders() const;
-  Eigen::MatrixXd border_std(const EdgesErr& err) const;
-  /// By number and window: what another soil along that window changes in all of them. A wheel
-  /// that is ahead of the body comes onto it in the window before.
-  using SoilColumns = std::vector<std::vector<Eigen::MatrixXd>>;
-  SoilColumns soil_columns(const Eigen::MatrixXd& base) const;
   void whiten_soil(const SoilColumns& soil, const ResidualNoise& noise);
   std::optional<ScatterSources> scatter_outside(const LinearisedWindows& here,
                                                 const Eigen::VectorXd& zone) const;

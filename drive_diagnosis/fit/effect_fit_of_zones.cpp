@@ -1,11 +1,11 @@
 // What EffectFit does with a zone: its soil and its edges, in turn.
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <utility>
 
 #include "drive_diagnosis/fit/effect_fit.h"
 #include "drive_diagnosis/fit/likely_edges.h"
+#include "drive_diagnosis/fit/zone_borders.h"
 
 namespace regoplan {
 
@@ -61,62 +61,15 @@ EffectFit::Settled EffectFit::likeliest_soil(const Settled& start, EffectFound& 
 /// asks for a soil that is nowhere.
 EffectFit::Settled EffectFit::settled_with_edges(EffectFound& zone) {
   constexpr int kStepsBefore = 3, kRounds = 3;
-  border_std_ = border_std(kEdgesFound);
+  border_std_ = border_std(comparison_, {deviation(), zones()}, kEdgesFound, stop_);
   Settled settled = settled_from_here(kStepsBefore);
   for (int round = 0; round < kRounds; ++round) {
     go_on_from(settled);
     if (!place_edges(zone) && round > 0) break;
-    border_std_ = border_std(kEdgesPlaced);
+    border_std_ = border_std(comparison_, {deviation(), zones()}, kEdgesPlaced, stop_);
     settled = settled_from_here();
   }
   return settled;
-}
-
-/// Windows in which a wheel comes onto a known zone or leaves it, as nearly as that is told.
-WindowSet EffectFit::windows_at_borders() const {
-  std::vector<WindowZone> borders;
-  for (const WindowZone& zone : zones()) {
-    for (const auto& [at, slant] :
-         {std::pair{zone.begins, zone.begins_slant}, {zone.ends, zone.ends_slant}}) {
-      const auto all = static_cast<double>(comparison_.size());
-      borders.push_back({.begins = std::max(0.0, at - kEdgeErr),
-                         .ends = std::min(all, at + kEdgeErr),
-                         .begins_slant = slant,
-                         .ends_slant = slant});
-    }
-  }
-  return comparison_.touching(borders);
-}
-
-/// What zones' borders that lie so far off and are crossed at such another angle change: in the
-/// windows where wheels come onto them, the data cannot hold the soil to more than that.
-Eigen::MatrixXd EffectFit::border_std(const EdgesErr& err) const {
-  const WindowSet windows = windows_at_borders();
-  const WindowQuestion here{deviation(), zones()};
-  std::vector<WindowQuestion> questions;
-  for (std::size_t z = 0; z < here.zones.size(); ++z) {
-    for (double WindowZone::*edge : {&WindowZone::begins, &WindowZone::ends}) {
-      for (const double off : {err.windows, -err.windows}) {
-        const double moved = here.zones[z].*edge + off;
-        questions.push_back(here);
-        questions.back().zones[z].*edge =
-            std::clamp(moved, 0.0, static_cast<double>(comparison_.size()));
-      }
-    }
-    for (double WindowZone::*slant : {&WindowZone::begins_slant, &WindowZone::ends_slant}) {
-      for (const double off : {err.angle_rad, -err.angle_rad}) {
-        questions.push_back(here);
-        questions.back().zones[z].*slant = std::tan(std::atan(here.zones[z].*slant) + off);
-      }
-    }
-  }
-  const std::vector<Eigen::MatrixXd> there = comparison_.predicted(
-      windows, questions, comparison_.measured(), MotionsByWindow(comparison_.size()), stop_);
-  Eigen::MatrixXd squares = 0 * comparison_.measured();
-  for (std::size_t n = 0; n < there.size(); n += 2) {
-    squares += ((there[n] - there[n + 1]) / 2).cwiseAbs2();
-  }
-  return squares.cwiseSqrt();
 }
 
 void EffectFit::take_edges(const EffectFound& zone) {

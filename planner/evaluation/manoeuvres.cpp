@@ -28,12 +28,18 @@ void require_bounded_length(double length_m) {
   }
 }
 
+/// How far apart the points of an arc are: nearer on a tight one, as near as a curve takes them.
+double apart_on_arc_m(double radius_m) {
+  constexpr double kARadius = 20, kNearest_m = 1.1 * PathCurve::kSpacingMin_m;
+  return std::clamp(radius_m / kARadius, kNearest_m, kPointsApart_m);
+}
+
 /// A curve from the origin along +x with the given curvature.
-std::vector<PathPoint> points_with_curvature(double length_m,
+std::vector<PathPoint> points_with_curvature(double length_m, double apart_m,
                                              const std::function<double(double)>& curvature_1pm) {
   require_bounded_length(length_m);
   std::vector<PathPoint> points{{}};
-  const int pieces = std::max(4, static_cast<int>(std::ceil(length_m / kPointsApart_m)));
+  const int pieces = std::max(4, static_cast<int>(std::ceil(length_m / apart_m)));
   constexpr int kSteps = 20;
   const double h = length_m / (pieces * kSteps);
   double x = 0, y = 0, heading = 0;
@@ -50,14 +56,31 @@ std::vector<PathPoint> points_with_curvature(double length_m,
   return points;
 }
 
+/// The curve through points of an arc is sharper than the arc, by a hundredth or two where the
+/// curvature ceases to change and where it ends. Where that alone is beyond the vehicle's tightest
+/// turn, the points are moved apart by as much.
+std::vector<PathPoint> not_beyond_the_tightest(std::vector<PathPoint> points, const Manoeuvre& m) {
+  constexpr double kSharperMost = 1.05;  // beyond, the points are too few to make the arc
+  const double tightest_1pm = m.vehicle.curvature_max_1pm;
+  constexpr double kRounding = 1e-9;
+  if (m.radius_m * tightest_1pm < 1 - kRounding) return points;
+  const PathCurve curve(points);
+  const double sharpest_m = curve.sharpest_m(0, curve.length_m());
+  const double sharper = std::abs(curve.at(sharpest_m).curvature_1pm) / tightest_1pm;
+  if (!(sharper > 1 && sharper < kSharperMost)) return points;
+  for (PathPoint& point : points) point = {point.x_m * sharper, point.y_m * sharper};
+  return points;
+}
+
 /// A straight, a steady change of curvature as fast as the vehicle steers at its speed, an arc.
 std::vector<PathPoint> turn_points(const Manoeuvre& m, double arc_m) {
   const double curvature = (m.to_the_right ? -1 : 1) / m.radius_m;
   const double entry_m =
       std::max(1.0, 2 * m.speed_mps / (m.radius_m * m.vehicle.curvature_rate_max_1pms));
-  return points_with_curvature(kStraight_m + entry_m + arc_m, [&](double s) {
-    return curvature * std::clamp((s - kStraight_m) / entry_m, 0.0, 1.0);
-  });
+  std::vector<PathPoint> points = points_with_curvature(
+      kStraight_m + entry_m + arc_m, apart_on_arc_m(m.radius_m),
+      [&](double s) { return curvature * std::clamp((s - kStraight_m) / entry_m, 0.0, 1.0); });
+  return not_beyond_the_tightest(std::move(points), m);
 }
 
 /// y over x, from the origin along +x.
@@ -124,10 +147,10 @@ SpeedProfile speed_of(const Manoeuvre& m, const PathCurve& curve) {
   const double braking_m = m.speed_mps * m.speed_mps / (2 * m.braking_mps2);
   // Through points on much tighter a circle the curve cuts short.
   if (!(braking_m < length)) {
-    throw InputError(fmt::format(
-        "radius_m: {} is too tight for {:.4g} m of braking: points {} m apart make only {:.4g} m "
-        "of it (a larger radius_m or braking_mps2)",
-        m.radius_m, braking_m, kPointsApart_m, length));
+    throw InputError(
+        fmt::format("radius_m: {} is too tight for {:.4g} m of braking: points {:.2g} m apart make "
+                    "only {:.4g} m of it (a larger radius_m or braking_mps2)",
+                    m.radius_m, braking_m, apart_on_arc_m(m.radius_m), length));
   }
   constexpr double kResolved = 1e-15;  // nearer to the end there is no place before it
   if (!(braking_m > kResolved * length)) {

@@ -53,16 +53,17 @@ TEST(Comparison, OfAResultWithItselfSaysThatNothingDiffers) {
             "The same was asked of both.");
 }
 
-/// With the upper ends of its sampling error.
-ComparedEntry drawn(double margin_p05, double high) {
+/// With its sampling error.
+ComparedEntry drawn(double margin_p05, double low, double high) {
   ComparedEntry of_draws = entry("candidate 1", margin_p05, 60);
-  of_draws.standings.resize(of_draws.values.size());
-  set_by_draws(of_draws.standings.front().emplace(), margin_p05, high, {});
+  of_draws.intervals.resize(of_draws.values.size());
+  of_draws.intervals.front() = {low, high};
   return of_draws;
 }
 
 TEST(Comparison, ASamplingErrorIsNeitherBetterNorWorse) {
-  const ComparedResult few = plan({drawn(0.305, 0.313)}), many = plan({drawn(0.310, 0.317)});
+  const ComparedResult few = plan({drawn(0.305, 0.297, 0.313)}),
+                       many = plan({drawn(0.310, 0.308, 0.312)});
   for (const auto& [a, b] : {std::pair(few, many), std::pair(many, few)}) {
     const Comparison comparison = compared(a, b);
     EXPECT_TRUE(comparison_headline(a, b, comparison)
@@ -72,14 +73,67 @@ TEST(Comparison, ASamplingErrorIsNeitherBetterNorWorse) {
   }
 }
 
+TEST(Comparison, ADifferenceIsWithinTheSamplingErrorWhicheverOfTheTwoHasFewDraws) {
+  const ComparedResult few = plan({drawn(0.310, 0.29, 0.33)});
+  for (const double margin_p05 : {0.300, 0.320}) {
+    const ComparedResult many = plan({drawn(margin_p05, margin_p05 - 0.001, margin_p05 + 0.001)});
+    EXPECT_TRUE(comparison_headline(few, many, compared(few, many))
+                    .starts_with("Of 1 in both, B is tied within the draws"))
+        << margin_p05;
+  }
+}
+
 TEST(Comparison, ADifferenceBeyondTheSamplingErrorIsTold) {
-  const ComparedResult a = plan({drawn(0.305, 0.309)}), b = plan({drawn(0.310, 0.317)});
+  const ComparedResult a = plan({drawn(0.305, 0.301, 0.309)}),
+                       b = plan({drawn(0.310, 0.306, 0.314)});
   EXPECT_TRUE(comparison_headline(a, b, compared(a, b)).starts_with("Of 1 in both, B is better"));
   EXPECT_TRUE(comparison_headline(b, a, compared(b, a)).starts_with("Of 1 in both, B is worse"));
   // Broken limits are a tier of their own, as in a ranking.
-  const ComparedResult broken = plan({drawn(-1, 0.4)});
+  const ComparedResult broken = plan({drawn(-1, -1, 0.4)});
   EXPECT_TRUE(
       comparison_headline(broken, b, compared(broken, b)).starts_with("Of 1 in both, B is better"));
+}
+
+/// What is said of B, as it must be said where A and B change places.
+std::string mirrored(std::string headline) {
+  constexpr std::string_view kBetter = "B is better", kWorse = "B is worse";
+  for (const auto& [said, instead] : {std::pair{kBetter, kWorse}, std::pair{kWorse, kBetter}}) {
+    const auto at = headline.find(said);
+    if (at != std::string::npos) return headline.replace(at, said.size(), instead);
+  }
+  return headline;
+}
+
+TEST(Comparison, OfBWithASaysTheMirrorImageOfWhatItSaysOfAWithB) {
+  // Limits hold and break, intervals overlap or not, are of one point, reach far, or are not told.
+  std::vector<ComparedEntry> entries{entry("candidate 1", 0.305, 60)};
+  for (const auto& [margin_p05, low, high] :
+       std::to_array<std::array<double, 3>>({{0.305, 0.297, 0.313},
+                                             {0.305, 0.305, 0.305},
+                                             {0.310, 0.308, 0.312},
+                                             {0.25, 0.1, 0.5},
+                                             {-1, -1, 0.4},
+                                             {-1, -1, -1},
+                                             {0, 0, 0}})) {
+    entries.push_back(drawn(margin_p05, low, high));
+  }
+  for (const ComparedEntry& one : entries) {
+    for (const ComparedEntry& other : entries) {
+      const ComparedResult a = plan({one}), b = plan({other});
+      const Comparison there = compared(a, b), back = compared(b, a);
+      EXPECT_EQ(comparison_headline(b, a, back), mirrored(comparison_headline(a, b, there)));
+      EXPECT_EQ(back.pairs[0].tied, there.pairs[0].tied);
+      EXPECT_EQ(changed(back, "candidate 1", "margin_p05"),
+                -changed(there, "candidate 1", "margin_p05"));
+    }
+  }
+}
+
+TEST(Comparison, ASettingThatIsThereAndEmptyIsTheSameAsNone) {
+  ComparedResult a = plan({}), b = plan({});
+  a.asked["goal"]["heading_deg"] = nullptr;
+  EXPECT_TRUE(compared(a, b).settings.empty());
+  EXPECT_TRUE(compared(b, a).settings.empty());
 }
 
 TEST(Comparison, HoldsEntriesOfOneNameAgainstEachOther) {

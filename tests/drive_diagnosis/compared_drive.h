@@ -39,12 +39,16 @@ struct Compared {
 /// A drive over a soft stretch, and where that lies along its windows.
 struct OverAStretch : Compared {
   static constexpr double kFrom_m = 140, kTo_m = 170, kWeakness = 4;
-  OverAStretch()
-      : Compared(
-            {.weakness = [](double x_m) { return x_m > kFrom_m && x_m < kTo_m ? kWeakness : 0; }}),
+  explicit OverAStretch(SimulatedDrive drive = {})
+      : Compared(over_a_stretch(std::move(drive))),
         zone{.begins = window_at(kFrom_m),
              .ends = window_at(kTo_m),
              .numbers = weaker_by(kWeakness)} {}
+
+  static SimulatedDrive over_a_stretch(SimulatedDrive drive) {
+    drive.weakness = [](double x_m) { return x_m > kFrom_m && x_m < kTo_m ? kWeakness : 0; };
+    return drive;
+  }
 
   double window_at(double x_m) const {
     for (std::size_t i = 0; i + 1 < comparison->size(); ++i) {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <random>
 
+#include "terramech/basics/angles.h"
+
 namespace regoplan {
 namespace {
 
@@ -119,6 +121,23 @@ TEST(StrongestEffect, BesideAKnownOneMoreIsAskedAsItsFitIsNotExact) {
   EffectContest contest = with_a_fault(4.2, 1);
   contest.faults_known = {1};
   EXPECT_FALSE(strongest_effect(contest, 1).stands_out);
+}
+
+TEST(StrongestEffect, NamesThatChangeTheSameAreAClassUntilTheDataTellThemApart) {
+  EffectContest contest = with_a_fault(20, 1);
+  const Eigen::VectorXd named = contest.parameters.col(0), other = contest.parameters.col(1);
+  const auto alike = [&](double angle_deg) {
+    const double angle_rad = angle_deg * kDegree;
+    contest.parameters.col(1) = std::cos(angle_rad) * named + std::sin(angle_rad) * other;
+    const EffectFound found = strongest_effect(contest, 1);
+    EXPECT_EQ(found.parameter, 0u) << angle_deg;
+    return found.alike;
+  };
+  EXPECT_EQ(alike(20), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(alike(40), std::vector<std::size_t>{0});
+  // Of a weak effect the same two are a class: evidence tells them no further apart.
+  contest.data = with_a_fault(4.2, 1).data;
+  EXPECT_EQ(alike(40), (std::vector<std::size_t>{0, 1}));
 }
 
 /// Ten windows of twenty white measurements, each changed by a soil of its own; in two of them the

@@ -289,6 +289,27 @@ TEST(Evaluation, EveryKindOfManoeuvreEndsInAVerdict) {
   }
 }
 
+/// Turns of a vehicle by its tightest radius times this.
+PathEvaluation tightest_turn(const char* vehicle, double radius_factor) {
+  Manoeuvre m = turn(0.04);
+  m.vehicle = preset_vehicle(vehicle);
+  m.radius_m = radius_factor / m.vehicle.curvature_max_1pm;
+  const PlanningProblem base = flat_problem();
+  const PreparedManoeuvre prepared = prepare(m, default_limits(m.vehicle), base);
+  const World world(prepared.problem, WorldUse::kVerdict, 1);
+  return evaluate(world, std::get<ReferencePath>(prepared.course), kSettings);
+}
+
+TEST(Evaluation, ATurnIsRefusedForItsSteeringOnlyWhereItIsTighterThanTheVehicleTurns) {
+  for (const char* vehicle : {"lrv", "curiosity", "tohoku"}) {
+    const PathEvaluation at_the_end = tightest_turn(vehicle, 1);
+    EXPECT_TRUE(at_the_end.feasible) << vehicle << ": " << sentence(*at_the_end.refusal);
+    const PathEvaluation beyond = tightest_turn(vehicle, 0.999);
+    ASSERT_TRUE(beyond.refusal) << vehicle;
+    EXPECT_EQ(beyond.refusal->reason, Rejection::kSteering) << vehicle;
+  }
+}
+
 /// Turns Curiosity on a plane of its own.
 Manoeuvre point_turn(double slope_deg) {
   Manoeuvre m = turn(1);
