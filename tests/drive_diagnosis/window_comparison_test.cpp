@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "drive_diagnosis/comparison/vehicle_trials.h"
 #include "drive_diagnosis/fit/likely_edges.h"
 #include "tests/drive_diagnosis/compared_drive.h"
 
