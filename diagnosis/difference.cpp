@@ -52,6 +52,13 @@ double probability_of_no_difference(double p) {
   return odds / (1 + odds);
 }
 
+/// Replicates tell outliers from noise; without any these look like a difference.
+NoiseTails tails_of(const CondensedRecording& recording) {
+  const bool replicated = std::ranges::any_of(
+      recording.noise, [](const ChannelNoise& noise) { return noise.degrees_of_freedom > 0; });
+  return replicated ? NoiseTails::kNormal : NoiseTails::kHeavy;
+}
+
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,
@@ -129,8 +136,9 @@ class Differing {
                         .noise_variance = std::move(bed.noise_variance)};
     treatment.calibrated = std::make_unique<CalibratedRecording>(std::move(bed.test));
     const CalibratedRecording& calibrated = *treatment.calibrated;
-    treatment.lack = lack_of_fit(calibrated.recording(), calibrated.remainder_of(calibrated.base()),
-                                 options_.seed, Thresholds::kDifference_p);
+    treatment.lack =
+        lack_of_fit(calibrated.recording(), calibrated.remainder_of(calibrated.base()),
+                    options_.seed, Thresholds::kDifference_p, tails_of(calibrated.recording()));
     return treatment;
   }
 

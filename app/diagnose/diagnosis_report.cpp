@@ -126,7 +126,7 @@ std::string verdict_sentence(Verdict verdict, bool has_reference) {
   switch (verdict) {
     case Verdict::kConsistent:
       if (has_reference) {
-        return "Consistent: the recording does not differ from its reference beyond the noise.";
+        return "Consistent: no difference from its reference is proven.";
       }
       return "Consistent: the model at the soil numbers' prior means says what was measured, "
              "within the noise.";

@@ -20,6 +20,18 @@ double side_of(double slip_angle_rad) {
   return slip_angle_rad > 0 ? 1 : -1;
 }
 
+/// The part of the kernel along the slip angle.
+double along_slip_angle(const DiscrepancyScales& scales, Channel channel, double a_rad,
+                        double b_rad, Sides sides) {
+  const auto along = [&](double distance_rad) {
+    return std::exp(-squared(distance_rad / scales.slip_angle_rad) / 2);
+  };
+  if (sides == Sides::kApart) return along(a_rad - b_rad);
+  const double from_rad = std::abs(a_rad), to_rad = std::abs(b_rad);
+  if (channel != Channel::kFy) return along(from_rad - to_rad);
+  return side_of(a_rad) * side_of(b_rad) * (along(from_rad - to_rad) - along(from_rad + to_rad));
+}
+
 }  // namespace
 
 const std::vector<DiscrepancyScales>& discrepancy_scales() {
@@ -42,17 +54,9 @@ const std::vector<DiscrepancySetting>& discrepancy_settings() {
 }
 
 double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, const Condition& a,
-                          const Condition& b) {
-  const double from = std::abs(a.slip_angle_rad), to = std::abs(b.slip_angle_rad);
-  const auto along_angle = [&](double distance) {
-    return std::exp(-squared(distance / scales.slip_angle_rad) / 2);
-  };
-  double angle = along_angle(from - to);
-  if (channel == Channel::kFy) {
-    const double side = side_of(a.slip_angle_rad) * side_of(b.slip_angle_rad);
-    if (side == 0) return 0;
-    angle = side * (angle - along_angle(from + to));
-  }
+                          const Condition& b, Sides sides) {
+  const double angle = along_slip_angle(scales, channel, a.slip_angle_rad, b.slip_angle_rad, sides);
+  if (angle == 0) return 0;
   double d = squared((a.slip_ratio - b.slip_ratio) / scales.slip) +
              squared(std::log(a.load_n / b.load_n) / scales.log_load);
   const WheelConditions& p = a.conditions;

@@ -26,10 +26,15 @@ const std::vector<DiscrepancyScales>& discrepancy_scales();
 /// All settings: no discrepancy first, then every amplitude with every scale.
 const std::vector<DiscrepancySetting>& discrepancy_settings();
 
-/// Squared-exponential kernel of unit variance over slip, |slip angle|, log load, and pass, speed,
-/// position and time where they vary. The side force's part is odd in the slip angle.
+/// Whether what is missing is the same to either side, as of a wheel on level soil; a turned
+/// sensor, a tilt or furrows of the bed make it another.
+enum class Sides { kMirrored, kApart };
+
+/// Squared-exponential kernel of unit variance over slip, slip angle, log load, and pass, speed,
+/// position and time where they vary. Where sides are mirrored the slip angle counts by its size,
+/// and the side force's part is odd in it.
 double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, const Condition& a,
-                          const Condition& b);
+                          const Condition& b, Sides sides = Sides::kMirrored);
 
 /// Covariance of one channel under one setting, factored.
 struct ChannelCovariance {

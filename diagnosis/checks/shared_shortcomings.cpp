@@ -57,36 +57,51 @@ struct Surface {
   Eigen::MatrixXd covariance;
 };
 
-Eigen::MatrixXd kernel_of(const DiscrepancyScales& scales, Channel channel,
+Eigen::MatrixXd kernel_of(const DiscrepancyScales& scales, Channel channel, Sides sides,
                           const std::vector<const Condition*>& a,
                           const std::vector<const Condition*>& b) {
   Eigen::MatrixXd kernel(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t k = 0; k < b.size(); ++k) {
       kernel(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          discrepancy_kernel(scales, channel, *a[i], *b[k]);
+          discrepancy_kernel(scales, channel, *a[i], *b[k], sides);
     }
   }
   return kernel;
 }
 
-/// Every setting of the discrepancy by its likelihood: the mean over them all, and their spread.
+/// Squared error of a point predicted by all others, over what it is told to be: 1 in the mean of a
+/// surface that errs as it says.
+double left_out_misfit(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::VectorXd& residual) {
+  const Eigen::MatrixXd precision =
+      factor.solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
+  const Eigen::VectorXd weighed = precision * residual;
+  return (weighed.array().square() / precision.diagonal().array()).mean();
+}
+
+/// A surface under one setting of the discrepancy.
+struct Member {
+  double log_weight = 0;
+  Surface surface;
+  double left_out_misfit = 1;
+};
+
+/// Every setting of the discrepancy by its likelihood: the mean over them all, and their spread. A
+/// surface that predicts its own points worse than it says errs as much between them.
 Surface surface_through(const Points& points, Channel channel,
                         const std::vector<const Condition*>& wanted, const std::stop_token& stop) {
+  // Level soil is the same to either side, by a law; sensors and beds are nearly always.
+  constexpr double kApart_log_prior = -3;
   const auto n = static_cast<Eigen::Index>(wanted.size());
   Surface sum{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   if (points.at.empty()) {
     return sum;
   }
-  struct Member {
-    double log_likelihood;
-    Surface surface;
-  };
   std::vector<Member> members;
-  for (const DiscrepancyScales& scales : discrepancy_scales()) {
-    const Eigen::MatrixXd kernel = kernel_of(scales, channel, points.at, points.at);
-    const Eigen::MatrixXd cross = kernel_of(scales, channel, wanted, points.at);
-    const Eigen::MatrixXd own = kernel_of(scales, channel, wanted, wanted);
+  const auto add_members = [&](const DiscrepancyScales& scales, Sides sides) {
+    const Eigen::MatrixXd kernel = kernel_of(scales, channel, sides, points.at, points.at);
+    const Eigen::MatrixXd cross = kernel_of(scales, channel, sides, wanted, points.at);
+    const Eigen::MatrixXd own = kernel_of(scales, channel, sides, wanted, wanted);
     for (const double amplitude : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
       throw_if_stopped(stop);
       const double variance = std::pow(amplitude * points.scale, 2);
@@ -94,22 +109,30 @@ Surface surface_through(const Points& points, Channel channel,
       const double fit = factor.matrixL().solve(points.residual).squaredNorm();
       const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
       const Eigen::MatrixXd half = factor.matrixL().solve(variance * cross.transpose());
-      members.push_back({-0.5 * (fit + log_det),
-                         {variance * cross * factor.solve(points.residual),
-                          variance * own - half.transpose() * half}});
+      members.push_back(
+          {.log_weight = -0.5 * (fit + log_det) + (sides == Sides::kApart ? kApart_log_prior : 0.0),
+           .surface = {variance * cross * factor.solve(points.residual),
+                       variance * own - half.transpose() * half},
+           .left_out_misfit = left_out_misfit(factor, points.residual)});
     }
+  };
+  for (const DiscrepancyScales& scales : discrepancy_scales()) {
+    for (const Sides sides : {Sides::kMirrored, Sides::kApart}) add_members(scales, sides);
   }
-  double top = -INFINITY, whole = 0;
-  for (const Member& m : members) top = std::max(top, m.log_likelihood);
-  for (Member& m : members) {
-    m.log_likelihood = std::exp(m.log_likelihood - top);
-    whole += m.log_likelihood;
-  }
-  for (const Member& m : members) sum.mean += m.log_likelihood / whole * m.surface.mean;
+  double top = -INFINITY, whole = 0, misfit = 0;
+  for (const Member& m : members) top = std::max(top, m.log_weight);
+  for (const Member& m : members) whole += std::exp(m.log_weight - top);
   for (const Member& m : members) {
-    const Eigen::VectorXd off = m.surface.mean - sum.mean;
-    sum.covariance += m.log_likelihood / whole * (m.surface.covariance + off * off.transpose());
+    const double weight = std::exp(m.log_weight - top) / whole;
+    sum.mean += weight * m.surface.mean;
+    misfit += weight * m.left_out_misfit;
   }
+  for (const Member& m : members) {
+    const double weight = std::exp(m.log_weight - top) / whole;
+    const Eigen::VectorXd off = m.surface.mean - sum.mean;
+    sum.covariance += weight * (m.surface.covariance + off * off.transpose());
+  }
+  sum.covariance *= std::max(1.0, misfit);
   return sum;
 }
 

@@ -110,6 +110,46 @@ TEST(Difference, OfOneLoadIsOfASensorOrOfATiltedBed) {
   EXPECT_GT(found.claims.front().probability, 0.9);
 }
 
+TEST(Difference, OfWhatATurnedSensorDoesToBothIsNoneWhicheverSideEachWasDriven) {
+  const DiagnosisSetup setup = simulant_setup();
+  std::mt19937_64 random(21);
+  const Soil soil = draw(setup.soil, setup.wheel.width_m, random);
+  BedPlan plan{.slips = {-0.3, 0, 0.2, 0.4},
+               .angles_deg = {-20, -15, -10, -5, 5, 10, 15, 20},
+               .loads_n = {64.7},
+               .conditions = 20,
+               .replicates = 3};
+  plan.instruments = [](WheelRun& run) {
+    auto& values = run.measured;
+    values[static_cast<std::size_t>(Channel::kFx)] +=
+        0.2 * values[static_cast<std::size_t>(Channel::kFy)];
+  };
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Diagnosis found =
+        diagnose_difference(record({}, setup, soil, plan, seed), setup,
+                            {{"reference", record({}, setup, soil, plan, seed + 100), setup}});
+    EXPECT_EQ(found.verdict, Verdict::kConsistent) << found.sentence;
+  }
+}
+
+TEST(Difference, IsNotMadeOfOutliersThatNoReplicateTells) {
+  DiagnosisSetup setup = simulant_setup();
+  setup.noise_standard_deviation = {
+      {Channel::kFx, 1}, {Channel::kFy, 1}, {Channel::kTorque, 0.09}, {Channel::kSinkage, 5e-4}};
+  std::mt19937_64 random(31);
+  const Soil soil = draw(setup.soil, setup.wheel.width_m, random);
+  const BedPlan plan{.replicates = 1, .outliers = 0};
+  const Recording reference = record({}, setup, soil, plan, 31);
+  Recording test = record({}, setup, soil, plan, 32);
+  double& pull_n = test.runs[20].measured[static_cast<std::size_t>(Channel::kFx)];
+  const double as_measured_n = pull_n;
+  for (const double off_n : {-9, 9}) {
+    pull_n = as_measured_n + off_n;
+    const Diagnosis found = diagnose_difference(test, setup, {{"reference", reference, setup}});
+    EXPECT_EQ(found.verdict, Verdict::kConsistent) << found.sentence;
+  }
+}
+
 TEST(Difference, AFurtherPassOfOneSeriesAloneIsNoDifferenceBetweenTwo) {
   // In the rut of the first pass the wheel sinks half as deep: far beyond the noise, on passes that
   // the reference happens not to have driven.
