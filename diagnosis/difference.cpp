@@ -225,20 +225,14 @@ class Differing {
         found_.notes.push_back(fmt::format("{} is not claimed: {}", id, doubt));
       }
     }
-    if (claimed.ids.empty()) {
-      found_.verdict = Verdict::kUnexplained;
-      no_name();
-      return;
-    }
-    const bool leave_nothing = explained(left_by(primary().find(claimed.ids.front())->fit));
-    const std::string doubt = objection_to_class(claimed.ids, leave_nothing);
-    if (!doubt.empty()) {
+    if (!claimed.ids.empty()) {
+      const bool leave_nothing = explained(left_by(primary().find(claimed.ids.front())->fit));
+      const std::string doubt = objection_to_class(claimed.ids, leave_nothing);
+      if (doubt.empty()) return claim(claimed);
       found_.notes.push_back(doubt);
-      found_.verdict = Verdict::kUnexplained;
-      no_name();
-      return;
     }
-    claim(claimed);
+    found_.verdict = Verdict::kUnexplained;
+    no_name();
   }
 
   void claim(const NameClass& claimed) {

@@ -12,14 +12,15 @@ bool is_length(Channel channel) {
 }
 
 ModelledRecording::ModelledRecording(const RecordingFile& file, const DiagnosisSetup& setup)
-    : file_(file), wheel_(setup.wheel) {
-  const WheelModel model({.variant = setup.variant,
-                          .wheel = setup.wheel,
-                          .soil = setup.soil.mean,
-                          .gravity_mps2 = setup.gravity_mps2},
-                         WheelAccuracy::kFast);
+    : file_(file),
+      wheel_(setup.wheel),
+      model_({.variant = setup.variant,
+              .wheel = setup.wheel,
+              .soil = setup.soil.mean,
+              .gravity_mps2 = setup.gravity_mps2},
+             WheelAccuracy::kFast) {
   for (const WheelRun& run : runs()) {
-    at_.push_back(model.channels(run.load_n, motion_at(run.slip_ratio, run.slip_angle_rad)));
+    at_.push_back(model_.channels(run.load_n, motion_at(run.slip_ratio, run.slip_angle_rad)));
   }
 }
 

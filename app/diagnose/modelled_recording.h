@@ -20,6 +20,7 @@ class ModelledRecording {
   const RecordingFile& file() const { return file_; }
   const std::vector<WheelRun>& runs() const { return file_.recording.runs; }
   const Wheel& wheel() const { return wheel_; }
+  const WheelModel& model() const { return model_; }
   const WheelForces& forces(std::size_t run) const { return at_[run].forces; }
   double modelled(std::size_t run, Channel channel) const;
   /// What limits a channel: the load, load times radius, or the radius.
@@ -35,6 +36,7 @@ class ModelledRecording {
  private:
   const RecordingFile& file_;
   const Wheel& wheel_;
+  WheelModel model_;
   std::vector<WheelChannels> at_;
 };
 

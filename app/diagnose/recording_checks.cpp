@@ -66,16 +66,12 @@ class Checks {
  public:
   Checks(const RecordingFile& recording, const DiagnosisSetup& setup)
       : recording_(recording, setup) {
-    const WheelModel model({.variant = setup.variant,
-                            .wheel = setup.wheel,
-                            .soil = setup.soil.mean,
-                            .gravity_mps2 = setup.gravity_mps2},
-                           WheelAccuracy::kFast);
     for (const WheelRun& run : runs()) {
       // What is written in radians and read as degrees is 57 times too small.
       const double as_radians = std::clamp(run.slip_angle_rad / kDegree, -1.5, 1.5);
-      as_radians_.push_back(
-          model.channels(run.load_n, motion_at(run.slip_ratio, as_radians)).forces.fy_n);
+      as_radians_.push_back(recording_.model()
+                                .channels(run.load_n, motion_at(run.slip_ratio, as_radians))
+                                .forces.fy_n);
     }
   }
 

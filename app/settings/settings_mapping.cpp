@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "terramech/basics/nearest_name.h"
@@ -68,16 +69,17 @@ double SettingsMapping::number_or(std::string_view key, const ValueRange& allowe
 }
 
 void SettingsMapping::reject_unread_keys() const {
+  const auto& given = node_.mapping();
+  const auto unread = std::ranges::find_if(
+      given, [&](const SettingsEntry& entry) { return !asked_.contains(entry.key); });
+  if (unread == given.end()) return;
   std::vector<std::string> not_given(asked_.begin(), asked_.end());
-  for (const SettingsEntry& entry : node_.mapping()) std::erase(not_given, entry.key);
-  for (const SettingsEntry& entry : node_.mapping()) {
-    if (asked_.contains(entry.key)) continue;
-    const auto nearest = nearest_name(entry.key, not_given);
-    const std::string hint = nearest ? fmt::format("did you mean {}?", *nearest)
-                                     : fmt::format("known: {}", fmt::join(asked_, ", "));
-    throw SettingsError(fmt::format("{}:{}: {}: unknown key ({})", node_.file(), entry.line,
-                                    entry.value.path(), hint));
-  }
+  for (const SettingsEntry& entry : given) std::erase(not_given, entry.key);
+  const auto nearest = nearest_name(unread->key, not_given);
+  const std::string hint = nearest ? fmt::format("did you mean {}?", *nearest)
+                                   : fmt::format("known: {}", fmt::join(asked_, ", "));
+  throw SettingsError(fmt::format("{}:{}: {}: unknown key ({})", node_.file(), unread->line,
+                                  unread->value.path(), hint));
 }
 
 }  // namespace regoplan

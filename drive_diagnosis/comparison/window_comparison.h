@@ -156,7 +156,9 @@ class WindowComparison {
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;
   void choose_channels();
-  std::vector<double> mean_stds(const std::string& channel) const;
+  std::vector<double> sample_stds(const std::string& channel) const;
+  std::vector<double> mean_stds(const std::string& channel,
+                                const std::vector<double>& of_samples) const;
   void estimate_rim_std();
   void estimate_sampled_std();
   void measure_sizes();
@@ -179,6 +181,7 @@ class WindowComparison {
   std::vector<std::array<double, kMaxWheels>> rim_std_rad_s_;  ///< of the windows' means
   std::vector<bool> soils_driven_;
   std::vector<double> sampled_std_;
+  std::vector<std::vector<double>> sample_stds_;  ///< by channel and drive: torques, attitude
   Eigen::MatrixXd sizes_, more_std_;
   Eigen::MatrixXd measured_, shifts_;
   WindowsUsed used_;

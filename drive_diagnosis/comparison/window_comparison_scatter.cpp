@@ -12,14 +12,21 @@
 
 namespace regoplan {
 
-/// How far windows' means of a channel scatter, by neighbouring samples of their whole drive.
-std::vector<double> WindowComparison::mean_stds(const std::string& name) const {
-  std::vector<double> of_drives, of_windows;
+/// How far samples of a channel scatter, by drive.
+std::vector<double> WindowComparison::sample_stds(const std::string& name) const {
+  std::vector<double> of_drives;
   for (const DriveRecording& drive : drives_) of_drives.push_back(sample_std(drive, name));
+  return of_drives;
+}
+
+/// How far windows' means of a channel scatter, by neighbouring samples of their whole drive.
+std::vector<double> WindowComparison::mean_stds(const std::string& name,
+                                                const std::vector<double>& of_samples) const {
+  std::vector<double> of_windows;
   for (const std::size_t i : windows_of_) {
     const std::size_t drive = windows_[i].drive;
     const int samples = samples_in(drives_[drive], windows_[i], name);
-    of_windows.push_back(samples > 0 ? of_drives[drive] / std::sqrt(samples) : 0);
+    of_windows.push_back(samples > 0 ? of_samples[drive] / std::sqrt(samples) : 0);
   }
   return of_windows;
 }
@@ -27,17 +34,20 @@ std::vector<double> WindowComparison::mean_stds(const std::string& name) const {
 void WindowComparison::estimate_rim_std() {
   rim_std_rad_s_.resize(windows_of_.size());
   for (std::size_t k = 0; k < vehicle_.wheels.size(); ++k) {
-    const std::vector<double> stds =
-        mean_stds(fmt::format("wheel_speed_{}_rad_s", vehicle_.wheels[k].name));
+    const std::string rim = fmt::format("wheel_speed_{}_rad_s", vehicle_.wheels[k].name);
+    const std::vector<double> stds = mean_stds(rim, sample_stds(rim));
     for (std::size_t i = 0; i < stds.size(); ++i) rim_std_rad_s_[i].at(k) = stds[i];
   }
 }
 
 void WindowComparison::estimate_sampled_std() {
   sampled_std_.assign(channels_.size(), 0);
+  sample_stds_.resize(channels_.size());
   for (std::size_t k = 0; k < channels_.size(); ++k) {
     if (!scales(k) && channels_[k] != "pitch_rad" && channels_[k] != "roll_rad") continue;
-    if (!windows_of_.empty()) sampled_std_[k] = median_value(mean_stds(channels_[k]));
+    if (windows_of_.empty()) continue;
+    sample_stds_[k] = sample_stds(channels_[k]);
+    sampled_std_[k] = median_value(mean_stds(channels_[k], sample_stds_[k]));
   }
 }
 
@@ -87,14 +97,11 @@ Eigen::MatrixXd WindowComparison::model_std() const {
   Eigen::MatrixXd stds = kTorqueShare * sizes_;  // of torques alone
   for (std::size_t k = 0; k < channels_.size(); ++k) {
     if (!scales(k)) continue;
-    std::vector<double> of_drives;
-    for (const DriveRecording& drive : drives_)
-      of_drives.push_back(sample_std(drive, channels_[k]));
     for (std::size_t i = 0; i < windows_of_.size(); ++i) {
       const DriveWindow& window = windows_[windows_of_[i]];
       double& std = stds(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k));
-      std = std::hypot(
-          std, step_error(drives_[window.drive], window, channels_[k], of_drives[window.drive]));
+      std = std::hypot(std, step_error(drives_[window.drive], window, channels_[k],
+                                       sample_stds_[k][window.drive]));
     }
   }
   stds.leftCols(2).setConstant(kVelocity_mps);
