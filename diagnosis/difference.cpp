@@ -52,13 +52,6 @@ double probability_of_no_difference(double p) {
   return odds / (1 + odds);
 }
 
-/// Replicates tell outliers from noise; without any these look like a difference.
-NoiseTails tails_of(const CondensedRecording& recording) {
-  const bool replicated = std::ranges::any_of(
-      recording.noise, [](const ChannelNoise& noise) { return noise.degrees_of_freedom > 0; });
-  return replicated ? NoiseTails::kNormal : NoiseTails::kHeavy;
-}
-
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,

@@ -1,6 +1,7 @@
 #include "diagnosis/bed/discrepancy.h"
 
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -12,6 +13,8 @@ namespace {
 double squared(double x) {
   return x * x;
 }
+
+constexpr Sides kSides[] = {Sides::kMirrored, Sides::kApart};
 
 /// Sign of the slip angle; runs straight ahead are straight to within half a degree.
 double side_of(double slip_angle_rad) {
@@ -45,8 +48,14 @@ const std::vector<DiscrepancyScales>& discrepancy_scales() {
 const std::vector<DiscrepancySetting>& discrepancy_settings() {
   static const std::vector<DiscrepancySetting> settings = [] {
     std::vector<DiscrepancySetting> all{{}};
-    for (const double amplitude : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0}) {
-      for (std::size_t k = 0; k < discrepancy_scales().size(); ++k) all.push_back({amplitude, k});
+    constexpr double kLeastApart = 2;
+    for (const Sides sides : kSides) {
+      for (const double amplitude : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0}) {
+        if (sides == Sides::kApart && amplitude < kLeastApart) continue;
+        for (std::size_t k = 0; k < discrepancy_scales().size(); ++k) {
+          all.push_back({amplitude, k, sides});
+        }
+      }
     }
     return all;
   }();
@@ -68,6 +77,25 @@ double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, cons
   return angle * std::exp(-d / 2);
 }
 
+namespace {
+
+Eigen::MatrixXd kernel_of(const TestBed& bed, const ChannelData& data,
+                          const DiscrepancyScales& scales, Sides sides) {
+  const auto at = [&](Eigen::Index i) -> const Condition& {
+    return bed.conditions[data.conditions[static_cast<std::size_t>(i)]];
+  };
+  const Eigen::Index n = data.mean.size();
+  Eigen::MatrixXd kernel(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index k = 0; k < n; ++k) {
+      kernel(i, k) = discrepancy_kernel(scales, data.channel, at(i), at(k), sides);
+    }
+  }
+  return kernel;
+}
+
+}  // namespace
+
 struct Discrepancy::OfChannel {
   struct Made {
     std::once_flag once;
@@ -75,25 +103,19 @@ struct Discrepancy::OfChannel {
   };
   double scale = 0;
   Eigen::MatrixXd noise;
-  std::vector<Eigen::MatrixXd> kernels;  // one for each of the scales
+  std::map<Sides, std::vector<Eigen::MatrixXd>> kernels;  // one for each of the scales
   std::vector<Made> made{discrepancy_settings().size()};
 };
 
 Discrepancy::Discrepancy(const TestBed& bed) {
   for (const ChannelData& data : bed.channels) {
     throw_if_stopped(bed.stop);
-    const Eigen::Index n = data.mean.size();
     auto of_channel = std::make_shared<OfChannel>();
     of_channel->scale = data.scale;
     of_channel->noise = data.noise;
-    for (const DiscrepancyScales& scales : discrepancy_scales()) {
-      Eigen::MatrixXd& kernel = of_channel->kernels.emplace_back(n, n);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        for (Eigen::Index k = 0; k < n; ++k) {
-          kernel(i, k) = discrepancy_kernel(
-              scales, data.channel, bed.conditions[data.conditions[static_cast<std::size_t>(i)]],
-              bed.conditions[data.conditions[static_cast<std::size_t>(k)]]);
-        }
+    for (const Sides sides : kSides) {
+      for (const DiscrepancyScales& scales : discrepancy_scales()) {
+        of_channel->kernels[sides].push_back(kernel_of(bed, data, scales, sides));
       }
     }
     channels_.push_back(std::move(of_channel));
@@ -108,7 +130,8 @@ const ChannelCovariance& Discrepancy::at(std::size_t channel, std::size_t settin
     ChannelCovariance& at = made.covariance;
     Eigen::MatrixXd whole = of_channel.noise;
     if (with.amplitude > 0) {
-      at.discrepancy = squared(with.amplitude * of_channel.scale) * of_channel.kernels[with.scales];
+      at.discrepancy = squared(with.amplitude * of_channel.scale) *
+                       of_channel.kernels.at(with.sides)[with.scales];
       whole += at.discrepancy;
     }
     at.factor.compute(whole);

@@ -15,20 +15,26 @@ struct DiscrepancyScales {
   double log_load = 0.8;
 };
 
+/// Whether what is missing is the same to either side, as of a wheel on level soil; a turned
+/// sensor, a tilt or furrows of the bed make it another.
+enum class Sides { kMirrored, kApart };
+
 /// One setting of the discrepancy of a channel.
 struct DiscrepancySetting {
   double amplitude = 0;    ///< standard deviation in units of one run's noise
   std::size_t scales = 0;  ///< index into discrepancy_scales()
+  Sides sides = Sides::kMirrored;
 };
 
 const std::vector<DiscrepancyScales>& discrepancy_scales();
 
-/// All settings: no discrepancy first, then every amplitude with every scale.
-const std::vector<DiscrepancySetting>& discrepancy_settings();
+/// Log prior of sides apart over the same mirrored: on level soil they are mirrored by a law, and
+/// sensors and beds nearly always are level and straight.
+inline constexpr double kApart_log_prior = -3;
 
-/// Whether what is missing is the same to either side, as of a wheel on level soil; a turned
-/// sensor, a tilt or furrows of the bed make it another.
-enum class Sides { kMirrored, kApart };
+/// All settings: no discrepancy first, then every amplitude with every scale, sides mirrored, and
+/// last those of a run's noise twice and more with sides apart.
+const std::vector<DiscrepancySetting>& discrepancy_settings();
 
 /// Squared-exponential kernel of unit variance over slip, slip angle, log load, and pass, speed,
 /// position and time where they vary. Where sides are mirrored the slip angle counts by its size,

@@ -116,6 +116,12 @@ class WhitenedFit {
 
 }  // namespace
 
+NoiseTails tails_of(const CondensedRecording& recording) {
+  const bool replicated = std::ranges::any_of(
+      recording.noise, [](const ChannelNoise& noise) { return noise.degrees_of_freedom > 0; });
+  return replicated ? NoiseTails::kNormal : NoiseTails::kHeavy;
+}
+
 LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
                       std::uint64_t seed, double significance, NoiseTails tails) {
   constexpr int kDraws = 2000;

@@ -22,6 +22,9 @@ enum class NoiseTails {
   kHeavy,  ///< a run as Student's t with 5 degrees of freedom: sensors and beds have outliers
 };
 
+/// Replicates tell outliers from noise; without any these look like a difference.
+NoiseTails tails_of(const CondensedRecording& recording);
+
 /// Lack of fit against pure error. The misfit (priors counted as data) of all channels together and
 /// of each channel is compared with what noise alone makes of it in 2000 seeded draws, in which
 /// the noise is known no better than from its degrees of freedom and channels scatter together as

@@ -90,8 +90,6 @@ struct Member {
 /// surface that predicts its own points worse than it says errs as much between them.
 Surface surface_through(const Points& points, Channel channel,
                         const std::vector<const Condition*>& wanted, const std::stop_token& stop) {
-  // Level soil is the same to either side, by a law; sensors and beds are nearly always.
-  constexpr double kApart_log_prior = -3;
   const auto n = static_cast<Eigen::Index>(wanted.size());
   Surface sum{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   if (points.at.empty()) {

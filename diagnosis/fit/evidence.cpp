@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "diagnosis/bed/whitening.h"
@@ -12,16 +13,23 @@
 namespace regoplan {
 namespace {
 
+/// \param of_amplitude weights of no discrepancy, then of each amplitude in their order
 SettingWeights weights_of(const std::vector<double>& of_amplitude) {
   const auto& settings = discrepancy_settings();
   const double scales = static_cast<double>(discrepancy_scales().size());
-  SettingWeights weights;
+  std::map<double, double> weight;
   double sum = 0;
-  for (const double w : of_amplitude) sum += w;
-  for (std::size_t i = 0; i < settings.size(); ++i) {
-    const std::size_t amplitude = i == 0 ? 0 : 1 + (i - 1) / discrepancy_scales().size();
-    const double w = of_amplitude[amplitude] / sum / (i == 0 ? 1 : scales);
-    weights.log_weight.push_back(w > 0 ? std::log(w) : -1e300);
+  auto next = of_amplitude.begin();
+  for (const DiscrepancySetting& setting : settings) {
+    if (weight.contains(setting.amplitude)) continue;
+    weight[setting.amplitude] = *next / (setting.amplitude > 0 ? scales : 1);
+    sum += *next++;
+  }
+  SettingWeights weights;
+  for (const DiscrepancySetting& setting : settings) {
+    const double w = weight.at(setting.amplitude) / sum;
+    const double sides = setting.sides == Sides::kApart ? kApart_log_prior : 0;
+    weights.log_weight.push_back(w > 0 ? std::log(w) + sides : -1e300);
   }
   return weights;
 }

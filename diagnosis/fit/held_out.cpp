@@ -62,7 +62,8 @@ void add_remainder(const TestBed& bed, const TestBed& rest, const Discrepancy& d
         cross(i, k) = variance * discrepancy_kernel(
                                      scales, all.channel,
                                      bed.conditions[all.conditions[static_cast<std::size_t>(i)]],
-                                     rest.conditions[seen.conditions[static_cast<std::size_t>(k)]]);
+                                     rest.conditions[seen.conditions[static_cast<std::size_t>(k)]],
+                                     setting.sides);
       }
     }
     const auto& factor = discrepancy.at(c, settings[c]).factor;

@@ -34,6 +34,7 @@ std::vector<std::size_t> remainder_settings(const FitProblem& problem, const Can
       throw_if_stopped(bed.stop);
       for (std::size_t k = 0; k < discrepancy_settings().size(); ++k) {
         const DiscrepancySetting& setting = discrepancy_settings()[k];
+        if (setting.sides == Sides::kApart) continue;
         if (setting.amplitude > 0 && setting.scales != scales) continue;
         const ChannelCovariance& covariance = problem.discrepancy.at(c, k);
         const double score = -0.5 * (covariance.factor.matrixL().solve(part).squaredNorm() +

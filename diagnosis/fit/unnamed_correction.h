@@ -6,7 +6,7 @@
 namespace regoplan {
 
 /// Settings of a discrepancy that describe what a fit leaves: the same scales in every channel, and
-/// per channel the likeliest amplitude.
+/// per channel the likeliest amplitude. Sides are mirrored: what is handed on is for level soil.
 std::vector<std::size_t> remainder_settings(const FitProblem& problem, const CandidateFit& fit);
 
 /// The mean of that discrepancy as a sum of bumps, one a condition.

@@ -204,7 +204,8 @@ std::string NameContest::doubt_about(const CandidateFit& fit) const {
   if (!is_known_exactly(fit)) return doubt_about_fault(fit);
   const CandidateFit alone = fitted_alone(calibrated_, fit);
   const LackOfFit left =
-      lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(alone), seed_);
+      lack_of_fit(calibrated_.recording(), calibrated_.remainder_of(alone), seed_,
+                  Thresholds::kLackOfFit_p, tails_of(calibrated_.recording()));
   if (left.f > left.critical) {
     return fmt::format("what it does is known exactly, and leaves a lack of fit (p = {:.2g})",
                        left.p_value);
@@ -226,7 +227,8 @@ std::string NameContest::doubt_about_fault(const CandidateFit& fit) const {
   const std::vector<std::size_t> remainder = remainder_settings(calibrated_.problem(), fit);
   const Correction correction =
       correction_by(calibrated_, fit, remainder, proof_of(fit, remainder), threads_);
-  const LackOfFit left = lack_of_fit(calibrated_.recording(), correction.remainder, seed_);
+  const LackOfFit left = lack_of_fit(calibrated_.recording(), correction.remainder, seed_,
+                                     Thresholds::kBeyondDoubt_p, tails_of(calibrated_.recording()));
   if (left.p_value >= Thresholds::kBeyondDoubt_p) return "";
   return fmt::format(
       "it blames an instrument, and a remainder beside it leaves a lack of fit "

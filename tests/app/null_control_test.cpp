@@ -56,7 +56,8 @@ Eigen::MatrixXd covariance_of(const TestBed& bed, const ChannelData& data,
           deviation * deviation *
           discrepancy_kernel(discrepancy_scales()[setting.scales], Channel::kFx,
                              bed.conditions[data.conditions[static_cast<std::size_t>(i)]],
-                             bed.conditions[data.conditions[static_cast<std::size_t>(k)]]);
+                             bed.conditions[data.conditions[static_cast<std::size_t>(k)]],
+                             setting.sides);
     }
   }
   return whole;

@@ -138,6 +138,13 @@ TEST(LackOfFit, IsLikelierByNoiseWithHeavyTails) {
   EXPECT_GT(p_of(NoiseTails::kHeavy), 2 * p_of(NoiseTails::kNormal));
 }
 
+TEST(NoiseTails, AreHeavyWhereNoReplicatesTellOutliers) {
+  BedPlan once;
+  once.replicates = 1;
+  EXPECT_EQ(tails_of(condense(recorded({}, 4), simulant_setup())), NoiseTails::kNormal);
+  EXPECT_EQ(tails_of(condense(recorded({}, 4, once), simulant_setup())), NoiseTails::kHeavy);
+}
+
 TEST(LackOfFit, IsTheSameForTheSameSeed) {
   const Calibrated made = calibrated({}, 4);
   EXPECT_EQ(lack_of_fit(made.recording, made.remainder, 9).critical,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -91,6 +92,31 @@ TEST(Discrepancy, OfTheSideForceIsOddAndVanishesStraightAhead) {
   EXPECT_LT(discrepancy_kernel(scales, Channel::kFy, left, right), 0);
   EXPECT_EQ(discrepancy_kernel(scales, Channel::kFy, left, straight), 0);
   EXPECT_EQ(discrepancy_kernel(scales, Channel::kFx, left, right), 1);
+}
+
+/// The sides of the likeliest discrepancy of a side force that a cosine or a sine of the slip angle
+/// is missing of.
+Sides sides_of_missing(double (*missing)(double)) {
+  TestBed bed = small_bed(28);
+  bed.channels.erase(bed.channels.begin());
+  ChannelData& side_force = bed.channels.front();
+  for (std::size_t k = 0; k < bed.conditions.size(); ++k) {
+    bed.conditions[k].slip_angle_rad = 0.05 * (static_cast<double>(k % 8) - 3.5);
+    side_force.mean[static_cast<Eigen::Index>(k)] +=
+        20 * missing(5 * bed.conditions[k].slip_angle_rad);
+  }
+  const Linearised nothing{.residual = bed.measured(), .jacobian = Eigen::MatrixXd(bed.size(), 0)};
+  const Evidence evidence =
+      evidence_of(bed, Discrepancy(bed), nothing, Eigen::MatrixXd(bed.size(), 0),
+                  SettingWeights::of_unexplained());
+  return discrepancy_settings()[evidence.settings.front()].sides;
+}
+
+/// No level soil pushes a wheel to one side whichever way it slips: what does is no smooth physics
+/// of the wheel alone, and a name needs to be better than that.
+TEST(Evidence, HasTheSidesApartWhereTheBedPushesToOneSide) {
+  EXPECT_EQ(sides_of_missing(std::cos), Sides::kApart);
+  EXPECT_EQ(sides_of_missing(std::sin), Sides::kMirrored);
 }
 
 }  // namespace
