@@ -44,6 +44,22 @@ double VehicleDynamics::Stage::follow(const BodyForce& force, double lag) {
   return change_n;
 }
 
+/// Where a vehicle settles faster than a step, the second stage sets out from far beyond what it
+/// settles to, and forces must bring it back. Where they saturate, as those of a sliding wheel do,
+/// they do not within the step, and it would end in a slide that never was.
+bool VehicleDynamics::overshoots(const Eigen::Vector3d& start, const Stage& first,
+                                 const Stage& second) const {
+  const double arm_m = std::sqrt(vehicle_.yaw_inertia_kgm2 / vehicle_.mass_kg);
+  const Eigen::Vector3d in_mps{1, 1, arm_m};
+  const auto of = [&](const Eigen::Vector3d& change) -> Eigen::Vector3d {
+    return change.cwiseProduct(in_mps);
+  };
+  const bool pushed_back = of(first.velocity - start).dot(of(second.velocity - second.base)) < 0;
+  const double speed_mps =
+      std::max({of(start).norm(), std::abs(second.setting.rim_speed), kStandstillSpeed_mps});
+  return pushed_back && of(second.velocity - first.velocity).norm() > kBeyondShare * speed_mps;
+}
+
 bool VehicleDynamics::solve_stage(Stage& stage) const {
   const PatchAxes axes(stage.patch, gravity_mps2_);
   const double m = vehicle_.mass_kg, inertia = vehicle_.yaw_inertia_kgm2;
@@ -112,16 +128,18 @@ bool VehicleDynamics::solve_stage(Stage& stage) const {
   return false;
 }
 
-StepResult VehicleDynamics::implicit_step(const VehicleState& state, const VehicleControl& control,
-                                          double duration_s) const {
+VehicleDynamics::TriedStep VehicleDynamics::implicit_step(const VehicleState& state,
+                                                          const VehicleControl& control,
+                                                          double duration_s) const {
   const double h = duration_s;
-  StepResult result{.state = state, .strain = {}};
+  TriedStep tried{.result = {.state = state, .strain = {}}};
+  StepResult& result = tried.result;
   const Eigen::Vector3d pose{state.x_m, state.y_m, state.yaw_rad};
   const Eigen::Vector3d velocity = vector_of(state.motion);
   const GroundPatch here = ground_(pose[0], pose[1], pose[2]);
   if (!here.known) {
     result.on_known_ground = false;
-    return result;
+    return tried;
   }
 
   std::optional<Eigen::Matrix3d> newton;
@@ -164,7 +182,7 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   const Stage first =
       run_stage(kGamma * h, velocity, state.transfer_forward_n, state.transfer_left_n,
                 guess_at(kGamma * h), pose + kGamma * h * drift_here);
-  if (!result.converged) return result;
+  if (!result.converged) return tried;
   const Eigen::Vector3d pose_first = pose + kGamma * h * drift_here;
   const Eigen::Vector3d drift_first =
       Drift(PatchAxes(first.patch, gravity_mps2_), pose_first[2])(first.velocity);
@@ -178,7 +196,7 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   const Eigen::Vector3d pose_end_predicted = pose + h * drift_first;
   Stage second = run_stage(h, base, forward_base, left_base, base + kGamma * h * first.acceleration,
                            pose_end_predicted);
-  if (!result.converged) return result;
+  if (!result.converged) return tried;
   const BodyMotion motion_end = motion_of(second.velocity);
   const GroundReaction reaction_end =
       reaction(second.patch, PatchAxes(second.patch, gravity_mps2_), second.velocity[0],
@@ -197,7 +215,8 @@ StepResult VehicleDynamics::implicit_step(const VehicleState& state, const Vehic
   result.strain = wheels_.strain(second.sums, motion_end, second.setting, reaction_end);
   result.drive_energy_j =
       h * ((1 - kGamma) * first.sums.drive_power_w + kGamma * second.sums.drive_power_w);
-  return result;
+  tried.overshoots = overshoots(velocity, first, second);
+  return tried;
 }
 
 }  // namespace regoplan

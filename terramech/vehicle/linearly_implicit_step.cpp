@@ -42,11 +42,12 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
   if (!first.smooth) return std::nullopt;
 
   const double gh = kGamma * h;
-  const Eigen::Matrix3d solve =
-      (Eigen::Matrix3d::Identity() - gh * jacobian_of(first.slopes, per_force, v)).inverse();
-  const Eigen::Vector3d faster = kGamma * per_force.cwiseProduct(first.by_setting);
-  const Eigen::Vector3d k1 =
-      solve * (acceleration_of(first.sums.force, axes, per_force, v) + faster);
+  const Eigen::Matrix3d jacobian = jacobian_of(first.slopes, per_force, v);
+  const Eigen::Matrix3d solve = (Eigen::Matrix3d::Identity() - gh * jacobian).inverse();
+  const Eigen::Vector3d by_setting = per_force.cwiseProduct(first.by_setting);
+  const Eigen::Vector3d faster = kGamma * by_setting;
+  const Eigen::Vector3d f1 = acceleration_of(first.sums.force, axes, per_force, v);
+  const Eigen::Vector3d k1 = solve * (f1 + faster);
 
   // Load transfer, d transfer/dt = (force - transfer)/time.
   const double per_time = 1 / kTransferTime_s, lag = 1 / (1 + gh * per_time);
@@ -74,15 +75,21 @@ std::optional<StepResult> VehicleDynamics::linearly_implicit_step(const VehicleS
   const GroundReaction reaction2 = reaction(there, axes2, v2[0], transfer2[0], transfer2[1]);
   const WheelSums second = wheels_.sums(motion_of(v2), setting_end, there, reaction2);
   if (!second.as_commanded) return std::nullopt;
-  const Eigen::Vector3d k2 =
-      solve * (acceleration_of(second.force, axes2, per_force, v2) - 2 * k1 - faster);
+  const Eigen::Vector3d f2 = acceleration_of(second.force, axes2, per_force, v2);
+  const Eigen::Vector3d k2 = solve * (f2 - 2 * k1 - faster);
 
-  // The method of first order, y0 + h k1, differs by this.
-  const Eigen::Vector3d error = h / 2 * (k1 + k2);
-  const double error2_mps2 =
-      error[0] * error[0] + error[1] * error[1] + error[2] * error[2] * inertia / m;
-  const double speed_mps = std::abs(end.rim_speed_mps);
-  if (!(error2_mps2 <= kSmoothShare * kSmoothShare * speed_mps * speed_mps)) return std::nullopt;
+  const auto is_below = [&](double share, const Eigen::Vector3d& error) {
+    const double error2_mps2 =
+        error[0] * error[0] + error[1] * error[1] + error[2] * error[2] * inertia / m;
+    const double least_mps = share * std::abs(end.rim_speed_mps);
+    return error2_mps2 <= least_mps * least_mps;
+  };
+  // The method of first order, y0 + h k1, differs by the first. Where a vehicle settles faster than
+  // the step, both may end in a slide that never was: y0 + h k1 lies far beyond what it settles to,
+  // and forces that saturate there do not bring it back as the linear ones would, by the second.
+  if (!is_below(kSmoothShare, h / 2 * (k1 + k2))) return std::nullopt;
+  const Eigen::Vector3d saturated = f1 + by_setting + h * jacobian * k1 - f2;
+  if (!is_below(kBeyondShare, h * (solve * saturated))) return std::nullopt;
 
   const Eigen::Vector2d transfer_k2 = lag * (per_time * (force_of(second.force) - transfer2) -
                                              2 * transfer_k1 + by_velocity(k2) - stronger);

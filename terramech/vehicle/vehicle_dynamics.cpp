@@ -69,20 +69,22 @@ GroundReaction VehicleDynamics::reaction(const GroundPatch& patch, const PatchAx
           .left_n = transfer_left_n};
 }
 
-StepResult VehicleDynamics::try_step(const VehicleState& state, const VehicleControl& control,
-                                     double duration_s) const {
-  if (const auto result = linearly_implicit_step(state, control, duration_s)) return *result;
+VehicleDynamics::TriedStep VehicleDynamics::try_step(const VehicleState& state,
+                                                     const VehicleControl& control,
+                                                     double duration_s) const {
+  if (const auto result = linearly_implicit_step(state, control, duration_s)) return {*result};
   return implicit_step(state, control, duration_s);
 }
 
 StepResult VehicleDynamics::step(const VehicleState& state, const VehicleControl& control,
                                  double duration_s) const {
-  StepResult whole = try_step(state, control, duration_s);
-  if (whole.converged || !whole.on_known_ground) return whole;
+  TriedStep whole = try_step(state, control, duration_s);
+  StepResult& result = whole.result;
+  if ((result.converged && !whole.overshoots) || !result.on_known_ground) return result;
   constexpr double kShortest_s = 1e-4;
   if (duration_s / 2 < kShortest_s) {
-    whole.state = state;
-    return whole;
+    if (!result.converged) result.state = state;
+    return result;
   }
   const StepResult first = step(state, control, duration_s / 2);
   if (!first.converged || !first.on_known_ground) return first;

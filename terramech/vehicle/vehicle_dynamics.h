@@ -106,8 +106,14 @@ class VehicleDynamics {
  private:
   struct Commands;
   struct Stage;
+  struct TriedStep {
+    StepResult result;
+    bool overshoots = false;  ///< its extrapolated stage passed what the vehicle settles to
+  };
   /// Of the commanded speed: how far the linearly implicit step may be from one of first order.
   static constexpr double kSmoothShare = 0.05;
+  /// Of the speed: how far a step may end beyond what the vehicle settles to faster than the step.
+  static constexpr double kBeyondShare = 0.02;
 
   Commands commands_after(const VehicleState& state, const VehicleControl& control,
                           double duration_s) const;
@@ -118,10 +124,11 @@ class VehicleDynamics {
                                                    const VehicleControl& control,
                                                    double duration_s) const;
   bool solve_stage(Stage& stage) const;
-  StepResult implicit_step(const VehicleState& state, const VehicleControl& control,
-                           double duration_s) const;
-  StepResult try_step(const VehicleState& state, const VehicleControl& control,
-                      double duration_s) const;
+  bool overshoots(const Eigen::Vector3d& start, const Stage& first, const Stage& second) const;
+  TriedStep implicit_step(const VehicleState& state, const VehicleControl& control,
+                          double duration_s) const;
+  TriedStep try_step(const VehicleState& state, const VehicleControl& control,
+                     double duration_s) const;
 
   const Vehicle& vehicle_;
   VehicleWheels wheels_;

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "terramech/basics/angles.h"
 #include "tests/terramech/driving.h"
 
 namespace regoplan {
@@ -46,6 +48,36 @@ TEST(VehicleSteps, HoldsLongStepsAtCreepingSpeed) {
         EXPECT_NEAR(coarse.x_m, fine.x_m, 0.01 * 60 * speed) << name << speed << ' ' << step_s;
         EXPECT_NEAR(coarse.y_m, fine.y_m, 0.01 * 60 * speed) << name << speed << ' ' << step_s;
         EXPECT_NEAR(coarse.yaw_rad, fine.yaw_rad, 0.01) << name << speed << ' ' << step_s;
+      }
+    }
+  }
+}
+
+/// Largest slip angle of a wheel of a vehicle that is set rolling straight along a side slope.
+double largest_slip_angle_rad(const Driving& rover, double speed_mps, double step_s) {
+  VehicleState state = rover.dynamics.rolling_state(0, 0, 0, speed_mps);
+  double largest_rad = 0;
+  for (int i = 0; i < std::lround(2 / step_s); ++i) {
+    const StepResult result = rover.drive(state, {speed_mps, 0}, step_s, step_s);
+    largest_rad = std::max(largest_rad, std::abs(result.strain.slip_angle_rad));
+    state = result.state;
+  }
+  return largest_rad;
+}
+
+/// Slow vehicles take up their slip angle in milliseconds. A step that is longer ends near what
+/// they settle to: extrapolated beyond it, forces that saturate would not bring them back.
+TEST(VehicleSteps, SlidesNoFartherInLongStepsThanInShortOnes) {
+  for (const std::string& name : preset_vehicle_names()) {
+    for (const double slope_deg : {10.0, 18.0}) {
+      const Driving rover(name, Plane{0, std::tan(slope_deg * kDegree)});
+      for (const double speed_mps : {0.01, 0.04, 0.2, 1.0}) {
+        if (speed_mps > rover.on.vehicle.speed_max_mps) continue;
+        const double fine_rad = largest_slip_angle_rad(rover, speed_mps, 0.002);
+        for (const double step_s : {0.02, 0.05, 0.1, 0.25}) {
+          EXPECT_LT(largest_slip_angle_rad(rover, speed_mps, step_s), fine_rad + 0.02)
+              << name << ", " << slope_deg << " deg, " << speed_mps << " m/s, " << step_s << " s";
+        }
       }
     }
   }
