@@ -49,6 +49,25 @@ TEST_F(PathTracking, KeepsNearABendAndStraysTheMoreTheFasterItIs) {
   EXPECT_GT(fast.deviation_max_m, slow.deviation_max_m);
 }
 
+/// Where a path ends at rest its side slope is what it was: so are heading and steering.
+TEST_F(PathTracking, ArrivesAtRestOnASideSlopeHeadedAsItWentAlongIt) {
+  const PlanningProblem tilted =
+      lrv_problem(one_soil_map(60, firm_regolith(), [](double, double y_m) { return 0.25 * y_m; }));
+  const World world(tilted, WorldUse::kVerdict, 1);
+  PathCurve curve({{10, 25}, {45, 25}});
+  SpeedProfile speed({{0, 0}, {5, 1}, {30, 1}, {curve.length_m(), 0}});
+  for (const bool reverse : {false, true}) {
+    const ReferencePath along{.name = "path",
+                              .legs = {{.curve = curve, .speed = speed, .reverse = reverse}}};
+    const TrackingRun run = track(world, along, {.kind = FollowerKind::kCompensated}, 1);
+    ASSERT_EQ(run.end, TrackingEnd::kArrived);
+    const VehicleState& middle = run.moments[run.moments.size() / 2].state;
+    EXPECT_NEAR(run.last.state.yaw_rad, middle.yaw_rad, 0.01) << reverse;
+    EXPECT_NEAR(run.last.state.curvature_1pm, middle.curvature_1pm, 0.01) << reverse;
+    EXPECT_GT(std::abs(std::sin(middle.yaw_rad)), 0.03) << "it crabs by its slip angle";
+  }
+}
+
 TEST_F(PathTracking, IsTheSameToBothSides) {
   std::vector<PathPoint> right = bend(20);
   for (PathPoint& point : right) point.y_m = 50 - point.y_m;
