@@ -2,6 +2,7 @@
 # configuration, the program with what it shares, and makes a Debian package of them (cpack -G DEB).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+include(${CMAKE_CURRENT_LIST_DIR}/shared_files.cmake)
 
 # public_headers(variable header): the header and all of ours that it includes, from the source root.
 function(public_headers variable header)
@@ -53,10 +54,7 @@ install(FILES ${PROJECT_BINARY_DIR}/regoplanConfig.cmake
         DESTINATION ${package_folder})
 
 if(REGOPLAN_PROGRAM)
-  install(FILES ${PROJECT_SOURCE_DIR}/scenarios/demo/soils.yaml
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/regoplan/scenarios/demo)
-  install(FILES ${PROJECT_SOURCE_DIR}/examples/scenario.yaml
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/regoplan/examples)
+  install_shared_files(${CMAKE_INSTALL_DATADIR}/regoplan)
   # What the program says of itself: completion for two shells and, with help2man, manual pages.
   set(bash_completion ${PROJECT_BINARY_DIR}/completion/regoplan)
   set(zsh_completion ${PROJECT_BINARY_DIR}/completion/_regoplan)

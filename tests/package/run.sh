@@ -77,6 +77,14 @@ program)
   cd "$folder/elsewhere"
   "$folder/prefix/bin/regoplan" map make --out map --seed 3 --quiet
   "$folder/prefix/bin/regoplan" map info map/scenario.yaml
+  # What it reads of its own is installed too: it looks nowhere else.
+  "$folder/prefix/bin/regoplan" scenario >scenario.yaml
+  "$folder/prefix/bin/regoplan" soil firm_regolith >soils.yaml
+  "$folder/prefix/bin/regoplan" plan scenario.yaml --planner Lattice --iterations 600 --candidates 1 --quiet --out plan
+  for sensors in A B; do
+    "$folder/prefix/bin/regoplan" drive scenario.yaml plan/candidate-1.csv --sensors $sensors --quiet --out drive-$sensors
+    test -s drive-$sensors/drive.csv
+  done
   ;;
 deb)
   (cd "$build" && cpack -G DEB -B "$folder" >"$folder/cpack.log") || { cat "$folder/cpack.log"; exit 1; }
