@@ -143,7 +143,7 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
   }
   result.silent.push_back(
       {{"slip_sinkage", "grousers", "lateral_digging", "rear_contact", "max_stress_angle",
-        "front_bulldozing", "side_pileup", "skid_branch", "sidewall_shear", "slip drift"},
+        "front_bulldozing", "side_pileup", "skid_branch", "sidewall_shear"},
        "at the slips driven these change what is measured by less than 4 standard deviations",
        "100 s with the wheels of one axle slowed to 0.9-0.35 of their speed, and a steeper climb "
        "(up to 23 deg), with sinkage recorded"});

@@ -74,6 +74,11 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
                               s + "' --out '" + out + "'");
   ASSERT_EQ(said.status, 0) << said.errors;
   EXPECT_EQ(schema("drive-diagnosis").errors(diagnosis()), std::vector<std::string>());
+  for (const nlohmann::json& silent : diagnosis()["not_shown"]) {
+    for (const std::string id : silent["ids"]) {
+      EXPECT_EQ(run("mechanisms " + id).status, 0) << id << ": no name that `mechanisms` knows";
+    }
+  }
   const nlohmann::json zones = diagnosis()["zones"];
   ASSERT_EQ(zones.size(), 1u) << diagnosis()["mechanisms"];
   EXPECT_EQ(zones[0]["map_soil"], "firm_regolith");
