@@ -23,7 +23,7 @@ std::vector<Command> add_commands(CLI::App& program) {
   commands.push_back(add_export_command(program));
   commands.push_back(add_compare_command(program));
   commands.push_back(add_completion_command(program));
-  add_help_examples(program, commands);
+  add_help_examples(program);
   program.footer("`./regoplan test` builds and runs the tests.\n" + program.get_footer());
   return commands;
 }

@@ -23,6 +23,9 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
      {"benchmark",
       {"regoplan benchmark suite.yaml --out part-1 --shard 1/4",
        "regoplan benchmark merge part-1 part-2 --out whole"}},
+     {"benchmark merge",
+      {"regoplan benchmark merge part-1 part-2 --out whole",
+       "regoplan benchmark merge part-1 part-2 part-3 --out whole --quiet"}},
      {"diagnose",
       {"regoplan diagnose recording.csv --setup setup.yaml --out result",
        "regoplan diagnose test.csv --reference before.csv --setup setup.yaml --out result"}},
@@ -30,6 +33,7 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
       {"regoplan wheel conditions.csv --model model.yaml --out forces.csv",
        "regoplan wheel --figures figures"}},
      {"mechanisms", {"regoplan mechanisms slip_sinkage", "regoplan mechanisms --json"}},
+     {"map", {"regoplan map make --out my-map", "regoplan map info my-map/scenario.yaml"}},
      {"map make",
       {"regoplan map make --out my-map", "regoplan map make --width-m 300 --seed 3 --out my-map"}},
      {"map import",
@@ -49,25 +53,33 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
       {"regoplan completion bash > ~/.local/share/bash-completion/completions/regoplan",
        "regoplan completion zsh > ~/.zfunc/_regoplan"}}});
 
-/// `map make` of the command `make` of the command `map` of the program.
-std::string name_of(const CLI::App& program, const CLI::App& command) {
-  const CLI::App* house = command.get_parent();
-  return house == nullptr || house == &program ? command.get_name()
-                                               : house->get_name() + " " + command.get_name();
+}  // namespace
+
+std::vector<CLI::App*> commands_of(CLI::App& program) {
+  std::vector<CLI::App*> commands;
+  for (CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(command);
+    for (CLI::App* its : commands_of(*command)) commands.push_back(its);
+  }
+  return commands;
 }
 
-}  // namespace
+std::string name_of(const CLI::App& command) {
+  const CLI::App* house = command.get_parent();
+  return house == nullptr || house->get_parent() == nullptr
+             ? command.get_name()
+             : house->get_name() + " " + command.get_name();
+}
 
 const HelpExamples* help_examples(std::string_view command) {
   const auto found = std::ranges::find(kExamples, command, &HelpExamples::command);
   return found == kExamples.end() ? nullptr : &*found;
 }
 
-void add_help_examples(const CLI::App& program, const std::vector<Command>& commands) {
-  for (const Command& command : commands) {
-    if (const HelpExamples* examples = help_examples(name_of(program, *command.parser))) {
-      command.parser->footer(
-          fmt::format("Examples:\n  {}\n  {}", examples->lines[0], examples->lines[1]));
+void add_help_examples(CLI::App& program) {
+  for (CLI::App* command : commands_of(program)) {
+    if (const HelpExamples* examples = help_examples(name_of(*command))) {
+      command->footer(fmt::format("Examples:\n  {}\n  {}", examples->lines[0], examples->lines[1]));
     }
   }
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/command/command.h"
 
@@ -13,10 +15,16 @@ struct HelpExamples {
   std::array<std::string_view, 2> lines;
 };
 
+/// The commands of a program, and theirs: `map` and `map make`.
+std::vector<CLI::App*> commands_of(CLI::App& program);
+
+/// `map make` of the command `make` of the command `map`.
+std::string name_of(const CLI::App& command);
+
 /// \returns nothing of a command that has none
 const HelpExamples* help_examples(std::string_view command);
 
-/// Ends the help of each command with its examples. \param program that they belong to
-void add_help_examples(const CLI::App& program, const std::vector<Command>& commands);
+/// Ends the help of each command of the program, and of each that one has, with its examples.
+void add_help_examples(CLI::App& program);
 
 }  // namespace regoplan

@@ -26,22 +26,27 @@ void add_improve_flags(CLI::App& parser, ScenarioOverrides& overrides) {
       ->excludes(improve);
 }
 
+template <class Value>
+std::string else_as(std::string_view help, const Value& value) {
+  return fmt::format("{}; else as the scenario says, else {}", help, value);
+}
+
 }  // namespace
+
+void add_seed_option(CLI::App& parser, ScenarioOverrides& overrides) {
+  parser.add_option("--seed", overrides.seed, else_as("of all that is drawn", Search{}.seed))
+      ->type_name("N")
+      ->check(a_seed());
+}
 
 void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
   const Search defaults;
-  const auto else_as = [](const char* help, const auto& value) {
-    return fmt::format("{}; else as the scenario says, else {}", help, value);
-  };
   parser
-      .add_option(
-          "--planner", overrides.planner,
-          else_as(fmt::format("{}", fmt::join(planner_names(), ", ")).c_str(), defaults.planner))
+      .add_option("--planner", overrides.planner,
+                  else_as(fmt::format("{}", fmt::join(planner_names(), ", ")), defaults.planner))
       ->type_name("NAME")
       ->check(one_of(planner_names()));
-  parser.add_option("--seed", overrides.seed, else_as("of all that is drawn", defaults.seed))
-      ->type_name("N")
-      ->check(a_seed());
+  add_seed_option(parser, overrides);
   CLI::Option* time = parser
                           .add_option("--time", overrides.time_s,
                                       else_as("seconds of the whole answer", kSearchTimeDefault_s))

@@ -10,6 +10,9 @@ namespace regoplan {
 /// The options that take the place of a scenario's `planner`. `overrides` must outlive the parsing.
 void add_search_options(CLI::App& parser, ScenarioOverrides& overrides);
 
+/// `--seed`, of the same.
+void add_seed_option(CLI::App& parser, ScenarioOverrides& overrides);
+
 /// `--allow-network`: rasters may be read over a network.
 void add_network_flag(CLI::App& parser);
 

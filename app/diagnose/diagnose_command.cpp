@@ -156,8 +156,9 @@ Command add_diagnose_command(CLI::App& program) {
       "diagnose",
       "Where a recording of a single wheel and the model differ, and what physics was left out.\n"
       "Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html; with --scenario "
-      "windows.csv and corrected-map/ in place of the middle two. Exit status 0: "
-      "consistent or explained, 2: unexplained.");
+      "windows.csv and corrected-map/ (where vehicle and ground were compared) in place of the "
+      "middle two. Exit status 0: consistent or explained, 2: unexplained, or of drives "
+      "undecided.");
   parser
       ->add_option("RECORDING.csv", options->recording,
                    "run_id, load_n, slip_ratio, slip_angle_deg and at least one of fx_n, fy_n, "

@@ -165,9 +165,7 @@ Command add_drive_command(CLI::App& program) {
       ->add_option("--sensors", options->sensors,
                    "grade A or B, or a file; without: exact, and seen by the follower")
       ->type_name("A|B|FILE.yaml");
-  parser->add_option("--seed", options->overrides.seed, "of all that is drawn")
-      ->type_name("N")
-      ->check(a_seed());
+  add_seed_option(*parser, options->overrides);
   parser
       ->add_option("--model", options->overrides.model_file,
                    "wheel model that was planned with, as in plan")

@@ -214,9 +214,7 @@ Command add_evaluate_command(CLI::App& program) {
       ->type_name("N")
       ->check(whole_in_range({.min = 2, .max = 1e6}))
       ->capture_default_str();
-  parser->add_option("--seed", options->overrides.seed, "of all that is drawn")
-      ->type_name("N")
-      ->check(a_seed());
+  add_seed_option(*parser, options->overrides);
   parser
       ->add_option("--threads", options->overrides.threads, "default: all cores; changes no result")
       ->type_name("N")

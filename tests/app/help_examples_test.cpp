@@ -24,8 +24,9 @@ std::vector<std::string> arguments_of(std::string_view example) {
 
 TEST(HelpExamples, EndTheHelpOfEachCommand) {
   CLI::App program;
-  for (const Command& command : add_commands(program)) {
-    const std::string help = command.parser->help();
+  const std::vector<Command> commands = add_commands(program);
+  for (const CLI::App* command : commands_of(program)) {
+    const std::string help = command->help();
     static const std::regex ends(R"(Examples:\n  regoplan [^\n]+\n  regoplan [^\n]+\s*$)");
     EXPECT_TRUE(std::regex_search(help, ends)) << help;
   }
@@ -33,11 +34,10 @@ TEST(HelpExamples, EndTheHelpOfEachCommand) {
 
 TEST(HelpExamples, AreTakenAsTheyStand) {
   CLI::App names;
+  const std::vector<Command> all = add_commands(names);
   int tried = 0;
-  for (const Command& command : add_commands(names)) {
-    const CLI::App* house = command.parser->get_parent();
-    const std::string name =
-        (house == &names ? "" : house->get_name() + " ") + command.parser->get_name();
+  for (const CLI::App* command : commands_of(names)) {
+    const std::string name = name_of(*command);
     const HelpExamples* examples = help_examples(name);
     ASSERT_NE(examples, nullptr) << name;
     for (const std::string_view line : examples->lines) {
