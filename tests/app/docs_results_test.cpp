@@ -110,6 +110,28 @@ TEST(DocsOfResults, HoldEveryKeyOfDiagnosisJson) {
   EXPECT_EQ(undocumented(keys, {"diagnosis.md"}), Keys{});
 }
 
+/// The keys that a schema allows: of its properties, and of theirs.
+void add_schema_keys(const Json& json, Keys& keys) {
+  if (json.is_array() || json.is_object()) {
+    for (const auto& [key, value] : json.items()) {
+      if (key == "properties") {
+        for (const auto& property : value.items()) keys.insert(property.key());
+      }
+      add_schema_keys(value, keys);
+    }
+  }
+}
+
+TEST(DocsOfResults, HoldEveryKeyOfDiagnosisJsonOfDrives) {
+  // What the program writes of drives is held to this schema, which allows no further keys.
+  Keys keys;
+  add_schema_keys(Json::parse(page("docs/schemas/drive-diagnosis.schema.json")), keys);
+  for (const char* key : {"kind", "sigmas", "starts_ci95_s", "next_drive", "noise_floor"}) {
+    EXPECT_TRUE(keys.contains(key)) << key;
+  }
+  EXPECT_EQ(undocumented(keys, {"drive-diagnosis.md"}), Keys{});
+}
+
 TEST(DocsOfResults, HoldEveryKeyOfBenchmarkJson) {
   JournalContents journal{.origins = {made_up_origin()}, .runs = {}};
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {  // fewer are not compared
