@@ -187,8 +187,9 @@ std::vector<std::filesystem::path> all_pages() {
   for (const auto& entry : std::filesystem::directory_iterator(".")) {
     if (entry.path().extension() == ".md") pages.push_back(entry.path());
   }
-  for (const char* folder : {"app", "benchmarking", "benchmarks", "diagnosis", "docs", "maps",
-                             "planner", "scenarios", "terramech", "tests"}) {
+  for (const char* folder :
+       {"app", "benchmarking", "benchmarks", "diagnosis", "docs", "drive_diagnosis", "driving",
+        "maps", "planner", "python", "scenarios", "terramech", "tests"}) {
     for (auto entry = std::filesystem::recursive_directory_iterator(folder);
          entry != std::filesystem::recursive_directory_iterator(); ++entry) {
       if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
@@ -234,6 +235,39 @@ TEST(Docs, EveryLinkLeadsSomewhere) {
     }
   }
   EXPECT_GT(links, 50u);
+}
+
+/// The tests that there are, `Suite.Name`, and `Suite.*` of each suite.
+Keys all_tests() {
+  static const std::regex begins(R"(\nTEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)\))");
+  Keys tests;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator("tests")) {
+    if (entry.path().extension() != ".cpp") continue;
+    const std::string source = page(entry.path());
+    for (std::sregex_iterator at(source.begin(), source.end(), begins), end; at != end; ++at) {
+      tests.insert((*at)[1].str() + "." + (*at)[2].str());
+      tests.insert((*at)[1].str() + ".*");
+    }
+  }
+  return tests;
+}
+
+TEST(Docs, EveryTestThatTheyNameIsThere) {
+  // `Suite.Name`; after it `.Name`, of the same suite.
+  static const std::regex named(R"(`([A-Z]\w*)?\.([A-Z]\w*|\*)`)");
+  const Keys tests = all_tests();
+  std::size_t found = 0;
+  for (const std::filesystem::path& file : all_pages()) {
+    const std::string text = page(file);
+    std::string suite;
+    for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at) {
+      if ((*at)[1].matched) suite = (*at)[1].str();
+      const std::string test = suite + "." + (*at)[2].str();
+      EXPECT_TRUE(tests.contains(test)) << file << ": " << test;
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 50u);
 }
 
 }  // namespace
