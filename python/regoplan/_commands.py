@@ -58,8 +58,8 @@ def plan(scenario, *, model=None, planner=None, seed=None, time_s=None, iteratio
 
 
 def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
-             deviation_max_m=None, draws=None, seed=None, threads=None, out=None, force=False,
-             progress=None):
+             deviation_max_m=None, follower=None, draws=None, seed=None, threads=None, out=None,
+             force=False, progress=None):
     """Judges given paths and manoeuvres, side by side: ``regoplan evaluate``.
 
     Parameters
@@ -71,6 +71,8 @@ def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
         ``Candidate`` of ``plan``, or a file name.
     manoeuvres : list of dict or file name, optional
         Steady turns, lane changes, slaloms, ... (docs/evaluation.md).
+    follower : ``compensated`` (default) or ``pursuit``, optional
+        What drives the paths in closed loop.
     speed_mps, deviation_max_m, draws, seed, threads : optional
         As the program's options.
     model, out, force, progress : optional
@@ -88,8 +90,8 @@ def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
     arguments += call.model(model)
     if manoeuvres is not None:
         arguments += ["--manoeuvres", call.settings("manoeuvres", manoeuvres)]
-    arguments += call.options(speed_mps=speed_mps, deviation_max_m=deviation_max_m, draws=draws,
-                              seed=seed, threads=threads)
+    arguments += call.options(speed_mps=speed_mps, deviation_max_m=deviation_max_m,
+                              follower=follower, draws=draws, seed=seed, threads=threads)
     return call.run(arguments, Evaluation)
 
 
@@ -174,8 +176,8 @@ def diagnose(recording, setup, *, reference=(), seed=None, threads=None, out=Non
     return call.run(arguments, Diagnosis)
 
 
-def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, out=None, force=False,
-                    progress=None):
+def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, threads=None,
+                    out=None, force=False, progress=None):
     """The same for logs of whole drives on the map of a scenario (docs/drive-diagnosis.md).
 
     Parameters
@@ -183,7 +185,7 @@ def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, ou
     drives : DataFrame, dict of columns, file name, or a sequence of them
     scenario : dict or file name
     setup, columns : dict or file name, optional
-    seed, out, force, progress : optional
+    seed, threads, out, force, progress : optional
         As of ``plan``.
 
     Returns
@@ -199,7 +201,7 @@ def diagnose_drives(drives, scenario, *, setup=None, columns=None, seed=None, ou
     for option, value in (("--setup", setup), ("--columns", columns)):
         if value is not None:
             arguments += [option, call.settings(option[2:], value)]
-    return call.run(arguments + call.options(seed=seed), DriveDiagnosis)
+    return call.run(arguments + call.options(seed=seed, threads=threads), DriveDiagnosis)
 
 
 def benchmark(suite, *, shard=None, processes=None, out=None, force=False, progress=None):

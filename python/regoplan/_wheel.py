@@ -78,9 +78,10 @@ class Wheel:
         ``{"id", "form", "parameters"}`` of what the base model leaves out; ``regoplan.mechanisms()``
         lists them.
     method : {"direct", "fast", "table"}, optional
-        ``direct`` is the program's ``wheel``, bit for bit; ``fast`` integrates to about 1e-6;
-        ``table`` looks up splines within 1e-3 of the load in 99.9 % of states and 5e-3 in all, and
-        is cached on disk.
+        ``direct`` is the program's ``wheel``, bit for bit; ``fast`` integrates to 1.5e-4 of the
+        load; ``table`` looks up splines and is cached on disk. It is held to 1e-3 of the larger of
+        the load and a tenth of the nominal load in 99.9 % of states and to 5e-3 in all (measured:
+        4e-4 and 1.6e-3, docs/validation.md).
     nominal_load_n : float, optional
         N; of a table, which covers 2 to 300 % of it; beyond, the direct model answers.
 

@@ -92,6 +92,16 @@ def test_an_evaluation_is_the_programs(program, scenario, planned, tmp_path):
     assert judged.paths[0]["recorded"]["difference"] < 0.02
 
 
+def test_an_evaluation_drives_by_the_follower_that_is_asked_for(scenario, planned):
+    by = {name: regoplan.evaluate(scenario, planned.candidates[0], draws=10, follower=name)
+          for name in ("compensated", "pursuit")}
+    for name, judged in by.items():
+        assert judged.json["follower"] == name
+    assert by["pursuit"].paths[0]["tracked"] != by["compensated"].paths[0]["tracked"]
+    with pytest.raises(regoplan.InputError, match="follower"):
+        regoplan.evaluate(scenario, planned.candidates[0], draws=10, follower="bold")
+
+
 def test_a_drive_asks_a_follower_of_ones_own(scenario, planned):
     asked = []
 
@@ -225,8 +235,8 @@ def test_drives_are_diagnosed_under_their_own_names(program, scenario, drive, tm
     known = regoplan.diagnose_drives(drive, scenario)
     foreign = {f"log_{name}": column for name, column in drive.items()}
     columns = {"columns": {name: f"log_{name}" for name in drive}}
-    for drives in (foreign, [foreign]):
-        found = regoplan.diagnose_drives(drives, scenario, columns=columns)
+    for drives, threads in ((foreign, 1), ([foreign], 2)):  # change no result
+        found = regoplan.diagnose_drives(drives, scenario, columns=columns, threads=threads)
         assert found.fit == known.fit and found.verdict == known.verdict
     (tmp_path / "drive-1.csv").write_text(",".join(drive) + "\n" + "".join(
         ",".join(map(repr, row)) + "\n" for row in zip(*(c.tolist() for c in drive.values()))))

@@ -127,10 +127,10 @@ def targets(soil, wheel, unstarted):
         lambda r: regoplan.plan("s.yaml", **options(r, [
             "planner", "seed", "time_s", "iterations", "candidates", "improve", "threads", "force"])),
         lambda r: regoplan.evaluate("s.yaml", "p.csv", **options(r, [
-            "speed_mps", "deviation_max_m", "draws", "seed", "threads", "progress"])),
+            "speed_mps", "deviation_max_m", "follower", "draws", "seed", "threads", "progress"])),
         lambda r: regoplan.drive("s.yaml", "p.csv", **options(r, [
             "follower", "truth", "sensors", "deviation_max_m", "seed", "force"])),
-        lambda r: regoplan.diagnose_drives("d.csv", "s.yaml", **options(r, ["seed", "setup"])),
+        lambda r: regoplan.diagnose_drives("d.csv", "s.yaml", **options(r, ["seed", "setup", "threads"])),
         lambda r: regoplan.benchmark("suite.yaml", **options(r, ["shard", "processes"])),
         lambda r: wheel.forces(*three(r), threads=word(r, [1, 2, 3, 0])),
         lambda r: table.forces(*three(r)),
