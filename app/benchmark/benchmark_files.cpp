@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/benchmark/optional_json.h"
 #include "app/io/staged_files.h"
@@ -35,6 +36,39 @@ nlohmann::json json_of(const PairedComparison& pair) {
           {"ratio_ci95", pair.ratio_ci95}, {"real", pair.real}};
 }
 
+/// Of all runs, each once, in their order.
+std::set<std::uint64_t> seeds_of(const JournalContents& journal) {
+  std::set<std::uint64_t> seeds;
+  for (const RunRecord& run : journal.runs) seeds.insert(run.key.seed);
+  return seeds;
+}
+
+/// What runs were bounded by and made of. A journal takes parts of one suite only: bounds are those
+/// of each, and what has one label is one thing.
+nlohmann::json settings_json(const JournalContents& journal) {
+  nlohmann::json planners = nlohmann::json::object();
+  for (const JournalOrigin& origin : journal.origins) {
+    for (const SuitePlanner& planner : origin.planners) {
+      planners[planner.label] = {{"planner", planner.planner}, {"parameters", planner.parameters}};
+    }
+  }
+  const RunBounds& bounds = journal.origins.front().bounds;
+  return {{"time_s", bounds.time_s},
+          {"iterations", bounds.iterations ? nlohmann::json(*bounds.iterations) : nullptr},
+          {"memory_mb", bounds.memory_mb},
+          {"progress_interval_s", bounds.progress_interval_s},
+          {"soil_draws", bounds.soil_draws},
+          {"seeds", seeds_of(journal)},
+          {"planners", planners}};
+}
+
+/// By label, what tells a scenario's files from others.
+nlohmann::json scenarios_json(const JournalContents& journal) {
+  nlohmann::json scenarios = nlohmann::json::object();
+  for (const JournalOrigin& origin : journal.origins) scenarios.update(origin.scenarios);
+  return scenarios;
+}
+
 /// An experiment's name as a file's.
 std::string log_name(std::string experiment) {
   std::replace_if(
@@ -60,10 +94,14 @@ std::string benchmark_json(const SuiteResults& results) {
     }
   }
   const std::vector<JournalOrigin>& origins = results.journal.origins;
-  const nlohmann::json json{
-      {"suite", origins.front().suite},     {"runs", results.journal.runs.size()},
-      {"interrupted", results.interrupted}, {"version", origins.back().version},
-      {"experiments", experiments},         {"comparisons", comparisons}};
+  const nlohmann::json json{{"suite", origins.front().suite},
+                            {"runs", results.journal.runs.size()},
+                            {"interrupted", results.interrupted},
+                            {"version", origins.back().version},
+                            {"experiments", experiments},
+                            {"comparisons", comparisons},
+                            {"settings", settings_json(results.journal)},
+                            {"scenarios", scenarios_json(results.journal)}};
   return json.dump(2) + "\n";
 }
 

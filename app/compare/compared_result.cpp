@@ -82,21 +82,17 @@ std::optional<ComparedPath> read_compared_path(const std::filesystem::path& file
   return std::nullopt;
 }
 
-/// Of everything at the top of a result, what was asked and not what came of it.
-Json asked_of(const Json& result, std::initializer_list<const char*> keys) {
-  Json asked = Json::object();
-  for (const char* key : keys) {
-    if (result.contains(key)) asked[key] = result.at(key);
-  }
-  return asked;
-}
-
-void read_plan(const Json& json, ComparedResult& result) {
+/// What was asked, and the files that say the rest of it.
+void read_asked(const Json& json, ComparedResult& result) {
   result.asked = json.at("settings");
   result.asked["model"] = json.at("model");
   for (const Json& input : json.at("inputs")) {
     result.inputs[input.at("key").get<std::string>()] = input.at("digest");
   }
+}
+
+void read_plan(const Json& json, ComparedResult& result) {
+  read_asked(json, result);
   for (const Json& candidate : json.at("candidates")) {
     result.entries.push_back({.name = fmt::format("candidate {}", candidate.at("rank").get<int>()),
                               .verdict = "feasible",
@@ -109,8 +105,8 @@ void read_plan(const Json& json, ComparedResult& result) {
 }
 
 void read_evaluation(const Json& json, ComparedResult& result) {
-  result.asked = asked_of(
-      json, {"vehicle", "model", "gravity_mps2", "limits", "follower", "steering_law", "seed"});
+  read_asked(json, result);
+  result.asked["steering_law"] = json.at("steering_law");
   for (const Json& path : json.at("paths")) {
     const bool feasible = path.at("feasible").get<bool>();
     const bool of_file = path.contains("file");
@@ -125,8 +121,26 @@ void read_evaluation(const Json& json, ComparedResult& result) {
   }
 }
 
+/// `1-20, 25`: one setting, however many there are.
+std::string seeds_text(const Json& seeds) {
+  std::string text;
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const auto first = seeds.at(i).get<std::uint64_t>();
+    std::uint64_t last = first;
+    while (i + 1 < seeds.size() && seeds.at(i + 1).get<std::uint64_t>() == last + 1) ++i, ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", first);
+    if (last > first) text += fmt::format("-{}", last);
+  }
+  return text;
+}
+
 void read_benchmark(const Json& json, ComparedResult& result) {
-  result.asked = asked_of(json, {"suite", "runs"});
+  result.asked = json.at("settings");
+  result.asked["seeds"] = seeds_text(json.at("settings").at("seeds"));
+  result.asked["suite"] = json.at("suite");
+  for (const auto& [label, digest] : json.at("scenarios").items()) {
+    result.inputs["scenario " + label] = digest.get<std::string>().empty() ? Json() : digest;
+  }
   for (const Json& experiment : json.at("experiments")) {
     for (const Json& planner : experiment.at("planners")) {
       const int runs = planner.at("runs").get<int>(), verified = planner.at("verified").get<int>();

@@ -8,6 +8,7 @@
 
 #include "app/evaluate/evaluation_report.h"
 #include "app/io/staged_files.h"
+#include "app/settings/earlier_plan.h"
 #include "app/settings/effective_settings.h"
 #include "app/settings/model_settings.h"
 #include "planner/problem/rejection_text.h"
@@ -127,6 +128,25 @@ Json path_json(const EvaluatedPath& path) {
   return json;
 }
 
+/// What paths are judged by, under the keys of a scenario where it has them. Where the vehicle
+/// starts and what a search is given say nothing of a path.
+Json settings_json(const PlanningProblem& problem, const EvaluationResult& result) {
+  Json json = effective_settings(problem);
+  for (const char* key : {"start", "goal", "planner"}) json.erase(key);
+  Json vehicles = Json::object();
+  for (const Vehicle& vehicle : result.vehicles)
+    vehicles[vehicle.name] = vehicle_file_json(vehicle);
+  const EvaluationSettings& settings = result.settings;
+  json["speed_mps"]["max"] = result.speed_max_mps;
+  json["manoeuvre_vehicles"] = vehicles;
+  json["follower"] = name(settings.follower.kind);
+  json["deviation_max_m"] =
+      settings.deviation_max_m ? Json(*settings.deviation_max_m) : Json(nullptr);
+  json["soil_draws"] = settings.soil_draws;
+  json["seed"] = settings.seed;
+  return json;
+}
+
 }  // namespace
 
 bool EvaluationResult::any_feasible() const {
@@ -155,7 +175,8 @@ std::string steering_law_text(const SteeringLaw& law) {
       law.slip_memory_s);
 }
 
-std::string evaluation_json(const PlanningProblem& problem, const EvaluationResult& result) {
+std::string evaluation_json(const PlanningProblem& problem, const EvaluationResult& result,
+                            const std::filesystem::path& folder) {
   Json paths = Json::array();
   for (const EvaluatedPath& path : result.paths) paths.push_back(path_json(path));
   const SteeringLaw& law = result.settings.follower.law;
@@ -173,6 +194,8 @@ std::string evaluation_json(const PlanningProblem& problem, const EvaluationResu
                   {"vehicle", problem.vehicle.name},
                   {"model", variant_name(problem.wheel_variant)},
                   {"gravity_mps2", problem.gravity_mps2},
+                  {"settings", settings_json(problem, result)},
+                  {"inputs", inputs_json(result.inputs, folder)},
                   {"seed", result.settings.seed},
                   {"evaluation_time_s", result.evaluation_time_s},
                   {"version", REGOPLAN_VERSION},
@@ -183,7 +206,7 @@ std::string evaluation_json(const PlanningProblem& problem, const EvaluationResu
 void write_evaluation_files(const PlanningProblem& problem, const EvaluationResult& result,
                             const ResultFolder& folder) {
   const RenderedFile report{"report.html", evaluation_report(problem, result)};
-  const RenderedFile json{"evaluation.json", evaluation_json(problem, result)};
+  const RenderedFile json{"evaluation.json", evaluation_json(problem, result, folder.path)};
   StagedFiles staged(folder);
   staged.write(report);
   staged.write(json);

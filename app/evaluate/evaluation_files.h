@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/io/staged_files.h"
+#include "app/settings/input_files.h"
 #include "planner/evaluation/evaluation.h"
 
 namespace regoplan {
@@ -29,6 +30,9 @@ struct EvaluatedPath {
 struct EvaluationResult {
   std::vector<EvaluatedPath> paths;  ///< in rank order
   EvaluationSettings settings;
+  double speed_max_mps = 0;              ///< that paths were judged by where they give no speed
+  std::vector<Vehicle> vehicles = {};    ///< that manoeuvres have in place of the scenario's
+  std::vector<InputDigest> inputs = {};  ///< what it was read from, the scenario first
   double evaluation_time_s = 0;
   bool interrupted = false;
 
@@ -38,8 +42,9 @@ struct EvaluationResult {
 /// Feasible ones first, see `rank` of evaluations.
 void rank(EvaluationResult& result);
 
-/// The text of evaluation.json.
-std::string evaluation_json(const PlanningProblem& problem, const EvaluationResult& result);
+/// The text of evaluation.json, to lie in `folder`.
+std::string evaluation_json(const PlanningProblem& problem, const EvaluationResult& result,
+                            const std::filesystem::path& folder = {});
 
 /// The steering law with its gains, in a sentence.
 std::string steering_law_text(const SteeringLaw& law);

@@ -85,6 +85,34 @@ GivenCourses read_courses(const EvaluationRequest& request, const PlanningProble
   return given;
 }
 
+/// Vehicles of manoeuvres that are not the scenario's, each once.
+std::vector<Vehicle> vehicles_of(const GivenCourses& given, const PlanningProblem& problem) {
+  std::vector<Vehicle> vehicles;
+  for (const Manoeuvre& manoeuvre : given.manoeuvres) {
+    const std::string& name = manoeuvre.vehicle.name;
+    if (name != problem.vehicle.name &&
+        std::ranges::find(vehicles, name, &Vehicle::name) == vehicles.end()) {
+      vehicles.push_back(manoeuvre.vehicle);
+    }
+  }
+  return vehicles;
+}
+
+/// The scenario's files, then those of what is judged.
+std::vector<InputFile> inputs_of(const Scenario& scenario, const EvaluationRequest& request) {
+  std::vector<InputFile> inputs = scenario.inputs;
+  for (const std::string& file : request.path_files) {
+    inputs.push_back({.key = "path " + std::filesystem::path(file).filename().string(),
+                      .path = file,
+                      .shown = file});
+  }
+  if (request.manoeuvre_file) {
+    inputs.push_back(
+        {.key = "manoeuvres", .path = *request.manoeuvre_file, .shown = *request.manoeuvre_file});
+  }
+  return inputs;
+}
+
 /// On a plane of its own. Another vehicle brings its own limits; the margin asked for is the
 /// scenario's.
 EvaluatedPath judged_manoeuvre(const Manoeuvre& manoeuvre, const PlanningProblem& problem,
@@ -143,6 +171,7 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
   const PlanningProblem& problem = scenario.problem;
   // Everything is read before anything is judged.
   const GivenCourses given = read_courses(request, problem);
+  const std::vector<InputDigest> inputs = digests_of(inputs_of(scenario, request));
   require_results_fit(request.folder, {"evaluation.json", "report.html"});
   for (const std::string& notice : scenario.notices) notify(notice, request.quiet);
   for (const GivenPath& path : given.paths) {
@@ -155,14 +184,17 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
                                        .soil_draws = request.soil_draws,
                                        .seed = problem.search.seed,
                                        .threads = problem.search.threads,
-                                       .stop = stop_on_interrupt()}};
+                                       .stop = stop_on_interrupt()},
+                          .speed_max_mps = given.speed_max_mps,
+                          .vehicles = vehicles_of(given, problem),
+                          .inputs = inputs};
   judge_all(given, problem, request.quiet, result);
   rank(result);
   result.evaluation_time_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   write_evaluation_files(problem, result, request.folder);
   if (request.json) {
-    fmt::print("{}", evaluation_json(problem, result));
+    fmt::print("{}", evaluation_json(problem, result, request.folder.path));
   } else if (!request.quiet) {
     fmt::print("{}report: {}\n", summary(result), (request.folder.path / "report.html").string());
   }

@@ -65,8 +65,12 @@ Json limits_json(const Limits& limits) {
   return json;
 }
 
+Json vehicle_file_json(const Vehicle& vehicle) {
+  return to_json(parse_settings(vehicle_text(vehicle), "vehicle"));
+}
+
 Json effective_settings(const PlanningProblem& problem) {
-  return {{"vehicle", to_json(parse_settings(vehicle_text(problem.vehicle), "vehicle"))},
+  return {{"vehicle", vehicle_file_json(problem.vehicle)},
           {"gravity_mps2", problem.gravity_mps2},
           {"start", start_json(problem.start)},
           {"goal", goal_json(problem.goal)},

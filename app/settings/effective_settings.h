@@ -10,6 +10,9 @@ namespace regoplan {
 /// a SCENARIO.yaml: beside a `map`, it reads back to the same problem bit for bit.
 nlohmann::ordered_json effective_settings(const PlanningProblem& problem);
 
+/// A vehicle as its file has it.
+nlohmann::ordered_json vehicle_file_json(const Vehicle& vehicle);
+
 /// The limits alone, under their keys.
 nlohmann::ordered_json limits_json(const Limits& limits);
 

@@ -27,8 +27,10 @@ using Json = nlohmann::json;
 using Keys = std::set<std::string>;
 
 /// Keys whose values have names of things for keys: of columns, channels, soils, parameters.
-const Keys kNamesOfThings{"region", "parameters", "conditions",          "fit",
-                          "soil",   "soils",      "smallest_detectable", "wheels"};
+const Keys kNamesOfThings{
+    "region", "parameters", "conditions",         "fit",      "soil",
+    "soils",  "scenarios",  "manoeuvre_vehicles", "planners", "smallest_detectable",
+    "wheels"};
 
 void add_keys(const Json& json, Keys& keys, bool names_of_things = false) {
   if (json.is_object()) {
@@ -81,7 +83,11 @@ TEST(DocsOfResults, HoldEveryKeyOfEvaluationJson) {
   const EvaluatedPath manoeuvre{
       .evaluation = evaluation, .plane = ManoeuvrePlane{}, .recorded_margin_min = {}};
   const std::string text = evaluation_json(problem, {.paths = {given, manoeuvre}, .settings = {}});
-  EXPECT_EQ(undocumented(keys_of(text), {"evaluation-json.md"}), Keys{});
+  EXPECT_EQ(undocumented(keys_of(text), {"evaluation-json.md", "plan-json.md"}), Keys{});
+  Keys settings;
+  add_keys(Json::parse(text).at("settings"), settings);
+  EXPECT_EQ(undocumented(settings, {"evaluation-json.md", "scenario.md", "vehicle-and-soil.md"}),
+            Keys{});
 }
 
 TEST(DocsOfResults, HoldEveryKeyAndColumnOfADrive) {
@@ -142,6 +148,9 @@ TEST(DocsOfResults, HoldEveryKeyOfBenchmarkJson) {
   const std::string text = benchmark_json({.journal = journal});
   ASSERT_FALSE(Json::parse(text).at("comparisons").empty());
   EXPECT_EQ(undocumented(keys_of(text), {"benchmark.md"}), Keys{});
+  Keys settings;
+  add_keys(Json::parse(text).at("settings"), settings);
+  EXPECT_EQ(undocumented(settings, {"benchmark.md"}), Keys{});
 }
 
 TEST(DocsOfResults, HoldEveryKeyOfComparisonJson) {

@@ -115,6 +115,5 @@ byId('asked').append(
 byId('inputs').append(element(
     'p', {},
     REPORT.inputs.length ? `Files that are not the same: ${REPORT.inputs.join(', ')}.` :
-                           REPORT.of === 'plan' ? 'Every file that was read is the same.' :
-                                                    'Results of this kind do not name their files.'));
+                           'Every file that was read is the same.'));
 document.documentElement.dataset.drawn = 'yes';
