@@ -36,7 +36,7 @@ std::string changes_text(const ComparedResult& a, const Comparison& comparison) 
       text += fmt::format("{}: {} {} -> {} ({:+.3g}){}{}{}\n", pair.name, metrics[i].words,
                           value_text(pair.a->values[i]), value_text(pair.b->values[i]),
                           *pair.change[i], metrics[i].unit.empty() ? "" : " ", metrics[i].unit,
-                          pair.tied[i] ? ", tied within the draws" : "");
+                          pair.tied[i] ? fmt::format(", tied within the {}", sampled(a.kind)) : "");
     }
   }
   return text;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "app/io/csv_table.h"
+#include "benchmarking/summary.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
@@ -134,6 +135,18 @@ std::string seeds_text(const Json& seeds) {
   return text;
 }
 
+/// A planner's summary with its counts as shares of its runs, which tell planners apart whose runs
+/// are not as many.
+Json with_shares(Json planner) {
+  const int runs = planner.at("runs").get<int>();
+  for (const std::string count : {"verified", "overturned"}) {
+    const int hits = planner.at(count).get<int>();
+    planner[count + "_share"] = static_cast<double>(hits) / runs;
+    planner[count + "_share_ci95"] = wilson_ci95(hits, runs);
+  }
+  return planner;
+}
+
 void read_benchmark(const Json& json, ComparedResult& result) {
   result.asked = json.at("settings");
   result.asked["seeds"] = seeds_text(json.at("settings").at("seeds"));
@@ -144,12 +157,14 @@ void read_benchmark(const Json& json, ComparedResult& result) {
   for (const Json& experiment : json.at("experiments")) {
     for (const Json& planner : experiment.at("planners")) {
       const int runs = planner.at("runs").get<int>(), verified = planner.at("verified").get<int>();
+      const Json shares = with_shares(planner);
       result.entries.push_back(
           {.name = fmt::format("{}, {}", experiment.at("name").get<std::string>(),
                                planner.at("planner").get<std::string>()),
            .verdict = fmt::format("{} of {} verified", verified, runs),
            .feasible = verified > 0,
-           .values = values_of(planner, ResultKind::kBenchmark)});
+           .values = values_of(shares, ResultKind::kBenchmark),
+           .intervals = intervals_of(shares, ResultKind::kBenchmark)});
     }
   }
 }
@@ -185,6 +200,10 @@ std::string_view name(ResultKind kind) {
   return kKinds.at(static_cast<std::size_t>(kind)).name;
 }
 
+std::string_view sampled(ResultKind kind) {
+  return kind == ResultKind::kBenchmark ? "runs" : "draws";
+}
+
 const std::vector<ComparedMetric>& metrics_of(ResultKind kind) {
   static const std::vector<ComparedMetric> kPaths{
       {"margin_p05", "margin, 5 % of soils", "", Better::kMore, "margin_p05_ci95"},
@@ -194,8 +213,9 @@ const std::vector<ComparedMetric>& metrics_of(ResultKind kind) {
       {"length_m", "length", "m", Better::kLess},
       {"energy_j", "energy", "J", Better::kLess}};
   static const std::vector<ComparedMetric> kPlanners{
-      {"verified", "verified runs", "", Better::kMore},
-      {"overturned", "overturned runs", "", Better::kLess},
+      {"verified_share", "share of runs verified", "", Better::kMore, "verified_share_ci95", true},
+      {"overturned_share", "share of runs overturned", "", Better::kLess, "overturned_share_ci95",
+       true},
       {"time_median_s", "search time, median", "s", Better::kLess},
       {"duration_median_s", "duration, median", "s", Better::kLess},
       {"length_median_m", "length, median", "m", Better::kLess},

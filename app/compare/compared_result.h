@@ -15,13 +15,19 @@ enum class ResultKind { kPlan, kEvaluation, kBenchmark };
 /// `plan`, `evaluation`, `benchmark`.
 std::string_view name(ResultKind kind);
 
+/// What sampling errors of a kind come from: `draws` of the soils, or `runs`.
+std::string_view sampled(ResultKind kind);
+
 /// A number that entries are compared by.
 struct ComparedMetric {
   std::string_view key;  ///< its place in an entry of the result, and its name in comparison.json
   std::string_view words;
   std::string_view unit;  ///< SI; empty of a ratio or a margin
   enum class Better { kLess, kMore } better = Better::kLess;
-  std::string_view interval_key = {};  ///< of the 95 % interval of what draws of the soils give
+  std::string_view interval_key = {};  ///< of the 95 % interval of what chance has a part in
+  /// Of a handful of trials, whose shares jump: tied where the intervals overlap, and not only
+  /// where one of the two values lies within the other's.
+  bool of_few = false;
 };
 
 /// What results of a kind are compared by, in the order in which it is told.

@@ -62,16 +62,23 @@ bool holds(const Interval& interval, double value) {
   return interval[0] <= value && value <= interval[1];
 }
 
-/// By metric, whether one of the two lies within the other's sampling error. Limits that broke in
+bool overlap(const Interval& a, const Interval& b) {
+  return a[0] <= b[1] && b[0] <= a[1];
+}
+
+/// By metric, whether the sampling errors leave open which of the two is more. Limits that broke in
 /// draws are no smaller margin, but another thing.
-std::vector<bool> ties(const ComparedEntry& a, const ComparedEntry& b) {
+std::vector<bool> ties(const ComparedEntry& a, const ComparedEntry& b,
+                       const std::vector<ComparedMetric>& metrics) {
   const auto is_broken = [](double value) { return value <= MarginSpread::kBroken; };
   std::vector<bool> of_metrics(a.values.size(), false);
   for (std::size_t i = 0; i < std::min(a.intervals.size(), b.intervals.size()); ++i) {
     if (!a.values[i] || !b.values[i] || !a.intervals[i] || !b.intervals[i]) continue;
     const double of_a = *a.values[i], of_b = *b.values[i];
-    of_metrics[i] = is_broken(of_a) == is_broken(of_b) &&
-                    (holds(*a.intervals[i], of_b) || holds(*b.intervals[i], of_a));
+    of_metrics[i] =
+        is_broken(of_a) == is_broken(of_b) &&
+        (metrics[i].of_few ? overlap(*a.intervals[i], *b.intervals[i])
+                           : holds(*a.intervals[i], of_b) || holds(*b.intervals[i], of_a));
   }
   return of_metrics;
 }
@@ -84,7 +91,7 @@ std::vector<ComparedPair> pairs_of(const ComparedResult& a, const ComparedResult
     if (other != b.entries.end()) {
       pair.b = &*other;
       pair.change = change(entry, *other);
-      pair.tied = ties(entry, *other);
+      pair.tied = ties(entry, *other, metrics_of(a.kind));
     }
     pairs.push_back(std::move(pair));
   }
@@ -127,7 +134,7 @@ std::string outcome_text(const ComparedResult& a, const Comparison& comparison) 
   };
   tell("better", better);
   tell("worse", worse);
-  tell("tied within the draws", tied);
+  tell(fmt::format("tied within the {}", sampled(a.kind)), tied);
   tell("the same", same);
   tell("not known", both - better - worse - same - tied);
   return fmt::format("Of {} in both, B is {} ({}).", both, fmt::join(parts, ", "), metric.words);

@@ -53,6 +53,7 @@ std::string comparison_report(const ComparedResult& a, const ComparedResult& b,
   Json data = comparison_json(a, b, comparison);
   data["kind"] = "comparison";
   data["of"] = name(a.kind);
+  data["sampled"] = sampled(a.kind);
   data["a"]["file"] = short_name(a);
   data["b"]["file"] = short_name(b);
   data["metrics"] = metrics_json(a.kind);

@@ -107,6 +107,35 @@ TEST_F(ComparedEvaluations, TellEveryOptionThatChangesAJudgement) {
   EXPECT_EQ(compared(before, judged(few)).inputs, Told{"path path.csv"});
 }
 
+/// A planner of which so many runs were verified, by A and by B, and what is said of B.
+std::string said_of_shares(const ScratchFolder& folder, std::array<int, 2> a,
+                           std::array<int, 2> b) {
+  const auto read = [&](std::array<int, 2> verified_of) {
+    JournalContents journal{.origins = {made_up_origin()}, .runs = {}};
+    for (int seed = 1; seed <= verified_of[1]; ++seed) {
+      RunRecord run = verified_run("a", "RRT", static_cast<std::uint64_t>(seed), 1.5, 30);
+      if (seed > verified_of[0]) run.outcome.properties["verified BOOLEAN"] = "0";
+      journal.runs.push_back(run);
+    }
+    folder.write("benchmark.json", benchmark_json({.journal = journal}));
+    return read_compared_result(folder.path("benchmark.json"));
+  };
+  const ComparedResult of_a = read(a), of_b = read(b);
+  const std::string headline = comparison_headline(of_a, of_b, compared(of_a, of_b));
+  return headline.substr(0, headline.find(" for 1 "));
+}
+
+TEST(ComparedSettings, PlannersAreHeldAgainstEachOtherByTheShareOfTheirRunsAndNotByTheirCount) {
+  const ScratchFolder folder;
+  const std::string of = "Of 1 in both, B is ";
+  EXPECT_EQ(said_of_shares(folder, {2, 2}, {7, 7}), of + "the same");
+  EXPECT_EQ(said_of_shares(folder, {2, 2}, {7, 8}), of + "tied within the runs");
+  EXPECT_EQ(said_of_shares(folder, {2, 2}, {0, 2}), of + "tied within the runs");
+  EXPECT_EQ(said_of_shares(folder, {2, 40}, {3, 60}), of + "the same");
+  EXPECT_EQ(said_of_shares(folder, {19, 20}, {30, 60}), of + "worse");
+  EXPECT_EQ(said_of_shares(folder, {30, 60}, {19, 20}), of + "better");
+}
+
 TEST(ComparedSettings, OfAResultThatTellsNoneAreNotTakenToBeTheSame) {
   const ScratchFolder folder;
   nlohmann::json json = nlohmann::json::parse(

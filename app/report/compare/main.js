@@ -7,14 +7,14 @@ const withUnit = (value, unit) =>
          unit        ? `${significant(value)}\u00a0${unit}` :
                        fixed(value, 3));
 
-/// A change with its sign, coloured by whether it is for the better; not where the draws leave that
+/// A change with its sign, coloured by whether it is for the better; not where chance leaves that
 /// open.
 function changeNode(change, {unit, more_is_better}, tied) {
   if (!isKnown(change)) return UNKNOWN;
   if (change === 0) return 'the same';
   const good = (change > 0) === more_is_better;
   const text = (change > 0 ? '+' : '') + withUnit(change, unit);
-  if (tied) return `${text} (tied within the draws)`;
+  if (tied) return `${text} (tied within the ${REPORT.sampled})`;
   return element('span', {class: good ? 'good' : 'alarm'}, text);
 }
 
