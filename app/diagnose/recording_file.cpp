@@ -169,7 +169,7 @@ std::optional<double> one_for_all(const RecordingFile& read, std::string_view co
 RecordedWheel recorded_wheel(const RecordingFile& read) {
   RecordedWheel wheel{.radius_m = one_for_all(read, "wheel_radius_m", kAbove0),
                       .width_m = one_for_all(read, "wheel_width_m", kAbove0),
-                      .lug_height_m = one_for_all(read, "lug_height_m", kAtLeast0)};
+                      .lug_height_m = one_for_all(read, "lug_height_m", {.min = 0, .max = 0.2})};
   if (const auto count = one_for_all(read, "lug_count", {.min = 0, .max = 1000})) {
     if (*count != std::floor(*count)) {
       throw InputError(fmt::format("{}: lug_count: {} is not valid (allowed: an integer from 0)",

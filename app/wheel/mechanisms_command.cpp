@@ -137,6 +137,7 @@ Json form_json(const MechanismForm& form) {
     parameters.push_back({{"name", p.name},
                           {"unit", unit_of(p.name)},
                           {"usual_range", {p.low, p.high}},
+                          {"allowed_range", {p.least, p.most}},
                           {"default", p.typical}});
   }
   const auto changes = changes_of(form);
@@ -166,8 +167,9 @@ std::string form_text(const MechanismForm& form) {
       fmt::format("  {}: {}\n    source: {}\n", form.form, form.formula, form.source);
   for (const MechanismParameter& p : form.parameters) {
     const std::string unit = unit_of(p.name);
-    text += fmt::format("    {:<14} {:.3g} to {:.3g}{}{}, default {:.3g}\n", p.name, p.low, p.high,
-                        unit.empty() ? "" : " ", unit, p.typical);
+    text += fmt::format("    {:<14} {:.3g} to {:.3g}{}{}, default {:.3g}, at all {:g} to {:g}\n",
+                        p.name, p.low, p.high, unit.empty() ? "" : " ", unit, p.typical, p.least,
+                        p.most);
   }
   const auto changes = changes_of(form);
   return text + fmt::format("    Fx {}  Fy {}  torque {}  sinkage {}\n",
@@ -290,7 +292,8 @@ Command add_mechanisms_command(CLI::App& program) {
   CLI::App* parser = program.add_subcommand(
       "mechanisms",
       "The vocabulary of diagnose: every mechanism with its forms, parameters (unit, usual range,\n"
-      "default), source, and a small picture of what it does to Fx, Fy, torque and sinkage.");
+      "default, what they can be at all), source, and a small picture of what it does to Fx, Fy, "
+      "torque and sinkage.");
   CLI::Option* id = parser->add_option(
       "ID", options->id,
       "one only; faults of instruments and vehicles that diagnose names as well");

@@ -44,17 +44,28 @@ Coordinate share(std::string name, double low, double high, double most) {
 }
 
 /// Prior of a mechanism's parameter: lognormal, one standard deviation either way covering the
-/// usual range; a share where there is a most that it can be; normal about 0 where the range is
-/// symmetric.
-Coordinate coordinate_of(const MechanismParameter& parameter) {
+/// usual range; the odds of a share; normal about 0 where the range is symmetric.
+Coordinate prior_of(const MechanismParameter& parameter) {
   const std::string name(parameter.name);
   if (parameter.low < 0) return {.name = name, .spread = parameter.high / 1.5};
   constexpr double kSmallShare = 30;  // of a range that begins at 0
   const double low = parameter.low > 0 ? parameter.low : parameter.high / kSmallShare;
-  if (std::isfinite(parameter.most)) return share(name, low, parameter.high, parameter.most);
-  Coordinate coordinate = positive(name, low, parameter.high);
-  coordinate.min = std::max(parameter.least, coordinate.min);
-  return coordinate;
+  if (parameter.is_share) return share(name, low, parameter.high, parameter.most);
+  return positive(name, low, parameter.high);
+}
+
+/// No fit of a mechanism leaves what its numbers can be. Faults of instruments have no bounds.
+void keep_within_bounds(Effect& effect) {
+  for (const MechanismForm& form : mechanism_forms()) {
+    if (form.id != effect.id || form.form != effect.form) continue;
+    for (Coordinate& coordinate : effect.coordinates) {
+      const auto parameter =
+          std::ranges::find(form.parameters, coordinate.name, &MechanismParameter::name);
+      if (parameter == form.parameters.end() || parameter->is_share) continue;
+      coordinate.min = parameter->least;
+      coordinate.max = parameter->most;
+    }
+  }
 }
 
 std::map<std::string, double> window(const Span& time_s) {
@@ -103,7 +114,7 @@ class EffectList {
                  (name == "t2_nms" && !columns_.speed)) {
         effect.fixed[name] = name == "ripple" || name == "t2_nms" ? 0 : parameter.typical;
       } else {
-        effect.coordinates.push_back(coordinate_of(parameter));
+        effect.coordinates.push_back(prior_of(parameter));
       }
     }
     if (form.id == "shear_hump" && form.form == "wong") {
@@ -282,6 +293,7 @@ class EffectList {
   }
 
   void push(Effect effect) {
+    keep_within_bounds(effect);
     effect.start.assign(effect.coordinates.size(), 0.0);
     effects_.push_back(std::move(effect));
   }

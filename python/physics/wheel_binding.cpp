@@ -193,6 +193,7 @@ py::list mechanism_list() {
       py::dict parameter;
       parameter["name"] = std::string(p.name);
       parameter["usual_range"] = py::make_tuple(p.low, p.high);
+      parameter["allowed_range"] = py::make_tuple(p.least, p.most);
       parameter["default"] = p.typical;
       parameters.append(parameter);
     }

@@ -74,9 +74,9 @@ const MechanismForm& form_of(const Mechanism& mechanism) {
       throw InputError(fmt::format("mechanism {}: parameter {} is not known ({})", mechanism.id,
                                    name, names.empty() ? "it has none" : name_hint(name, names)));
     }
-    if (!std::isfinite(value)) throw ValueError(name, value, "a finite number");
-    if (value < known->least)
-      throw ValueError(name, value, fmt::format("{} or more", known->least));
+    if (!(value >= known->least && value <= known->most)) {
+      throw ValueError(name, value, fmt::format("{:g} to {:g}", known->least, known->most));
+    }
   }
   return form;
 }

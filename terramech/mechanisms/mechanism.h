@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -29,12 +28,12 @@ struct WheelConditions {
 
 struct MechanismParameter {
   std::string_view name;  ///< unit included
-  double low, high;       ///< usual range; a value beyond is valid as long as it is finite
+  double low, high;       ///< usual range
   double typical;
-  /// What it can be at most by what it stands for, such as the whole of a share, and at least, as
-  /// an exponent near 0 makes a step of a law: `diagnose` fits no value beyond.
-  double most = std::numeric_limits<double>::infinity();
-  double least = -std::numeric_limits<double>::infinity();
+  /// What it can be at all: beyond, what it stands for is none (a modulus below 0 pushes with the
+  /// motion, a share is more than its whole, an exponent near 0 makes a step of a law).
+  double least, most;
+  bool is_share = false;  ///< of a whole, which is `most`
 };
 
 /// One functional form of a mechanism.
@@ -56,7 +55,7 @@ std::vector<std::string> mechanism_ids();
 
 /// The form that a mechanism names.
 /// \throws InputError where id, form or a parameter's name is unknown (listing the known ones), or
-/// a parameter is not finite
+/// a parameter lies beyond what it can be
 const MechanismForm& form_of(const Mechanism& mechanism);
 
 }  // namespace regoplan

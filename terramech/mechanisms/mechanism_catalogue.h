@@ -21,7 +21,7 @@ struct Definition {
 
 /// Of a law whose curvature nobody knows.
 inline constexpr MechanismParameter kExponent{
-    .name = "p", .low = .5, .high = 2, .typical = 1, .least = .4};
+    .name = "p", .low = .5, .high = 2, .typical = 1, .least = .4, .most = 10};
 
 inline double driving(const WheelState& at) {
   return std::max(at.slip, 0.0);

@@ -16,7 +16,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "side_force",
         "Fx -= mu |Fy|",
         "proxy; Coulomb friction on the flank that bears the side force",
-        {{"mu", .1, .5, .3}}},
+        {{"mu", .1, .5, .3, 0, 10}}},
        [](E e, P p, S) {
          e.flank_friction += p[0];
          return e;
@@ -25,7 +25,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "bulldozing",
         "Fx -= mu Fs, Fs the bulldozing part of |Fy| (eq. (15))",
         "proxy; Coulomb friction on the flank that pushes the soil aside",
-        {{"mu", .1, .6, .35}}},
+        {{"mu", .1, .6, .35, 0, 10}}},
        [](E e, P p, S) {
          e.flank_bulldozing += p[0];
          return e;
@@ -34,7 +34,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "heap",
         "Rb += D1 q sin|beta| h, q the pressure of the heap beside the wheel",
         "Terzaghi 1943, surcharge term of passive earth pressure; heap as in Pavlov & Johnson 2019",
-        {{"surcharge_pa", 800, 6000, 2500}}},
+        {{"surcharge_pa", 800, 6000, 2500, 0, 1e7}}},
        [](E e, P p, S at) {
          e.surcharge_pa += p[0] * std::sin(at.beta_abs_rad);
          return e;
@@ -43,7 +43,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "flank",
         "|Fy| += q sin|beta| A, A the buried segment of the flank",
         "proxy; the heap leans on the flank instead of loading the soil below it",
-        {{"pressure_pa", 800, 8000, 2700}}},
+        {{"pressure_pa", 800, 8000, 2700, 0, 1e7}}},
        [](E e, P p, S at) {
          e.flank_pressure_pa += p[0] * std::sin(at.beta_abs_rad);
          return e;
@@ -52,7 +52,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "ratio",
         "rim: tan(phi) of delta = ratio phi, cohesion c; bulldozing keeps the soil's",
         "Potyondy 1961, Geotechnique 11, 339-353: friction of soils on steel, delta/phi .54-.9",
-        {{"ratio", .5, .95, .75, 1}}},
+        {{"ratio", .5, .95, .75, 0, 1, true}}},
        [](E e, P p, S) {
          e.rim_friction_ratio = std::clamp(e.rim_friction_ratio * p[0], 0.0, 1.0);
          return e;
@@ -61,7 +61,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "no_adhesion",
         "as ratio, and the rim has a share of the soil's cohesion as adhesion",
         "Potyondy 1961, Geotechnique 11, 339-353",
-        {{"ratio", .5, .95, .75, 1}, {"adhesion", 0, .6, .2, 1}}},
+        {{"ratio", .5, .95, .75, 0, 1, true}, {"adhesion", 0, .6, .2, 0, 1, true}}},
        [](E e, P p, S) {
          e.rim_friction_ratio = std::clamp(e.rim_friction_ratio * p[0], 0.0, 1.0);
          e.rim_adhesion_share = std::clamp(e.rim_adhesion_share * p[1], 0.0, 1.0);
@@ -71,7 +71,7 @@ std::vector<Definition> of_flanks_and_rim() {
         "strength",
         "k times a, c and tan(phi) times b",
         "another density or moisture of the same soil; told by a reference recording only",
-        {{"stiffness", .3, 3, 1}, {"limit", .7, 1.4, 1}}},
+        {{"stiffness", .3, 3, 1, .001, 1000}, {"limit", .7, 1.4, 1, .001, 100}}},
        [](E e, P p, S) {
          e.stiffness *= p[0];
          e.limit *= p[1];
@@ -81,7 +81,9 @@ std::vector<Definition> of_flanks_and_rim() {
         "state",
         "k times a, c and tan(phi) times b, kx and ky times d",
         "another density or moisture of the same soil; told by a reference recording only",
-        {{"stiffness", .3, 3, 1}, {"limit", .7, 1.4, 1}, {"modulus", .4, 2.5, 1}}},
+        {{"stiffness", .3, 3, 1, .001, 1000},
+         {"limit", .7, 1.4, 1, .001, 100},
+         {"modulus", .4, 2.5, 1, .001, 1000}}},
        [](E e, P p, S) {
          e.stiffness *= p[0];
          e.limit *= p[1];
@@ -93,10 +95,10 @@ std::vector<Definition> of_flanks_and_rim() {
         "for_a_time",
         "from <= time <= to: k times a, c and tan(phi) times b",
         "another preparation of the bed; told by the replicates of other days",
-        {{"from_s", 0, 1e6, 0},
-         {"to_s", 0, 1e6, 8.64e4},
-         {"stiffness", .3, 3, .5},
-         {"limit", .7, 1.4, .8}}},
+        {{"from_s", 0, 1e6, 0, -1e12, 1e12},
+         {"to_s", 0, 1e6, 8.64e4, -1e12, 1e12},
+         {"stiffness", .3, 3, .5, .001, 1000},
+         {"limit", .7, 1.4, .8, .001, 100}}},
        [](E e, P p, S at) {
          if (at.conditions.time_s < p[0] || at.conditions.time_s > p[1]) return e;
          e.stiffness *= p[2];

@@ -16,7 +16,7 @@ std::vector<Definition> of_shear() {
         "linear",
         "kx += kx1 |beta|, ky += ky1 |beta|",
         "Ishigami et al. 2007, J. Field Robotics 24",
-        {{"kx1_m", .01, .1, .04}, {"ky1_m", .01, .1, .02}}},
+        {{"kx1_m", .01, .1, .04, 0, 10}, {"ky1_m", .01, .1, .02, 0, 10}}},
        [](E e, P p, S) {
          e.soil.kx1_m += p[0];
          e.soil.ky1_m += p[1];
@@ -26,7 +26,7 @@ std::vector<Definition> of_shear() {
         "power",
         "kx, ky times 1 + m sin^p|beta|",
         "proxy; as linear, with one factor for both moduli",
-        {{"m", .5, 6, 2}, kExponent}},
+        {{"m", .5, 6, 2, 0, 100}, kExponent}},
        [](E e, P p, S at) {
          const double factor = 1 + p[0] * std::pow(std::sin(at.beta_abs_rad), p[1]);
          e.soil.kx0_m *= factor;
@@ -57,7 +57,7 @@ std::vector<Definition> of_shear() {
         "within_limit",
         "shares ex, ey of eqs. (7)(10) over (1 + k (|e|^4 - max(ex, ey)^4))^(1/4)",
         "proxy; one Mohr-Coulomb limit on the resultant, felt only near it",
-        {{"coupling", .5, 1.5, 1}}},
+        {{"coupling", .5, 1.5, 1, 0, 100}}},
        [](E e, P p, S) {
          e.shear = ShearLaw::kWithinLimit;
          e.coupling = p[0];
@@ -67,7 +67,7 @@ std::vector<Definition> of_shear() {
         "wong",
         "tau/tau_max = Kr {1 + [1/(Kr (1 - 1/e)) - 1] exp(1 - j/Kw)} (1 - exp(-j/Kw))",
         "Wong 2008, eq. (2.73)",
-        {{"residual", .4, .95, .7, 1}}},
+        {{"residual", .4, .95, .7, 0, 1, true}}},
        [](E e, P p, S) {
          e.shear = ShearLaw::kHump;
          e.residual = p[0];
@@ -78,7 +78,7 @@ std::vector<Definition> of_shear() {
         "tau/tau_max = (1 - exp(-j/k)) (R + (1 - R) exp(-(j/(d k))^2)), k = kx or ky; the peak "
         "stays below tau_max",
         "proxy; dense soil loosens to its residual strength (Wong 2008, section 2.4)",
-        {{"residual", .4, .95, .7, 1}, {"distance", 2, 6, 3.5}}},
+        {{"residual", .4, .95, .7, 0, 1, true}, {"distance", 2, 6, 3.5, .1, 100}}},
        [](E e, P p, S) {
          e.shear = ShearLaw::kSoftening;
          e.residual = p[0];

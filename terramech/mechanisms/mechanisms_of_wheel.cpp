@@ -17,10 +17,10 @@ std::vector<Definition> of_wheel() {
         "thrust m b (gamma hg^2 Kp/2 + 2 c hg sqrt(Kp)) (1 - exp(-5 s)) a lug in the soil, digging "
         "hg s/2",
         "Bekker 1969; Iizuka & Kubota 2011",
-        {{"lug_height_m", .004, .02, .01},
-         {"mobilised", .3, 1, .8, 1},
-         {"ripple", 0, .5, 0},
-         {"lugs", 12, 32, 24}}},
+        {{"lug_height_m", .004, .02, .01, 0, .2},
+         {"mobilised", .3, 1, .8, 0, 1, true},
+         {"ripple", 0, .5, 0, 0, 1},
+         {"lugs", 12, 32, 24, 0, 1000}}},
        [](E e, P p, S at) {
          e.lug_height_m = p[0];
          e.lug_share = p[1] * (1 - std::exp(-5 * driving(at)));
@@ -34,7 +34,7 @@ std::vector<Definition> of_wheel() {
         "effective_radius",
         "c, tan(phi) times 1 + 4 x (hg/r) (1 - exp(-5 s)), digging hg s/2",
         "proxy; lugs as a larger shear radius",
-        {{"lug_height_m", .004, .02, .01}, {"share", .3, 1, .7, 1}}},
+        {{"lug_height_m", .004, .02, .01, 0, .2}, {"share", .3, 1, .7, 0, 1, true}}},
        [](E e, P p, S at) {
          e.limit *= 1 + p[1] * p[0] / e.wheel.radius_m * 4 * (1 - std::exp(-5 * driving(at)));
          e.sinkage_added_m += p[0] * driving(at) / 2;
@@ -46,7 +46,7 @@ std::vector<Definition> of_wheel() {
         "(1 + "
         "2 hg/b), tan(phi) (1 + 0.64 (hg/b) acot(hg/b)); digging hg s/2",
         "Bekker 1960; Ding et al. 2011, J. Terramechanics 48, 27-45",
-        {{"lug_height_m", .004, .02, .01}, {"share", .1, 1, .5, 1}}},
+        {{"lug_height_m", .004, .02, .01, 0, .2}, {"share", .1, 1, .5, 0, 1, true}}},
        [](E e, P p, S at) {
          const double radius = 1 + p[1] * p[0] / e.wheel.radius_m;
          const double slender = p[0] / e.wheel.width_m;
@@ -66,10 +66,10 @@ std::vector<Definition> of_wheel() {
         "pressure, rim radius r + hg/2, digging a hg s/(1 - s/2); Fy stays, the trench's sides "
         "having given way; carried soil behind the wheel: lambda += hg/r s",
         "Lyasko 2010, J. Terramechanics 47; Ding et al. 2011, J. Terramechanics 48, 27-45",
-        {{"lug_height_m", .004, .02, .01},
-         {"mobilised", .05, .8, .2, 1},
-         {"carried", .4, 3, 1.2},
-         {"lugs", 12, 32, 24}}},
+        {{"lug_height_m", .004, .02, .01, 0, .2},
+         {"mobilised", .05, .8, .2, 0, 1, true},
+         {"carried", .4, 3, 1.2, 0, 100},
+         {"lugs", 12, 32, 24, 0, 1000}}},
        [](E e, P p, S at) {
          const double s = driving(at);
          const double share = p[0] / e.wheel.radius_m;
@@ -90,7 +90,7 @@ std::vector<Definition> of_wheel() {
         "substitute_circle",
         "r = r0 (1 + k W)",
         "Bekker 1960; Schmid 1995",
-        {{"per_n", 1e-4, 5e-3, 1e-3}}},
+        {{"per_n", 1e-4, 5e-3, 1e-3, 0, 1}}},
        [](E e, P p, S at) {
          e.wheel.radius_m *= 1 + p[0] * at.load_n;
          return e;
@@ -99,7 +99,7 @@ std::vector<Definition> of_wheel() {
         "segment",
         "T += eta 2 r A (c + gamma h tan(phi)/2), A the flank's segment",
         "proxy; Gee-Clough 1976",
-        {{"eta", .2, 1, .5}}},
+        {{"eta", .2, 1, .5, 0, 100}}},
        [](E e, P p, S) {
          e.flank_shear += p[0];
          return e;
@@ -108,18 +108,24 @@ std::vector<Definition> of_wheel() {
         "linear",
         "T += (T0 + T1 W + T2 |w|) sgn(w)",
         "friction of bearings and gears",
-        {{"t0_nm", 0, .2, .05}, {"t1_m", 0, 2e-3, 5e-4}, {"t2_nms", 0, .05, 0}}},
+        {{"t0_nm", 0, .2, .05, 0, 1e6},
+         {"t1_m", 0, 2e-3, 5e-4, 0, 1000},
+         {"t2_nms", 0, .05, 0, 0, 1e6}}},
        [](E e, P p, S at) {
          const double rate = std::abs(at.rim_speed_mps) / e.wheel.radius_m;
          e.drag_torque_nm += p[0] + p[1] * at.load_n + p[2] * rate;
          return e;
        }},
-      {{"load_transfer", "proportional", "W = W0 (1 + k)", "statics", {{"share", -.2, .2, .08}}},
+      {{"load_transfer",
+        "proportional",
+        "W = W0 (1 + k)",
+        "statics",
+        {{"share", -.2, .2, .08, -.99, 100}}},
        [](E e, P p, S) {
          e.load_n *= 1 + p[0];
          return e;
        }},
-      {{"load_transfer", "offset", "W = W0 + dW", "statics", {{"added_n", -10, 10, 4}}},
+      {{"load_transfer", "offset", "W = W0 + dW", "statics", {{"added_n", -10, 10, 4, -1e6, 1e6}}},
        [](E e, P p, S) {
          e.load_n += p[0];
          return e;
@@ -128,7 +134,7 @@ std::vector<Definition> of_wheel() {
         "affine",
         "W = W0 (1 + k) + dW",
         "statics: a load cell whose gain and zero are off",
-        {{"share", -.2, .2, .08}, {"added_n", -10, 10, 4}}},
+        {{"share", -.2, .2, .08, -.99, 100}, {"added_n", -10, 10, 4, -1e6, 1e6}}},
        [](E e, P p, S) {
          e.load_n += p[0] * e.load_n + p[1];
          return e;
@@ -137,7 +143,7 @@ std::vector<Definition> of_wheel() {
         "drawbar",
         "W = W0 + k Fx",
         "statics: the arm of a carriage that is not level",
-        {{"share", -.3, .3, .1}}},
+        {{"share", -.3, .3, .1, -1, 1}}},
        [](E e, P p, S) {
          e.load_per_drawbar += p[0];
          return e;
@@ -146,7 +152,7 @@ std::vector<Definition> of_wheel() {
         "rim_speed",
         "true rim speed = (1 + e) times the one told",
         "rolling radius or encoder",
-        {{"error", -.12, .12, .03}}},
+        {{"error", -.12, .12, .03, -.9, 10}}},
        [](E e, P p, S) {
          e.rim_factor *= 1 + p[0];
          return e;
@@ -155,7 +161,7 @@ std::vector<Definition> of_wheel() {
         "gravity",
         "Fx -= W sin(a) cos(heading - d), Fy likewise along y",
         "statics",
-        {{"tilt_rad", .005, .05, .02}, {"direction_rad", -3.1, 3.1, 0}}},
+        {{"tilt_rad", .005, .05, .02, -1.5, 1.5}, {"direction_rad", -3.1, 3.1, 0, -6.3, 6.3}}},
        [](E e, P p, S at) {
          const double towards = at.conditions.heading_rad - p[1];
          e.tilt_x -= std::sin(p[0]) * std::cos(towards);

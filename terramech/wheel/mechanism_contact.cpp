@@ -39,8 +39,7 @@ using vector_math::Vec;
 
 /// Shear mobilised as in the base model on soil that loses strength beyond some displacement.
 [[gnu::always_inline]] inline Vec softened(Vec j_over_k, double residual, double softening) {
-  constexpr double kAtOnce = 1e-100;  // what has not moved has lost nothing
-  const Vec lost = j_over_k / std::max(std::abs(softening), kAtOnce);
+  const Vec lost = j_over_k / softening;
   return mobilised(j_over_k) * (residual + (1 - residual) * vector_math::exp(-lost * lost));
 }
 

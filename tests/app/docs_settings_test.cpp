@@ -1,8 +1,10 @@
 // Every key that the program reads stands in docs/. The keys are those that the readers themselves
 // tell: each answers a key that it does not know with those that it does.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <fstream>
 #include <functional>
 #include <regex>
 
@@ -222,6 +224,23 @@ TEST_F(DocsOfSettings, HoldEveryMechanismWithItsFormsAndParameters) {
     for (const MechanismParameter& parameter : form.parameters) keys.emplace(parameter.name);
   }
   expect_documented(keys, {"mechanisms.md"}, 60);
+}
+
+TEST_F(DocsOfSettings, SayOfEveryMechanismWhatItChangesAndWhatItsNumbersCanBe) {
+  std::ifstream stream("docs/mechanisms.md");
+  const std::string page{std::istreambuf_iterator<char>(stream), {}};
+  for (const MechanismForm& form : mechanism_forms()) {
+    std::string row = fmt::format("| `{}` | `{}` | ", form.id, form.form);
+    for (const char letter : form.formula) row += letter == '|' ? "\\|" : std::string(1, letter);
+    row += " | ";
+    for (const MechanismParameter& p : form.parameters) {
+      row += fmt::format("{}`{}` {:g} to {:g} ({:g} to {:g})",
+                         &p == &form.parameters.front() ? "" : "; ", p.name, p.low, p.high, p.least,
+                         p.most);
+    }
+    if (form.parameters.empty()) row += "none";
+    EXPECT_NE(page.find(row + " | "), std::string::npos) << row;
+  }
 }
 
 /// What the readers above do not come by: any key that stands in the code of a reader.

@@ -32,6 +32,20 @@ TEST(Hypothesis, ARecordingBearsOnlyWhatItsColumnsShow) {
   EXPECT_TRUE(tried(effects_for(condense(passes, setup).bed, passes), "multi_pass"));
 }
 
+TEST(Hypothesis, NoFitLeavesWhatTheNumbersOfAMechanismCanBe) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording =
+      record({}, setup, setup.soil.mean, {.conditions = 12, .passes = true}, 1);
+  for (const Effect& effect : effects_for(condense(recording, setup).bed, recording)) {
+    if (effect.kind != EffectKind::kMechanism) continue;
+    for (const double x : {-1e3, -30.0, 0.0, 30.0, 1e3}) {
+      const auto size = static_cast<Eigen::Index>(effect.coordinates.size());
+      const Eigen::VectorXd far = Eigen::VectorXd::Constant(size, x);
+      EXPECT_NO_THROW(form_of(mechanism_at(effect, far))) << effect.id << " at " << x;
+    }
+  }
+}
+
 TEST(Hypothesis, WithoutSlipAnglesNothingSidewaysIsTried) {
   const DiagnosisSetup setup = simulant_setup();
   const Recording straight =

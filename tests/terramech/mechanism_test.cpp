@@ -60,20 +60,6 @@ TEST(Mechanism, SoilThatABrakedWheelHasWeakenedHoldsLess) {
   }
 }
 
-TEST(Mechanism, OfAHumpStaysFiniteWhateverItsNumbers) {
-  const auto pair = named_soils::shipped_pairs().front();
-  for (const auto& [form, number] :
-       {std::pair{"softening", "distance"}, std::pair{"softening", "residual"},
-        std::pair{"wong", "residual"}}) {
-    for (const double value : {0.0, -1.0, 1e-300, 1e300}) {
-      const WheelForces forces = with(pair.spec, "shear_hump", form, {{number, value}})
-                                     .forces(pair.nominal_load_n, motion_at(0.3, 0));
-      EXPECT_TRUE(!has_forces(forces.status) || std::isfinite(forces.fx_n))
-          << form << " " << number << " " << value;
-    }
-  }
-}
-
 TEST(Mechanism, SlipSinkageDeepensTheRutAndCostsTorqueOnEverySoil) {
   for (const auto& pair : named_soils::shipped_pairs()) {
     const double load_n = pair.nominal_load_n, r = pair.spec.wheel.radius_m;
@@ -319,7 +305,7 @@ TEST(Mechanism, NamesWhatItDoesNotKnow) {
   EXPECT_NE(message({"slip_sinkage", "exponent", {{"n3", 1}}}).find("n1"), std::string::npos);
   EXPECT_NE(message({"slip_sinkage", "exponent", {{"n1", std::nan("")}}}), "");
   EXPECT_EQ(message({"slip_sinkage", "", {{"n1", 0.2}}}), "");
-  EXPECT_NE(message({"rear_contact", "power", {{"p", -1}}}).find("0.4 or more"), std::string::npos);
+  EXPECT_NE(message({"rear_contact", "power", {{"p", -1}}}).find("0.4 to 10"), std::string::npos);
   EXPECT_EQ(message({"rear_contact", "power", {{"p", 0.4}}}), "");
   WheelModelSpec spec = wheel_specs::ishigami2007();
   spec.mechanisms = {{"magic", "", {}}};
