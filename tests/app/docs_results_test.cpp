@@ -128,10 +128,21 @@ void add_schema_keys(const Json& json, Keys& keys) {
   }
 }
 
-TEST(DocsOfResults, HoldEveryKeyOfDiagnosisJsonOfDrives) {
-  // What the program writes of drives is held to this schema, which allows no further keys.
+/// What the program writes is held to its schema, which allows no further keys.
+Keys keys_of_schema(const std::string& name) {
   Keys keys;
-  add_schema_keys(Json::parse(page("docs/schemas/drive-diagnosis.schema.json")), keys);
+  add_schema_keys(Json::parse(page("docs/schemas/" + name + ".schema.json")), keys);
+  return keys;
+}
+
+TEST(DocsOfResults, HoldEveryKeyOfLoopJsonAndOfMechanisms) {
+  EXPECT_EQ(undocumented(keys_of_schema("loop"), {"demo.md", "drive.md", "drive-diagnosis.md"}),
+            Keys{});
+  EXPECT_EQ(undocumented(keys_of_schema("mechanisms"), {"mechanisms.md"}), Keys{});
+}
+
+TEST(DocsOfResults, HoldEveryKeyOfDiagnosisJsonOfDrives) {
+  const Keys keys = keys_of_schema("drive-diagnosis");
   for (const char* key : {"kind", "sigmas", "starts_ci95_s", "next_drive", "noise_floor"}) {
     EXPECT_TRUE(keys.contains(key)) << key;
   }
