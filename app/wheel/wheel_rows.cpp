@@ -46,6 +46,19 @@ constexpr std::array<Circumstance, 5> kCircumstances{{
 }};
 constexpr ValueRange kPasses{.min = 1, .max = 1e6};
 
+/// A mechanism that says nothing where a column is not told, in one form or (empty) in all.
+struct Need {
+  std::string_view id, form;
+  const char* column;
+};
+constexpr std::array<Need, 5> kNeeds{{
+    {"multi_pass", "", "pass"},
+    {"rate_dependence", "", "speed_mps"},
+    {"soil_zone", "", "position_m"},
+    {"cohesion_drift", "", "time_s"},
+    {"soil_change", "for_a_time", "time_s"},
+}};
+
 constexpr std::array<const char*, 7> kResults{"fx_n", "fy_n", "torque_nm", "sinkage_m",
                                               "fc_n", "fb_n", "status"};
 
@@ -59,13 +72,37 @@ std::vector<std::string> known_columns() {
   return known;
 }
 
+/// \throws InputError where a mechanism of the model needs a column that the table does not have
+void require_what_mechanisms_need(const CsvTable& table, const WheelModel& model) {
+  for (const Mechanism& mechanism : model.spec().mechanisms) {
+    for (const Need& need : kNeeds) {
+      if (mechanism.id != need.id) continue;
+      if (!need.form.empty() && form_of(mechanism).form != need.form) continue;
+      if (!table.find_column(need.column)) {
+        throw table.error(fmt::format("column {} is missing ({} of the model needs it)",
+                                      need.column, mechanism.id));
+      }
+    }
+  }
+}
+
+/// At rest there is no rate.
+bool has_rates(const WheelModel& model) {
+  return std::ranges::any_of(model.spec().mechanisms, [](const Mechanism& mechanism) {
+    return mechanism.id == "rate_dependence";
+  });
+}
+
 /// What a row says of the circumstances; only where a mechanism asks for them is it read.
-WheelConditions read_circumstances(const CsvTable& table, const Cells& cells) {
+WheelConditions read_circumstances(const CsvTable& table, const Cells& cells,
+                                   const WheelModel& model) {
   WheelConditions conditions;
   for (const Circumstance& circumstance : kCircumstances) {
     if (const auto column = table.find_column(circumstance.column)) {
+      const bool is_rate = circumstance.member == &WheelConditions::speed_mps && has_rates(model);
       conditions.*circumstance.member =
-          circumstance.unit * table.number(cells, *column, circumstance.allowed);
+          circumstance.unit * table.number(cells, *column, is_rate ? kAbove0 : circumstance.allowed,
+                                           is_rate ? "rate_dependence of the model needs it" : "");
     }
   }
   if (const auto column = table.find_column("pass")) {
@@ -120,6 +157,8 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     condition_columns.at(i) = table.required_column(kConditions.at(i).column, known_columns());
   }
 
+  require_what_mechanisms_need(table, model);
+
   WheelRowsResult result;
   Cells columns = table.columns();
   for (std::string& column : columns) {
@@ -143,7 +182,7 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     const WheelForces forces =
         model.spec().mechanisms.empty()
             ? model.forces(load_n, motion)
-            : model.channels(load_n, motion, read_circumstances(table, *cells)).forces;
+            : model.channels(load_n, motion, read_circumstances(table, *cells, model)).forces;
     for (std::string& cell : result_cells(forces, slip_angle_rad)) {
       cells->push_back(std::move(cell));
     }

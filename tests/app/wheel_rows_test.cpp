@@ -54,6 +54,50 @@ TEST(WheelRows, CarryTheModelsForcesAndTheirTurnIntoThePathsDirections) {
   EXPECT_EQ(rows[1][9], "ok");
 }
 
+/// What the model writes of a row with one mechanism; nothing where a column is missing for it.
+std::optional<std::vector<std::string>> row_with(const Mechanism& mechanism,
+                                                 const std::string& columns,
+                                                 const std::string& cells) {
+  WheelModelSpec spec = simulant().spec();
+  spec.mechanisms = {mechanism};
+  std::istringstream conditions("load_n,slip_ratio,slip_angle_deg" + columns + "\n64.7,0.3,12" +
+                                cells + "\n");
+  std::ostringstream csv;
+  const std::string refused = error_text(
+      [&] { compute_wheel_rows(conditions, "c.csv", WheelModel(spec), {.csv = &csv}, {}); });
+  if (!refused.empty()) {
+    EXPECT_NE(refused.find(" is missing (" + mechanism.id), std::string::npos) << refused;
+    return std::nullopt;
+  }
+  const std::string text = csv.str(), line = text.substr(text.find('\n') + 1);
+  const auto all = split_cells(line.substr(0, line.find('\n'))).value();
+  return std::vector<std::string>{all.end() - 7, all.end()};
+}
+
+TEST(WheelRows, AreRefusedWhereAMechanismNeedsAColumnThatIsNotThere) {
+  const std::string columns = ",pass,speed_mps,position_m,time_s";
+  for (const MechanismForm& form : mechanism_forms()) {
+    const Mechanism mechanism{std::string(form.id), std::string(form.form), {}};
+    const auto early = row_with(mechanism, columns, ",1,0.1,0.5,10"),
+               late = row_with(mechanism, columns, ",3,0.2,5.5,1e6");
+    ASSERT_TRUE(early && late) << form.id;
+    if (form.id == "soil_change" && form.form != "for_a_time") continue;  // a change of nothing
+    EXPECT_EQ(row_with(mechanism, "", "").has_value(), early == late)
+        << form.id << " " << form.form;
+  }
+}
+
+TEST(WheelRows, OfAModelWithRatesHaveASpeedAbove0) {
+  WheelModelSpec spec = simulant().spec();
+  spec.mechanisms = {{"rate_dependence", "stiffness", {}}};
+  std::istringstream conditions("load_n,slip_ratio,slip_angle_deg,speed_mps\n60,0.2,0,0\n");
+  std::ostringstream csv;
+  EXPECT_NE(error_text([&] {
+              compute_wheel_rows(conditions, "c.csv", WheelModel(spec), {.csv = &csv}, {});
+            }).find("c.csv:2: speed_mps: 0 is not valid (allowed: above 0"),
+            std::string::npos);
+}
+
 TEST(WheelRows, CellsAreEmptyWhereNoSinkageCarriesTheLoad) {
   const auto rows = rows_of("load_n,slip_ratio,slip_angle_deg\n1e7,0.1,0\n64.7,0.1,0\n");
   ASSERT_EQ(rows.size(), 3);
