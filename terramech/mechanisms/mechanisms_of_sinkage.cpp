@@ -132,7 +132,9 @@ std::vector<Definition> of_sinkage() {
        }},
       {{"rut_asymmetry",
         "inner_wall",
-        "edges at h (1 +- q tan|beta|), Rb at the depth of the inner one",
+        "edges at h (1 +- q tan|beta|), |beta| at most 1 rad there, Rb at the depth of the inner "
+        "one, "
+        "at most r",
         "proxy; Yoshida & Ishigami 2004, section V.B: soil reaction on the deeper side",
         {{"q", .5, 3, 1.5, 0, 100}}},
        [](E e, P p, S at) {
@@ -172,7 +174,7 @@ std::vector<Definition> of_sinkage() {
        }},
       {{"rear_contact",
         "linear",
-        "lambda = lambda0 + l1 s + l2 |beta|",
+        "lambda = lambda0 + l1 s + l2 |beta|, from 0 to 1.5",
         "Ishigami et al. 2007; Ding et al. 2011",
         {{"l1", .1, .8, .4, -10, 10}, {"l2_per_rad", 0, .8, .3, -10, 10}}},
        [](E e, P p, S at) {
@@ -182,7 +184,7 @@ std::vector<Definition> of_sinkage() {
        }},
       {{"rear_contact",
         "power",
-        "lambda = lambda0 + l1 sgn(s) |s|^p + l2 sin^p|beta|",
+        "lambda = lambda0 + l1 sgn(s) |s|^p + l2 sin^p|beta|, from 0 to 1.5",
         "proxy; as linear, where soil fills in behind late or early",
         {{"l1", .1, .8, .4, -10, 10}, {"l2", 0, .8, .3, -10, 10}, kExponent}},
        [](E e, P p, S at) {
@@ -193,7 +195,9 @@ std::vector<Definition> of_sinkage() {
        }},
       {{"max_stress_angle",
         "linear",
-        "theta_m/theta_f = a0 + a1 s + a2 |beta|",
+        "theta_m/theta_f = a0 + a1 s + a2 |beta|, a0 + a2 |beta| from |a1| to 1 - |a1|: theta_m "
+        "stays "
+        "in the contact",
         "Wong & Reece 1967, extended in beta (proxy)",
         {{"a2_per_rad", -.6, .6, .15, -10, 10}}},
        [](E e, P p, S at) {
@@ -203,7 +207,8 @@ std::vector<Definition> of_sinkage() {
        }},
       {{"max_stress_angle",
         "power",
-        "theta_m/theta_f = a0 + a1 s + a2 sin^p|beta|",
+        "theta_m/theta_f = a0 + a1 s + a2 sin^p|beta|, a0 + a2 sin^p|beta| from |a1| to 1 - |a1|: "
+        "theta_m stays in the contact",
         "proxy; as linear, where the shift sets in late or tails off",
         {{"a2", -.6, .6, .15, -10, 10}, kExponent}},
        [](E e, P p, S at) {

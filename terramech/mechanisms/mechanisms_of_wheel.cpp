@@ -14,8 +14,9 @@ std::vector<Definition> of_wheel() {
   return {
       {{"grousers",
         "passive_pressure",
-        "thrust m b (gamma hg^2 Kp/2 + 2 c hg sqrt(Kp)) (1 - exp(-5 s)) a lug in the soil, digging "
-        "hg s/2",
+        "thrust m b (gamma hg^2 Kp/2 + 2 c hg sqrt(Kp)) (1 - exp(-5 s)) a lug in the soil, of "
+        "which there is "
+        "one at least, digging hg s/2",
         "Bekker 1969; Iizuka & Kubota 2011",
         {{"lug_height_m", .004, .02, .01, 0, .2},
          {"mobilised", .3, 1, .8, 0, 1, true},
@@ -64,7 +65,7 @@ std::vector<Definition> of_wheel() {
         "carried_soil",
         "thrust m b hg (gamma hg Kp/2 + q Kp + 2 c sqrt(Kp)) a lug in the soil, q the ground "
         "pressure, rim radius r + hg/2, digging a hg s/(1 - s/2); Fy stays, the trench's sides "
-        "having given way; carried soil behind the wheel: lambda += hg/r s",
+        "having given way; carried soil behind the wheel: lambda += hg/r s, at most 1.5",
         "Lyasko 2010, J. Terramechanics 47; Ding et al. 2011, J. Terramechanics 48, 27-45",
         {{"lug_height_m", .004, .02, .01, 0, .2},
          {"mobilised", .05, .8, .2, 0, 1, true},
