@@ -85,6 +85,12 @@ struct Vehicle {
   double step_max_m = 0;  ///< rocks up to this height are driven over
 };
 
+/// What numbers of a vehicle may be. The lightest rovers weigh a quarter of a kilogram.
+inline constexpr ValueRange kVehicleMass_kg{.min = 0.1, .max = 1e6};
+inline constexpr ValueRange kVehicleYawInertia_kgm2{.min = 0, .max = 1e8, .min_excluded = true};
+inline constexpr ValueRange kVehicleSpeed_mps{.min = 0, .max = 100, .min_excluded = true};
+inline constexpr ValueRange kVehicleAcceleration_mps2{.min = 0, .max = 100, .min_excluded = true};
+
 /// Checks every field, and what only fields together decide:
 /// - three to `kMaxWheels` wheels with names of their own, not all on a line, the centre of gravity
 ///   within the polygon of their contacts, one of them driven;
@@ -94,12 +100,6 @@ struct Vehicle {
 ///   drive law is kinematic (rims of one speed or torque cannot steer);
 /// - rocker-bogie: six wheels in three axles, each pivot between what it carries;
 /// - rocks that are driven over pass below the body; the sinkage limit is below the axle.
-/// What numbers of a vehicle may be. The lightest rovers weigh a quarter of a kilogram.
-inline constexpr ValueRange kVehicleMass_kg{.min = 0.1, .max = 1e6};
-inline constexpr ValueRange kVehicleYawInertia_kgm2{.min = 0, .max = 1e8, .min_excluded = true};
-inline constexpr ValueRange kVehicleSpeed_mps{.min = 0, .max = 100, .min_excluded = true};
-inline constexpr ValueRange kVehicleAcceleration_mps2{.min = 0, .max = 100, .min_excluded = true};
-
 /// \throws ValueError or InputError naming the field, as it stands in files, that cannot be
 void validate(const Vehicle& vehicle);
 
