@@ -5,7 +5,7 @@
 #include "app/settings/model_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/soil_settings.h"
-#include "planner/problem/gravity_range.h"
+#include "terramech/parameters/gravity_range.h"
 
 namespace regoplan {
 namespace {

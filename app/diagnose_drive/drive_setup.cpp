@@ -5,8 +5,8 @@
 #include "app/settings/scenario_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/vehicle_settings.h"
-#include "planner/problem/gravity_range.h"
 #include "terramech/basics/angles.h"
+#include "terramech/parameters/gravity_range.h"
 
 namespace regoplan {
 namespace {

@@ -13,7 +13,7 @@
 #include "app/settings/soil_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "planner/following/follower.h"
-#include "planner/problem/gravity_range.h"
+#include "terramech/parameters/gravity_range.h"
 
 namespace regoplan {
 namespace {

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "app/command/command.h"
-#include "planner/problem/gravity_range.h"
+#include "terramech/parameters/gravity_range.h"
 #include "terramech/parameters/vehicle.h"
 
 namespace regoplan {

@@ -16,8 +16,8 @@
 #include "app/settings/terrain_settings.h"
 #include "app/settings/vehicle_settings.h"
 #include "maps/raster_files.h"
-#include "planner/problem/gravity_range.h"
 #include "terramech/basics/angles.h"
+#include "terramech/parameters/gravity_range.h"
 
 namespace regoplan {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/settings/vehicle_settings.h"
-#include "planner/problem/gravity_range.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/parameters/gravity_range.h"
 
 namespace regoplan {
 namespace {

@@ -7,6 +7,7 @@
 #include "maps/ground_finder.h"
 #include "terramech/margins/state_margins.h"
 #include "terramech/vehicle/vehicle_dynamics.h"
+#include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
 namespace {
@@ -35,8 +36,11 @@ GroundReaction reaction_at(const VehicleDynamics& dynamics, const TrajectoryPoin
 std::vector<std::vector<double>> wheel_loads_along_n(const PlanningProblem& problem,
                                                      std::span<const TrajectoryPoint> points) {
   const GroundFinder ground(problem.map, problem.vehicle);
+  // Loads do not hang on the soil: that of any will do.
+  const WheelModel any(wheel_model_spec(problem, problem.map.soils().front().soil.mean));
+  const std::vector<WheelLaw> laws{WheelLaw(any)};
   const VehicleDynamics dynamics(
-      problem.vehicle, std::span<const WheelLaw>(),
+      problem.vehicle, laws,
       [&](double x_m, double y_m, double yaw_rad) { return ground.at(x_m, y_m, yaw_rad); },
       problem.gravity_mps2);
   std::vector<std::vector<double>> loads;

@@ -8,11 +8,11 @@
 
 #include "maps/class_codes.h"
 #include "maps/ground_finder.h"
-#include "planner/problem/gravity_range.h"
 #include "planner/problem/obstacles.h"
 #include "planner/runtime/draw_statistics.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/parameters/gravity_range.h"
 
 namespace regoplan {
 namespace {

@@ -1,8 +1,30 @@
 #include "terramech/margins/margin_judge.h"
 
+#include <cmath>
 #include <limits>
 
+#include "terramech/basics/angles.h"
+#include "terramech/basics/input_error.h"
+#include "terramech/basics/value_range.h"
+#include "terramech/parameters/trusted_range.h"
+
 namespace regoplan {
+namespace {
+
+const StrainLimits& checked(const StrainLimits& strain, std::span<const WheelLaw> soil_laws) {
+  validate(strain);
+  if (soil_laws.empty()) throw InputError("soil_laws: none; one for each soil of the ground");
+  return strain;
+}
+
+}  // namespace
+
+void validate(const StrainLimits& strain) {
+  require("slip_angle_max_deg", rounded_degrees(strain.slip_angle_max_rad),
+          {.min = 0, .max = rounded_degrees(kTrustedSlipAngle_rad), .min_excluded = true});
+  require("slip_max", strain.slip_max, {.min = 0, .max = kTrustedSlip_max, .min_excluded = true});
+  require("sinkage_max_m", strain.sinkage_max_m, kAbove0);
+}
 
 TrimLimits trim_limits(const Vehicle& vehicle, const StrainLimits& strain) {
   return {.slip_angle_max_rad = strain.slip_angle_max_rad,
@@ -16,7 +38,7 @@ MarginJudge::MarginJudge(const VehicleDynamics& dynamics, std::span<const WheelL
                          const StrainLimits& strain)
     : dynamics_(dynamics),
       soil_laws_(soil_laws),
-      limits_(trim_limits(dynamics.vehicle(), strain)),
+      limits_(trim_limits(dynamics.vehicle(), checked(strain, soil_laws))),
       polygon_(dynamics.vehicle()) {}
 
 void MarginJudge::use_tables(double slope_max_rad, int threads) {

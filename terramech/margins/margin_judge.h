@@ -16,6 +16,9 @@ struct StrainLimits {
   double sinkage_max_m = 0;
 };
 
+/// \throws ValueError for a limit that is not above 0, or beyond where wheel forces are trusted
+void validate(const StrainLimits& strain);
+
 /// The limits of steady trims: those of the strain, and what the vehicle's steering and motors can.
 TrimLimits trim_limits(const Vehicle& vehicle, const StrainLimits& strain);
 
@@ -26,6 +29,7 @@ TrimLimits trim_limits(const Vehicle& vehicle, const StrainLimits& strain);
 class MarginJudge {
  public:
   /// Solves every manoeuvre with the wheels' laws. \param dynamics \param soil_laws must outlive it
+  /// \throws ValueError as `validate(strain)`, InputError for no soil law
   MarginJudge(const VehicleDynamics& dynamics, std::span<const WheelLaw> soil_laws,
               const StrainLimits& strain);
   MarginJudge(VehicleDynamics&& gone, std::span<const WheelLaw> soil_laws,

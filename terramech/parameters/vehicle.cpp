@@ -19,11 +19,6 @@ constexpr double kLongest_m = 100;
 /// Below this, two positions are the same: files give millimetres.
 constexpr double kSamePlace_m = 1e-6;
 
-/// Rounded far below any meaning, so that a limit given as 60 deg is 60 deg again.
-double rounded_degrees(double angle_rad) {
-  return std::round(angle_rad / kDegree * 1e9) / 1e9;
-}
-
 void require_between(const std::string& field, double value, double min, double max) {
   if (!(value >= min && value <= max)) {
     throw ValueError(field, value, fmt::format("{} to {}", min, max));

@@ -1,5 +1,7 @@
 #include "terramech/vehicle/vehicle_dynamics.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
@@ -8,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "terramech/basics/input_error.h"
+#include "terramech/parameters/gravity_range.h"
 #include "terramech/vehicle/step_commands.h"
 
 namespace regoplan {
@@ -19,14 +23,35 @@ double approach(double value, double target, double rate_max, double duration_s)
   return std::abs(target - value) <= step ? target : value + std::copysign(step, target - value);
 }
 
+/// What the motion divides by and counts wheels by. A vehicle told from another centre of gravity
+/// need not pass `validate` as a whole: it may be asked for turns that it cannot steer.
+const Vehicle& checked(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws) {
+  require("mass_kg", vehicle.mass_kg, kVehicleMass_kg);
+  require("yaw_inertia_kgm2", vehicle.yaw_inertia_kgm2, kVehicleYawInertia_kgm2);
+  require("acceleration_max_mps2", vehicle.acceleration_max_mps2, kVehicleAcceleration_mps2);
+  validate(vehicle.wheel);
+  if (vehicle.wheels.size() < 3 || vehicle.wheels.size() > kMaxWheels ||
+      !stands_on_wheels(vehicle)) {
+    throw InputError(fmt::format(
+        "wheels: 3 to {} that the centre of gravity (x_m = y_m = 0) stands between", kMaxWheels));
+  }
+  if (soil_laws.empty()) throw InputError("soil_laws: none; one for each soil of the ground");
+  return vehicle;
+}
+
+double checked_gravity_mps2(double gravity_mps2) {
+  require("gravity_mps2", gravity_mps2, kGravity_mps2);
+  return gravity_mps2;
+}
+
 }  // namespace
 
 VehicleDynamics::VehicleDynamics(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws,
                                  Ground ground, double gravity_mps2)
-    : vehicle_(vehicle),
+    : vehicle_(checked(vehicle, soil_laws)),
       wheels_(vehicle, soil_laws),
       ground_(std::move(ground)),
-      gravity_mps2_(gravity_mps2),
+      gravity_mps2_(checked_gravity_mps2(gravity_mps2)),
       longest_arm_m_(longest_arm_m(vehicle)) {}
 
 VehicleDynamics::Commands VehicleDynamics::commands_after(const VehicleState& state,

@@ -77,6 +77,9 @@ class VehicleDynamics {
 
   /// \param soil_laws the wheel's forces on each soil, by the ground's soil indices; like vehicle
   /// and ground they must outlive this
+  /// \throws ValueError or InputError for a mass, an inertia, an acceleration, a wheel or a gravity
+  /// that cannot be, wheels that the vehicle does not stand on, no soil law; the rest of a vehicle
+  /// is for `validate` to ask
   VehicleDynamics(const Vehicle& vehicle, std::span<const WheelLaw> soil_laws, Ground ground,
                   double gravity_mps2);
   VehicleDynamics(Vehicle&& gone, std::span<const WheelLaw> soil_laws, Ground ground,

@@ -8,6 +8,7 @@
 
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/parameters/gravity_range.h"
 #include "terramech/wheel/corrected_forces.h"
 #include "terramech/wheel/forward_motion.h"
 #include "terramech/wheel/mechanism_model.h"
@@ -68,9 +69,7 @@ WheelForces scale_stress(const SinkageSolver& solver, const Ground& ground, doub
 const WheelModelSpec& checked(const WheelModelSpec& spec) {
   validate(spec.wheel);
   validate(spec.soil);
-  if (!(spec.gravity_mps2 > 0 && spec.gravity_mps2 <= 100)) {
-    throw ValueError("gravity_mps2", spec.gravity_mps2, "above 0 to 100");
-  }
+  require("gravity_mps2", spec.gravity_mps2, kGravity_mps2);
   if (!resists_sinkage(spec.soil, spec.wheel.width_m)) {
     throw ValueError("kc", spec.soil.kc,
                      fmt::format("kc/width_m + kphi above 0, with kphi {}", spec.soil.kphi));

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
+#include <span>
 
 #include "terramech/margins/trim.h"
+#include "tests/error_text.h"
 #include "tests/terramech/driving.h"
 
 namespace regoplan {
@@ -115,6 +118,34 @@ TEST(VehicleDynamics, ControlsMoveAtTheirLimitedRates) {
   EXPECT_EQ(there.rim_speed_mps, 1.03);
   EXPECT_EQ(there.curvature_1pm, 0.01);
   EXPECT_NEAR(there.rim_acceleration_mps2, 0.06, 1e-12);
+}
+
+TEST(VehicleDynamics, RefusesWhatCannotMove) {
+  const VehicleOnSoil on("lrv");
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const auto refused_for = [](const Vehicle& vehicle, std::span<const WheelLaw> laws,
+                              double gravity_mps2) {
+    const std::string text =
+        error_text([&] { const VehicleDynamics no(vehicle, laws, Plane{}, gravity_mps2); });
+    return text.substr(0, text.find_first_of(" :"));
+  };
+  EXPECT_EQ(refused_for(on.vehicle, on.soil_laws, on.gravity_mps2), "");
+  EXPECT_EQ(refused_for(on.vehicle, {}, on.gravity_mps2), "soil_laws");
+  for (const double nonsense : {-1.0, 0.0, kNaN}) {
+    EXPECT_EQ(refused_for(on.vehicle, on.soil_laws, nonsense), "gravity_mps2");
+    Vehicle vehicle = on.vehicle;
+    vehicle.mass_kg = nonsense;
+    EXPECT_EQ(refused_for(vehicle, on.soil_laws, on.gravity_mps2), "mass_kg");
+    vehicle = on.vehicle;
+    vehicle.yaw_inertia_kgm2 = nonsense;
+    EXPECT_EQ(refused_for(vehicle, on.soil_laws, on.gravity_mps2), "yaw_inertia_kgm2");
+    vehicle = on.vehicle;
+    vehicle.wheel.radius_m = nonsense;
+    EXPECT_EQ(refused_for(vehicle, on.soil_laws, on.gravity_mps2), "radius_m");
+  }
+  Vehicle vehicle = on.vehicle;
+  vehicle.wheels.clear();
+  EXPECT_EQ(refused_for(vehicle, on.soil_laws, on.gravity_mps2), "wheels");
 }
 
 TEST(VehicleDynamics, StopsShortOfUnknownGround) {
