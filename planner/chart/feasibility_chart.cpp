@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "planner/problem/world.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/parallel_for.h"
 
@@ -50,7 +51,9 @@ class Plane {
     for (const double side : {1.0, -1.0}) {
       const StateMargins m = margins(speed_mps, side * curvature_1pm, slope_rad);
       const double least = settings_.limits.margin_min;
-      if (!m.supply) return m.no_supply == NoSupply::kTraction ? "traction" : "cornering";
+      if (const auto rejected = m.supply ? std::nullopt : rejected_by(m, least, {})) {
+        return name(rejected->reason);
+      }
       const double cornering = *m.cornering;
       const double traction = m.traction.value_or(std::numeric_limits<double>::infinity());
       if (std::min({cornering, m.tip_over, traction}) < least || !m.traction) {

@@ -34,7 +34,7 @@ struct SafeCurvature {
   double slope_rad = 0;
   double speed_mps = 0;
   double curvature_1pm = 0;  ///< 0 where not even straight on is safe
-  std::string limit;  ///< what forbids more: cornering, tip_over, traction, slope or steering
+  std::string limit;         ///< what forbids more: a reason of `Rejection`, or steering
   /// The lateral supply in that turn to either side, the smaller end; 0 where there is none.
   double supply_n = 0;
 };

@@ -112,6 +112,11 @@ Refusal refusal_of(const World& world, const RejectedState& rejected, const Stat
           .exceeded = rejected.exceeded};
 }
 
+/// Whether another draw of the soils may lift a refusal of the commanded path.
+bool hangs_on_soil(Rejection reason) {
+  return is_margin(reason) || reason == Rejection::kSinkage;
+}
+
 /// Why the vehicle cannot stop where it has arrived.
 std::optional<RejectedState> refused_stop(const World& world, const TrackingRun& run) {
   if (run.end != TrackingEnd::kArrived) return std::nullopt;
@@ -324,7 +329,7 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   }
   // What the soils cannot mend.
   if (evaluation.refusal && !evaluation.refusal->while_tracking &&
-      !is_margin(evaluation.refusal->reason)) {
+      !hangs_on_soil(evaluation.refusal->reason)) {
     evaluation.spread.feasible = {.share = 0, .low = 0, .high = 0};
   }
   return evaluation;

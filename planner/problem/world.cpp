@@ -89,6 +89,11 @@ std::optional<RejectedState> rejected_by(const StateMargins& margins, double mar
     if (margin) at.exceeded = {.found = *margin, .limit = margin_min};
     return at;
   };
+  if (!margins.supply && margins.no_supply == NoSupply::kSinkage) {
+    at.reason = Rejection::kSinkage;
+    at.exceeded = {.found = margins.too_deep->sinkage_m, .limit = margins.too_deep->allowed_m};
+    return at;
+  }
   if (!margins.supply) {
     return because(
         margins.no_supply == NoSupply::kTraction ? Rejection::kTraction : Rejection::kCornering,

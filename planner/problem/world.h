@@ -28,8 +28,9 @@ struct Judgement {
   std::optional<RejectedState> rejected;
 };
 
-/// The first margin, in the order of `Rejection`, that is missing or smaller than the least.
-/// \param at the state, which the answer describes
+/// The first margin, in the order of `Rejection`, that is missing or smaller than the least;
+/// sinkage where a wheel sinks deeper in the steady trim than it may. \param at the state, which
+/// the answer describes
 std::optional<RejectedState> rejected_by(const StateMargins& margins, double margin_min,
                                          RejectedState at);
 

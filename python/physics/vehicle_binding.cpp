@@ -142,7 +142,7 @@ py::dict supply(const VehicleOnSoil& vehicle, const std::vector<py::array>& argu
   } else {
     dict["right"] = py::none();
     dict["left"] = py::none();
-    dict["reason"] = result.reason == NoSupply::kTraction ? "traction" : "yaw";
+    dict["reason"] = name(result.reason);
   }
   return dict;
 }

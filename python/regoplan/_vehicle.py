@@ -89,7 +89,7 @@ class SafeCurvature(Columns):
     supply_n : float64
         The lateral supply in that turn, the smaller side, N.
     limit : str
-        What forbids more: cornering, tip_over, traction, slope or steering.
+        What forbids more: cornering, tip_over, traction, sinkage, slope or steering.
     """
 
     __slots__ = ("curvature_1pm", "supply_n", "limit")
@@ -183,7 +183,7 @@ class VehicleOnSoil:
         -------
         dict
             ``right`` and ``left``, each ``{force_n, limit, wheel, fold_n, understeer_1pm}`` or None;
-            ``reason`` (traction or yaw) where there is no supply.
+            ``reason`` (sinkage, traction or yaw) where there is no supply.
         """
         return self._source.supply(_single(_moment(speed_mps, curvature_1pm, ground)))
 

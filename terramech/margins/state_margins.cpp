@@ -18,7 +18,8 @@ SupplyAnswer SolvedSupply::answer(const SupplyQuestion& question) const {
   }
   const SteadyManoeuvre manoeuvre = manoeuvre_of(vehicle_, sharing_, laws, question);
   const SupplyResult result = cornering_supply(manoeuvre, question.force.forward_n, limits_);
-  SupplyAnswer answer{.supply = {}, .no_supply = result.reason, .traction_n = {}};
+  SupplyAnswer answer{
+      .supply = {}, .no_supply = result.reason, .too_deep = result.too_deep, .traction_n = {}};
   if (result.supply) {
     answer.supply = SupplyInterval{.right_n = result.supply->right.force_n,
                                    .left_n = result.supply->left.force_n};
@@ -119,6 +120,7 @@ StateMargins margins_of(const VehicleDynamics& dynamics, const SupportPolygon& p
       .demand_n = force.left_n,
       .supply = answer.supply,
       .no_supply = answer.no_supply,
+      .too_deep = answer.too_deep,
       .tip_over = polygon.tip_over_margin({.normal_n = question.normal_n,
                                            .forward_n = c * force.forward_n - s * left_n,
                                            .left_n = s * force.forward_n + c * left_n}),

@@ -22,6 +22,7 @@ struct StateMargins {
   double demand_n = 0;
   std::optional<SupplyInterval> supply;
   NoSupply no_supply = NoSupply::kTraction;  ///< why, where there is none
+  std::optional<TooDeep> too_deep = {};      ///< where that is sinkage
   double tip_over = 0;  ///< at the demand, or the nearest lateral force that the soil can give
   std::optional<double> cornering;  ///< nothing without supply
   std::optional<double> traction;   ///< nothing where the lateral demand has no trim
@@ -50,6 +51,7 @@ SteadyManoeuvre manoeuvre_of(const Vehicle& vehicle, const LoadSharing& sharing,
 struct SupplyAnswer {
   std::optional<SupplyInterval> supply;
   NoSupply no_supply = NoSupply::kTraction;
+  std::optional<TooDeep> too_deep = {};
   std::optional<double> traction_n;
 };
 

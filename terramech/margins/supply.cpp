@@ -1,5 +1,6 @@
 #include "terramech/margins/supply.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace regoplan {
@@ -29,18 +30,45 @@ SupplyEnd end_of(const SteadyManoeuvre& manoeuvre, const SteadyManoeuvre::Point&
 }
 
 NoSupply reason_for(BranchLimit limit) {
-  return limit == BranchLimit::kSlip || limit == BranchLimit::kSinkage ? NoSupply::kTraction
-                                                                       : NoSupply::kYaw;
+  return limit == BranchLimit::kSlip ? NoSupply::kTraction : NoSupply::kYaw;
+}
+
+double deepest_sinkage_m(const Trim& trim) {
+  double deepest_m = 0;
+  for (const TrimmedWheel& wheel : trim.wheels) {
+    deepest_m = std::max(deepest_m, wheel.forces.sinkage_m);
+  }
+  return deepest_m;
 }
 
 }  // namespace
+
+std::string_view name(NoSupply reason) {
+  switch (reason) {
+    case NoSupply::kSinkage:
+      return "sinkage";
+    case NoSupply::kTraction:
+      return "traction";
+    case NoSupply::kYaw:
+      return "yaw";
+  }
+  return "";
+}
 
 SupplyResult cornering_supply(const SteadyManoeuvre& manoeuvre, double forward_n,
                               const TrimLimits& limits, bool find_folds) {
   const ForceLine left = sideways(manoeuvre, forward_n, 1);
   const auto start = manoeuvre.solve_from_rolling(left);
   if (!start) return {.supply = {}, .reason = NoSupply::kTraction};
-  const LimitUse use = limit_use(manoeuvre.trim(*start, left), limits);
+  const Trim trim = manoeuvre.trim(*start, left);
+  const double deepest_m = deepest_sinkage_m(trim);
+  // No force mends that: it is told before all else.
+  if (deepest_m >= limits.sinkage_max_m) {
+    return {.supply = {},
+            .reason = NoSupply::kSinkage,
+            .too_deep = TooDeep{.sinkage_m = deepest_m, .allowed_m = limits.sinkage_max_m}};
+  }
+  const LimitUse use = limit_use(trim, limits);
   if (use.used >= 1) return {.supply = {}, .reason = reason_for(use.limit)};
   return {.supply = Supply{.right = end_of(manoeuvre, *start, forward_n, -1, limits, find_folds),
                            .left = end_of(manoeuvre, *start, forward_n, 1, limits, find_folds)}};

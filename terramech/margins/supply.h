@@ -23,9 +23,13 @@ struct SupplyEnd {
 
 /// Why there is no supply at all.
 enum class NoSupply {
-  kTraction,  ///< the forward force cannot be had, or not within slip and sinkage
+  kSinkage,   ///< it takes no force, but a wheel sinks deeper than it may
+  kTraction,  ///< the forward force cannot be had, or not within slip
   kYaw,       ///< no balance of the yaw moment, or not within slip angle and steering range
 };
+
+/// As it stands in reports: `sinkage`, `traction`, `yaw`.
+std::string_view name(NoSupply reason);
 
 /// The lateral forces [A-, A+] that steady trims can give while curvature, load and forward force
 /// are held: the ends of the branch of trims connected to zero lateral force, out to the first of
@@ -35,9 +39,16 @@ struct Supply {
   SupplyEnd left;   ///< A+, normally positive
 };
 
+/// How deep a wheel sinks in a trim, and how deep it may.
+struct TooDeep {
+  double sinkage_m = 0;
+  double allowed_m = 0;
+};
+
 struct SupplyResult {
   std::optional<Supply> supply;
   NoSupply reason = NoSupply::kTraction;  ///< counts where there is none
+  std::optional<TooDeep> too_deep = {};   ///< where the reason is sinkage
 };
 
 /// Of a turn on the spot: the forces to the vehicle's left.

@@ -215,6 +215,16 @@ TEST(Evaluation, APathThatLeavesTheMapIsRefusedThere) {
   EXPECT_EQ(e.spread.feasible.share, 0);
 }
 
+TEST(Evaluation, AVehicleThatSinksTooDeepIsToldSoAndOtherSoilsMayBearIt) {
+  PlanningProblem problem = flat_problem();
+  problem.limits.sinkage_max_m = 0.001;
+  const PathEvaluation e = evaluated(problem, reference({{10, 25}, {30, 25}}, 1));
+  ASSERT_FALSE(e.feasible);
+  EXPECT_EQ(e.refusal->reason, Rejection::kSinkage);
+  EXPECT_EQ(e.refusal->exceeded->limit, problem.limits.sinkage_max_m);
+  EXPECT_GT(e.refusal->exceeded->found, problem.limits.sinkage_max_m);
+}
+
 TEST(Evaluation, ARockOnThePathIsAnObstacle) {
   PlanningProblem problem = lrv_problem(one_soil_map(
       60, firm_regolith(), flat, {{.x_m = 30, .y_m = 25, .radius_m = 1, .height_m = 1}}));

@@ -87,6 +87,30 @@ TEST(RejectedBy, WithoutASteadyTrimThereIsNoNumber) {
             Rejection::kTraction);
 }
 
+TEST(RejectedBy, AWheelThatSinksTooDeepIsToldBeforeAnyWantOfForce) {
+  const auto deep = rejected_by({.no_supply = NoSupply::kSinkage,
+                                 .too_deep = TooDeep{.sinkage_m = 0.009, .allowed_m = 0.005},
+                                 .tip_over = -1},
+                                0.05, {.x_m = 3});
+  EXPECT_EQ(reason(deep), Rejection::kSinkage);
+  EXPECT_EQ(deep->exceeded->found, 0.009);
+  EXPECT_EQ(deep->exceeded->limit, 0.005);
+  EXPECT_EQ(deep->x_m, 3);
+}
+
+TEST(World, AVehicleThatStandsDeeperThanItMayIsToldItsSinkage) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World free(problem, WorldUse::kVerdict, 1);
+  ASSERT_EQ(reason(free.rejected(free.start(), {})), std::nullopt);
+  problem.limits.sinkage_max_m = 0.001;
+  const World world(problem, WorldUse::kVerdict, 1);
+  const auto rejected = world.rejected(world.start(), {});
+  EXPECT_EQ(reason(rejected), Rejection::kSinkage);
+  EXPECT_GT(rejected->exceeded->found, problem.limits.sinkage_max_m);
+  EXPECT_LT(rejected->exceeded->found, problem.vehicle.sinkage_max_m);
+  EXPECT_EQ(rejected->exceeded->limit, problem.limits.sinkage_max_m);
+}
+
 TEST(World, ASearchMayStartAtTopSpeedThoughItKeepsAReserveBelowIt) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   problem.start.speed_mps = problem.speed_max_mps;

@@ -93,11 +93,18 @@ TEST(CorneringSupply, IsNoneForWantOfTractionOnASlopeTooSteepToClimb) {
   EXPECT_EQ(result.reason, NoSupply::kTraction);
 }
 
-TEST(CorneringSupply, IsNoneForWantOfTractionWhereTheVehicleSinks) {
-  const VehicleOnSoil on("tohoku", soft_patch());  // Earth weight on lunar dust
+TEST(CorneringSupply, IsNoneForItsSinkageWhereTheVehicleSinksTooDeepInATrim) {
+  Vehicle vehicle = preset_vehicle("lrv");
+  const VehicleOnSoil free(vehicle, firm_regolith(), kMoon_mps2);
+  ASSERT_TRUE(free.supply(0).supply);
+  vehicle.sinkage_max_m = 0.001;
+  const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
   const SupplyResult result = on.supply(0);
   EXPECT_FALSE(result.supply);
-  EXPECT_EQ(result.reason, NoSupply::kTraction);
+  EXPECT_EQ(result.reason, NoSupply::kSinkage);
+  ASSERT_TRUE(result.too_deep);
+  EXPECT_GT(result.too_deep->sinkage_m, vehicle.sinkage_max_m);
+  EXPECT_EQ(result.too_deep->allowed_m, vehicle.sinkage_max_m);
 }
 
 TEST(CorneringSupply, IsNoneForWantOfYawBalanceWhereFixedWheelsMustTurnTightly) {
