@@ -14,12 +14,14 @@
 namespace regoplan {
 namespace {
 
-/// A round time, some times what there was.
-double more_time_s(double time_s) {
+/// A round time: some times what there was, beside what went before the search.
+double more_time_s(double time_s, const std::vector<TimedStep>& before_search) {
   constexpr double kTimes = 2.5;
-  const double decade = std::pow(10, std::floor(std::log10(kTimes * time_s)));
+  double least_s = kTimes * time_s;
+  for (const TimedStep& step : before_search) least_s += step.time_s;
+  const double decade = std::pow(10, std::floor(std::log10(least_s)));
   for (const double round : {1.0, 2.0, 5.0}) {
-    if (round * decade >= kTimes * time_s) return round * decade;
+    if (round * decade >= least_s) return round * decade;
   }
   return 10 * decade;
 }
@@ -100,7 +102,7 @@ std::string why_undecided(const PlanningProblem& problem, const PlanResult& resu
   std::string time;
   if (problem.search.time_s && (end.cut_short || end.unverified > 0)) {
     time = fmt::format("{:.4g} s did not suffice, give it {:.4g} s", *problem.search.time_s,
-                       more_time_s(*problem.search.time_s));
+                       more_time_s(*problem.search.time_s, result.before_search));
   }
   const std::string found =
       fmt::format("{} {}", end.found, end.found == 1 ? "path was" : "paths were");

@@ -20,6 +20,14 @@ TEST(Undecided, ASearchThatTheTimeCutShortIsGivenMore) {
   EXPECT_EQ(why, "2 s did not suffice, give it 5 s: no path was found");
 }
 
+TEST(Undecided, TheTimeThatIsAskedForHoldsWhatGoesBeforeTheSearch) {
+  PlanResult result;
+  result.before_search = {{.step = "certificates", .time_s = 0.2},
+                          {.step = "force tables", .time_s = 0.4}};
+  EXPECT_EQ(why_undecided(problem_with(0.01), result, {.found = 0, .cut_short = true}),
+            "0.01 s did not suffice, give it 1 s: no path was found");
+}
+
 TEST(Undecided, ASearchThatCameToItsEndIsNotSentOnForTime) {
   EXPECT_EQ(why_undecided(problem_with(2), {}, {}), "no path was found");
   EXPECT_EQ(why_undecided(problem_with({}), {}, {.cut_short = true}), "no path was found");
