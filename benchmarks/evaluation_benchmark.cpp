@@ -61,12 +61,12 @@ struct WindingPath {
 };
 
 void report(benchmark::State& state, const PathEvaluation& e) {
-  const PathMargins& error = e.spread.surrogate_error;
+  const PathMargins& error = e.spread->surrogate_error;
   state.counters["length_m"] = e.length_m;
-  state.counters["draws"] = e.spread.draws;
-  state.counters["direct"] = e.spread.direct_draws;
+  state.counters["draws"] = e.spread->draws;
+  state.counters["direct"] = e.spread->direct_draws;
   state.counters["error"] = std::max({error.cornering, error.tip_over, error.traction});
-  state.counters["margin_p05"] = e.spread.margin.p05;
+  state.counters["margin_p05"] = e.spread->margin.p05;
 }
 
 /// Commanded path, driven path and soils.

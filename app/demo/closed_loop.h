@@ -24,8 +24,9 @@ struct VerdictChange {
   /// Feasible, and its margins are kept in 95 % of the draws of the soils.
   static bool holds(const PathEvaluation& evaluation) {
     constexpr double kShare = 0.95;
+    const auto& spread = evaluation.spread;
     return evaluation.feasible &&
-           (evaluation.spread.draws == 0 || evaluation.spread.feasible.share >= kShare);
+           (!spread || spread->draws == 0 || spread->feasible.share >= kShare);
   }
 };
 

@@ -31,12 +31,13 @@ Json drive_content(const DriveRecord& record, const PlanningProblem& problem) {
 }
 
 Json verdict_content(const PathEvaluation& evaluation) {
-  const SoilSpread& spread = evaluation.spread;
+  const auto& spread = evaluation.spread;
   return {{"feasible", evaluation.feasible},
           {"holds", VerdictChange::holds(evaluation)},
           {"why", evaluation.refusal ? sentence(*evaluation.refusal) : ""},
-          {"margin_min", number(evaluation.margin_min)},
-          {"probability_margins", spread.draws > 0 ? number(spread.feasible.share) : Json()}};
+          {"margin_min", spread ? number(evaluation.margin_min) : Json()},
+          {"probability_margins",
+           spread && spread->draws > 0 ? number(spread->feasible.share) : Json()}};
 }
 
 Json verdicts_content(const ClosedLoop& loop) {

@@ -10,13 +10,30 @@ namespace {
 
 constexpr std::size_t kDrawnPointsMax = 200;
 
-/// A margin at the mean soils, and what it is over their draws.
-nlohmann::json spread_data(std::string_view of, double at_mean, const Quantiles& over_draws) {
-  return {{"margin", of},
-          {"at_mean", at_mean},
-          {"p05", over_draws.p05},
-          {"p50", over_draws.p50},
-          {"p95", over_draws.p95}};
+/// A margin at the mean soils, and what it is over their draws; null where the path has none.
+nlohmann::json spread_data(std::string_view of, const PathEvaluation& e,
+                           double PathMargins::*at_mean, Quantiles SoilSpread::*over_draws) {
+  nlohmann::json data{
+      {"margin", of}, {"at_mean", nullptr}, {"p05", nullptr}, {"p50", nullptr}, {"p95", nullptr}};
+  if (!e.spread) return data;
+  const Quantiles& drawn = (*e.spread).*over_draws;
+  data.update({{"at_mean", e.margins.*at_mean},
+               {"p05", drawn.p05},
+               {"p50", drawn.p50},
+               {"p95", drawn.p95}});
+  return data;
+}
+
+nlohmann::json probability_data(const std::optional<SoilSpread>& spread) {
+  if (!spread) return {{"share", nullptr}, {"low", nullptr}, {"high", nullptr}};
+  const Probability& holds = spread->feasible;
+  return {{"share", holds.share}, {"low", holds.low}, {"high", holds.high}};
+}
+
+/// Null where the path has no margins.
+nlohmann::json limiting_data(const PathEvaluation& e) {
+  if (!e.spread) return {{"x_m", nullptr}, {"y_m", nullptr}};
+  return {{"x_m", e.limiting.x_m}, {"y_m", e.limiting.y_m}};
 }
 
 nlohmann::json line_data(const std::vector<TrajectoryPoint>& points) {
@@ -36,21 +53,19 @@ nlohmann::json line_data(const std::vector<TrajectoryPoint>& points) {
 
 nlohmann::json course_data(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
-  nlohmann::json data{{"rank", e.rank},
-                      {"name", short_name(path)},
-                      {"feasible", e.feasible},
-                      {"spreads",
-                       {spread_data("cornering", e.margins.cornering, e.spread.cornering),
-                        spread_data("tip_over", e.margins.tip_over, e.spread.tip_over),
-                        spread_data("traction", e.margins.traction, e.spread.traction)}},
-                      {"probability",
-                       {{"share", e.spread.feasible.share},
-                        {"low", e.spread.feasible.low},
-                        {"high", e.spread.feasible.high}}},
-                      {"limiting", {{"x_m", e.limiting.x_m}, {"y_m", e.limiting.y_m}}},
-                      {"line", line_data(e.points)},
-                      {"refused", nullptr},
-                      {"plane", nullptr}};
+  nlohmann::json data{
+      {"rank", e.rank},
+      {"name", short_name(path)},
+      {"feasible", e.feasible},
+      {"spreads",
+       {spread_data("cornering", e, &PathMargins::cornering, &SoilSpread::cornering),
+        spread_data("tip_over", e, &PathMargins::tip_over, &SoilSpread::tip_over),
+        spread_data("traction", e, &PathMargins::traction, &SoilSpread::traction)}},
+      {"probability", probability_data(e.spread)},
+      {"limiting", limiting_data(e)},
+      {"line", line_data(e.points)},
+      {"refused", nullptr},
+      {"plane", nullptr}};
   if (e.refusal)
     data["refused"] = {
         {"reason", name(e.refusal->reason)}, {"x_m", e.refusal->x_m}, {"y_m", e.refusal->y_m}};

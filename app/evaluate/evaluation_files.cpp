@@ -38,7 +38,9 @@ Json refusal_json(const Refusal& refusal) {
           {"unit", counted.unit}};
 }
 
+/// Null where the path has no margins.
 Json limiting_json(const PathEvaluation& evaluation) {
+  if (!evaluation.spread) return nullptr;
   const LimitingPlace& place = evaluation.limiting;
   Json json{{"margin", name(place.margin)},
             {"x_m", place.x_m},
@@ -53,14 +55,56 @@ Json limiting_json(const PathEvaluation& evaluation) {
   return json;
 }
 
-Json margins_json(const PathMargins& margins) {
-  return {{"cornering", margins.cornering},
-          {"tip_over", margins.tip_over},
-          {"traction", margins.traction}};
+Json margins_json(const std::optional<PathMargins>& margins) {
+  const auto of = [&](double PathMargins::*margin) {
+    return margins ? Json((*margins).*margin) : Json(nullptr);
+  };
+  return {{"cornering", of(&PathMargins::cornering)},
+          {"tip_over", of(&PathMargins::tip_over)},
+          {"traction", of(&PathMargins::traction)}};
 }
 
-Json quantiles_json(const Quantiles& quantiles) {
-  return {{"p05", quantiles.p05}, {"p50", quantiles.p50}, {"p95", quantiles.p95}};
+Json quantiles_json(const std::optional<SoilSpread>& spread, Quantiles SoilSpread::*margin) {
+  const auto of = [&](double Quantiles::*quantile) {
+    return spread ? Json((*spread).*margin.*quantile) : Json(nullptr);
+  };
+  return {{"p05", of(&Quantiles::p05)}, {"p50", of(&Quantiles::p50)}, {"p95", of(&Quantiles::p95)}};
+}
+
+Json interval_json(double low, double high) {
+  return Json::array({low, high});
+}
+
+/// What is told of a path that has margins everywhere; null where it has not.
+Json margins_of_path_json(const PathEvaluation& e) {
+  const auto& spread = e.spread;
+  const auto of_path = [&](const auto& value) { return spread ? Json(value) : Json(nullptr); };
+  Json influences = Json::array();
+  if (spread) {
+    for (const SoilInfluence& influence : spread->influences) {
+      influences.push_back({{"soil", influence.soil},
+                            {"parameter", influence.parameter},
+                            {"share", influence.share},
+                            {"margin_per_std", influence.margin_per_std}});
+    }
+  }
+  return {{"margin_min", of_path(e.margin_min)},
+          {"margin_p05", spread ? Json(spread->margin.p05) : Json(nullptr)},
+          {"margin_p05_ci95",
+           spread ? interval_json(spread->margin_p05_interval.low, spread->margin_p05_interval.high)
+                  : Json(nullptr)},
+          {"margin_worst_tenth", of_path(e.margin_worst_tenth)},
+          {"margins", margins_json(spread ? std::optional(e.margins) : std::nullopt)},
+          {"quantiles",
+           {{"cornering", quantiles_json(spread, &SoilSpread::cornering)},
+            {"tip_over", quantiles_json(spread, &SoilSpread::tip_over)},
+            {"traction", quantiles_json(spread, &SoilSpread::traction)},
+            {"margin", quantiles_json(spread, &SoilSpread::margin)}}},
+          {"probability_feasible", spread ? Json(spread->feasible.share) : Json(nullptr)},
+          {"probability_feasible_ci95",
+           spread ? interval_json(spread->feasible.low, spread->feasible.high) : Json(nullptr)},
+          {"sensitivity", influences},
+          {"sensitivity_explained", spread ? Json(spread->explained) : Json(nullptr)}};
 }
 
 Json tracking_json(const PathEvaluation& evaluation) {
@@ -77,53 +121,33 @@ Json tracking_json(const PathEvaluation& evaluation) {
           {"step_s", run.step_s}};
 }
 
-Json soil_draws_json(const SoilSpread& spread) {
-  return {{"draws", spread.draws},
-          {"by_wheel_model", spread.direct_draws},
-          {"places", spread.places},
-          {"surrogate_error", margins_json(spread.surrogate_error)}};
+Json soil_draws_json(const std::optional<SoilSpread>& spread) {
+  return {{"draws", spread ? spread->draws : 0},
+          {"by_wheel_model", spread ? spread->direct_draws : 0},
+          {"places", spread ? spread->places : 0},
+          {"surrogate_error",
+           margins_json(spread ? std::optional(spread->surrogate_error) : std::nullopt)}};
 }
 
 Json path_json(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
-  Json influences = Json::array();
-  for (const SoilInfluence& influence : e.spread.influences) {
-    influences.push_back({{"soil", influence.soil},
-                          {"parameter", influence.parameter},
-                          {"share", influence.share},
-                          {"margin_per_std", influence.margin_per_std}});
-  }
   Json json{{"rank", e.rank}};
   json[path.plane ? "manoeuvre" : "file"] = e.name;
-  json.update(Json{
-      {"vehicle", path.vehicle},
-      {"feasible", e.feasible},
-      {"reason", e.refusal ? Json(sentence(*e.refusal)) : Json(nullptr)},
-      {"refusal", e.refusal ? refusal_json(*e.refusal) : Json(nullptr)},
-      {"limiting", limiting_json(e)},
-      {"length_m", e.length_m},
-      {"duration_s", e.duration_s},
-      {"speed_max_mps", e.speed_max_mps},
-      {"energy_j", e.tracking.energy_j},
-      {"margin_min", e.margin_min},
-      {"margin_p05", e.spread.margin.p05},
-      {"margin_p05_ci95", {e.spread.margin_p05_interval.low, e.spread.margin_p05_interval.high}},
-      {"margin_worst_tenth", e.margin_worst_tenth},
-      {"margins", margins_json(e.margins)},
-      {"quantiles",
-       {{"cornering", quantiles_json(e.spread.cornering)},
-        {"tip_over", quantiles_json(e.spread.tip_over)},
-        {"traction", quantiles_json(e.spread.traction)},
-        {"margin", quantiles_json(e.spread.margin)}}},
-      {"probability_feasible", e.spread.feasible.share},
-      {"probability_feasible_ci95", {e.spread.feasible.low, e.spread.feasible.high}},
-      {"sensitivity", influences},
-      {"sensitivity_explained", e.spread.explained},
-      {"soil_draws", soil_draws_json(e.spread)},
-      {"tracked", tracking_json(e)}});
+  json.update(Json{{"vehicle", path.vehicle},
+                   {"feasible", e.feasible},
+                   {"reason", e.refusal ? Json(sentence(*e.refusal)) : Json(nullptr)},
+                   {"refusal", e.refusal ? refusal_json(*e.refusal) : Json(nullptr)},
+                   {"limiting", limiting_json(e)},
+                   {"length_m", e.length_m},
+                   {"duration_s", e.duration_s},
+                   {"speed_max_mps", e.speed_max_mps},
+                   {"energy_j", e.tracking.energy_j}});
+  json.update(margins_of_path_json(e));
+  json.update(Json{{"soil_draws", soil_draws_json(e.spread)}, {"tracked", tracking_json(e)}});
   if (path.recorded_margin_min) {
-    json["recorded"] = {{"margin_min", *path.recorded_margin_min},
-                        {"difference", e.margin_min - *path.recorded_margin_min}};
+    json["recorded"] = {
+        {"margin_min", *path.recorded_margin_min},
+        {"difference", e.spread ? Json(e.margin_min - *path.recorded_margin_min) : Json(nullptr)}};
   }
   return json;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "app/evaluate/evaluation_data.h"
@@ -15,26 +16,33 @@
 namespace regoplan {
 namespace {
 
+std::optional<MarginSpread> margin_spread_of(const std::optional<SoilSpread>& spread) {
+  if (!spread) return std::nullopt;
+  return MarginSpread{.draws = spread->draws,
+                      .p05 = spread->margin.p05,
+                      .p05_low = spread->margin_p05_interval.low,
+                      .p05_high = spread->margin_p05_interval.high,
+                      .feasible = spread->feasible};
+}
+
 /// An evaluation as the picture and the charts of plans know it.
 Candidate as_candidate(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const double margin_min = e.spread ? e.margin_min : kNone;
   return {.rank = e.rank,
           .planner = short_name(path),
           .points = e.points,
           .length_m = e.length_m,
           .duration_s = e.duration_s,
           .energy_j = e.tracking.energy_j,
-          .margin_min = e.margin_min,
-          .margin_worst_tenth = e.margin_worst_tenth,
-          .spread = MarginSpread{.draws = e.spread.draws,
-                                 .p05 = e.spread.margin.p05,
-                                 .p05_low = e.spread.margin_p05_interval.low,
-                                 .p05_high = e.spread.margin_p05_interval.high,
-                                 .feasible = e.spread.feasible},
+          .margin_min = margin_min,
+          .margin_worst_tenth = e.spread ? e.margin_worst_tenth : kNone,
+          .spread = margin_spread_of(e.spread),
           .limiting = e.limiting,
           .verified = {.passed = e.feasible,
                        .reason = e.refusal ? sentence(*e.refusal) : "",
-                       .margin_min = e.margin_min,
+                       .margin_min = margin_min,
                        .deviation_max_m = e.tracking.deviation_max_m}};
 }
 

@@ -10,8 +10,10 @@
 #include "app/command/progress_line.h"
 #include "app/evaluate/evaluation_files.h"
 #include "app/evaluate/evaluation_report.h"
+#include "app/evaluate/evaluation_words.h"
 #include "app/evaluate/path_files.h"
 #include "app/io/interrupt.h"
+#include "app/io/quantity_text.h"
 #include "app/io/staged_files.h"
 #include "app/settings/manoeuvre_settings.h"
 #include "planner/problem/changed_problem.h"
@@ -19,31 +21,40 @@
 namespace regoplan {
 namespace {
 
+/// Of the draws in which the margins hold, in per cent, with its interval.
+std::string probability_text(const std::optional<SoilSpread>& spread) {
+  if (!spread) return std::string(kNotKnown);
+  const Probability& holds = spread->feasible;
+  return fmt::format("{:.1f} ({:.1f}-{:.1f})", 100 * holds.share, 100 * holds.low,
+                     100 * holds.high);
+}
+
 std::string summary(const EvaluationResult& result) {
   std::string text = evaluation_headline(result) + "\n";
-  text += fmt::format("{:>4} {:>8} {:>10} {:>10} {:>11} {:>16} {:>9} {:>8}  {}\n", "rank",
+  text += fmt::format("{:>4} {:>8} {:>10} {:>10} {:>15} {:>16} {:>9} {:>8}  {}\n", "rank",
                       "feasible", "margin_min", "margin_p05", "limited by", "P(margins), 95 %",
                       "deviation", "energy", "path");
   for (const EvaluatedPath& path : result.paths) {
     const PathEvaluation& e = path.evaluation;
-    text += fmt::format(
-        "{:>4} {:>8} {:>10.3f} {:>10.3f} {:>11} {:>16} {:>7.2f} m {:>5.1f} kJ  {}\n", e.rank,
-        e.feasible ? "yes" : "no", e.margin_min, e.spread.margin.p05, name(e.limiting.margin),
-        fmt::format("{:.1f} ({:.1f}-{:.1f})", 100 * e.spread.feasible.share,
-                    100 * e.spread.feasible.low, 100 * e.spread.feasible.high),
-        e.tracking.deviation_max_m, e.tracking.energy_j / 1000, e.name);
+    text += fmt::format("{:>4} {:>8} {:>10} {:>10} {:>15} {:>16} {:>9} {:>8}  {}\n", e.rank,
+                        e.feasible ? "yes" : "no", margin_text(e, e.margin_min),
+                        margin_text(e, e.spread ? e.spread->margin.p05 : 0), limited_by(e),
+                        probability_text(e.spread),
+                        driven_text(e, length_text(e.tracking.deviation_max_m)),
+                        driven_text(e, energy_text(e.tracking.energy_j)), e.name);
     if (e.refusal) text += fmt::format("{:>13} {}\n", "why:", sentence(*e.refusal));
-    if (!e.spread.influences.empty() && e.spread.influences.front().share > 0.01) {
-      const SoilInfluence& most = e.spread.influences.front();
+    if (!e.spread) continue;
+    if (!e.spread->influences.empty() && e.spread->influences.front().share > 0.01) {
+      const SoilInfluence& most = e.spread->influences.front();
       text += fmt::format("{:>13} {} of {}: {:.0f} % of the margin's variance\n",
                           "decides:", most.parameter, most.soil, 100 * most.share);
     }
-    if (e.spread.direct_draws < e.spread.draws) {
-      const PathMargins& error = e.spread.surrogate_error;
+    if (e.spread->direct_draws < e.spread->draws) {
+      const PathMargins& error = e.spread->surrogate_error;
       text += fmt::format(
           "{:>13} {} of {} draws by the wheel model; error of the others, taken "
           "off: {:.4f}\n",
-          "draws:", e.spread.direct_draws, e.spread.draws,
+          "draws:", e.spread->direct_draws, e.spread->draws,
           std::max({error.cornering, error.tip_over, error.traction}));
     }
   }

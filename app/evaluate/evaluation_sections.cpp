@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/evaluate/evaluation_words.h"
+#include "app/io/quantity_text.h"
 #include "app/page/report_page.h"
 
 namespace regoplan {
@@ -16,37 +17,43 @@ std::string verdict_text(const PathEvaluation& e) {
   return e.feasible ? "feasible" : "not feasible: " + as_words(name(e.refusal->reason));
 }
 
+std::string per_cent_text(const std::optional<SoilSpread>& spread) {
+  if (!spread) return std::string(kNotKnown);
+  const Probability& holds = spread->feasible;
+  return fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100 * holds.share, 100 * holds.low,
+                     100 * holds.high);
+}
+
 std::string table_row(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
-  const Probability& holds = e.spread.feasible;
   return fmt::format("<tr><th scope=\"row\">{} {}</th>", e.rank, html_escaped(short_name(path))) +
-         cell(verdict_text(e)) + cell(influence_text(e.spread, 1)) +
-         cell(as_words(name(e.limiting.margin))) + cell(fmt::format("{:.3f}", e.margin_min), true) +
-         cell(fmt::format("{:.3f}", e.spread.margin.p05), true) +
-         cell(fmt::format("{:.1f} % ({:.1f} to {:.1f})", 100 * holds.share, 100 * holds.low,
-                          100 * holds.high),
-              true) +
-         cell(fmt::format("{:.2f} m", e.tracking.deviation_max_m), true) +
+         cell(verdict_text(e)) + cell(influence_text(e.spread, 1)) + cell(limited_by(e)) +
+         cell(margin_text(e, e.margin_min), true) +
+         cell(margin_text(e, e.spread ? e.spread->margin.p05 : 0), true) +
+         cell(per_cent_text(e.spread), true) +
+         cell(driven_text(e, length_text(e.tracking.deviation_max_m)), true) +
          cell(fmt::format("{:.1f} m", e.length_m), true) +
          cell(fmt::format("{:.1f} s", e.duration_s), true) +
-         cell(fmt::format("{:.1f} kJ", e.tracking.energy_j / 1000), true) + "</tr>\n";
+         cell(driven_text(e, energy_text(e.tracking.energy_j)), true) + "</tr>\n";
 }
 
 std::string course_html(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
   const std::string verdict =
       e.feasible ? "is feasible" : "is not feasible: " + sentence(*e.refusal);
+  const std::string margins =
+      e.spread
+          ? fmt::format("<p>Smallest margin {:.3f}: {}.</p><p>Soil numbers that decide: {}.</p>",
+                        e.margin_min, html_escaped(limiting_text(e)),
+                        html_escaped(influence_text(e.spread, 3)))
+          : "<p>It has no margins: not all of it can be judged.</p>";
   return fmt::format(
-      "<article class=\"panel\"><div class=\"course\"></div>"
-      "<p>Path {} {}.</p><p>Smallest margin {:.3f}: {}.</p><p>Soil numbers that decide: {}.</p>"
-      "</article>\n",
-      e.rank, html_escaped(verdict), e.margin_min, html_escaped(limiting_text(e)),
-      html_escaped(influence_text(e.spread, 3)));
+      "<article class=\"panel\"><div class=\"course\"></div><p>Path {} {}.</p>{}</article>\n",
+      e.rank, html_escaped(verdict), margins);
 }
 
 /// How the draws of a path were judged.
-std::string draws_text(const EvaluatedPath& path) {
-  const SoilSpread& spread = path.evaluation.spread;
+std::string draws_text(const EvaluatedPath& path, const SoilSpread& spread) {
   const PathMargins& error = spread.surrogate_error;
   const std::string others =
       spread.direct_draws == spread.draws
@@ -105,7 +112,8 @@ std::string method_html(const EvaluationResult& result) {
       "The soil number that decides is the one whose spread explains most of the margin's "
       "variance; the per cent are its share.");
   for (const EvaluatedPath& path : result.paths) {
-    if (path.evaluation.spread.draws > 0) item(draws_text(path));
+    const auto& spread = path.evaluation.spread;
+    if (spread && spread->draws > 0) item(draws_text(path, *spread));
   }
   return html + "</ul></section>\n";
 }

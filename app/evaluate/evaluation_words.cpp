@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/io/quantity_text.h"
+
 namespace regoplan {
 
 std::string as_words(std::string_view file_name) {
@@ -16,6 +18,21 @@ std::string as_words(std::string_view file_name) {
 std::string short_name(const EvaluatedPath& path) {
   return path.plane ? path.evaluation.name
                     : std::filesystem::path(path.evaluation.name).filename().string();
+}
+
+std::string limited_by(const PathEvaluation& evaluation) {
+  if (evaluation.spread || !evaluation.refusal) {
+    return as_words(name(evaluation.limiting.margin));
+  }
+  return as_words(name(evaluation.refusal->reason));
+}
+
+std::string margin_text(const PathEvaluation& evaluation, double margin) {
+  return evaluation.spread ? fmt::format("{:.3f}", margin) : std::string(kNotKnown);
+}
+
+std::string driven_text(const PathEvaluation& evaluation, const std::string& text) {
+  return evaluation.tracking.duration_s > 0 ? text : std::string(kNotKnown);
 }
 
 std::string limiting_text(const PathEvaluation& evaluation) {
@@ -30,12 +47,13 @@ std::string limiting_text(const PathEvaluation& evaluation) {
   return text;
 }
 
-std::string influence_text(const SoilSpread& spread, std::size_t count_max) {
-  if (spread.draws > 0 && spread.influences.empty()) return "too few draws to tell";
+std::string influence_text(const std::optional<SoilSpread>& spread, std::size_t count_max) {
+  if (!spread) return std::string(kNotKnown);
+  if (spread->draws > 0 && spread->influences.empty()) return "too few draws to tell";
   constexpr double kShareMin = 0.01;
   std::string text;
-  for (std::size_t i = 0; i < std::min(count_max, spread.influences.size()); ++i) {
-    const SoilInfluence& influence = spread.influences[i];
+  for (std::size_t i = 0; i < std::min(count_max, spread->influences.size()); ++i) {
+    const SoilInfluence& influence = spread->influences[i];
     if (influence.share < kShareMin) break;
     text += fmt::format("{}{} of {} {:.0f} %", text.empty() ? "" : ", ", influence.parameter,
                         influence.soil, 100 * influence.share);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,10 +14,20 @@ std::string as_words(std::string_view file_name);
 /// A path's file without its folder; a manoeuvre as it is called.
 std::string short_name(const EvaluatedPath& path);
 
+/// The margin that is smallest, or where the path has none: what refuses it.
+std::string limited_by(const PathEvaluation& evaluation);
+
+/// With three decimals; a dash where the path has no margins.
+std::string margin_text(const PathEvaluation& evaluation, double margin);
+
+/// What a drive of the path came to; a dash where nothing was driven.
+std::string driven_text(const PathEvaluation& evaluation, const std::string& text);
+
 /// Which margin is smallest, where, and what ends the supply there.
 std::string limiting_text(const PathEvaluation& evaluation);
 
-/// The soil numbers that decide most, `count_max` at most, with their shares.
-std::string influence_text(const SoilSpread& spread, std::size_t count_max);
+/// The soil numbers that decide most, `count_max` at most, with their shares; a dash where nothing
+/// could be drawn.
+std::string influence_text(const std::optional<SoilSpread>& spread, std::size_t count_max);
 
 }  // namespace regoplan

@@ -312,33 +312,25 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   if (evaluation.limiting.margin == MarginKind::kCornering) {
     evaluation.cornering_limit = cornering_limit(verdict, stations[worst].state);
   }
-  if (states.size() == stations.size()) {
-    evaluation.spread = soil_spread(problem, states, at_mean,
-                                    {.draws = settings.soil_draws,
-                                     .seed = settings.seed,
-                                     .threads = settings.threads,
-                                     .stop = settings.stop});
-  } else {  // somewhere there is nothing to judge, whatever the soils
-    const Quantiles none{-1, -1, -1};
-    evaluation.spread = {.cornering = none,
-                         .tip_over = none,
-                         .traction = none,
-                         .margin = none,
-                         .margin_p05_interval = {-1, -1},
-                         .feasible = {.share = 0, .low = 0, .high = 0}};
-  }
+  if (states.size() < stations.size()) return evaluation;
+  evaluation.spread = soil_spread(problem, states, at_mean,
+                                  {.draws = settings.soil_draws,
+                                   .seed = settings.seed,
+                                   .threads = settings.threads,
+                                   .stop = settings.stop});
   // What the soils cannot mend.
   if (evaluation.refusal && !evaluation.refusal->while_tracking &&
       !hangs_on_soil(evaluation.refusal->reason)) {
-    evaluation.spread.feasible = {.share = 0, .low = 0, .high = 0};
+    evaluation.spread->feasible = {.share = 0, .low = 0, .high = 0};
   }
   return evaluation;
 }
 
 Standing standing_of(const PathEvaluation& evaluation) {
   Standing standing{.duration_s = evaluation.duration_s, .length_m = evaluation.length_m};
-  const SoilSpread& spread = evaluation.spread;
-  set_by_draws(standing, spread.margin.p05, spread.margin_p05_interval.high, spread.feasible);
+  if (const auto& spread = evaluation.spread) {
+    set_by_draws(standing, spread->margin.p05, spread->margin_p05_interval.high, spread->feasible);
+  }
   if (!evaluation.feasible) standing.tier = Standing::kInfeasible;
   return standing;
 }

@@ -64,7 +64,9 @@ struct PathEvaluation {
   std::optional<CorneringLimit> cornering_limit;  ///< there
   TrackingRun tracking;
   double deviation_allowed_m = 0;
-  SoilSpread spread;
+  /// Nothing where a place of the path has no margins whatever the soils: on unknown ground, off
+  /// the map, sharper than the steering. Then the margins of the whole path are none either.
+  std::optional<SoilSpread> spread;
   std::vector<std::string> notices;
 };
 

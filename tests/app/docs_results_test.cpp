@@ -78,7 +78,7 @@ TEST(DocsOfResults, HoldEveryKeyOfEvaluationJson) {
   const PlanningProblem problem = report_test_problem(report_test_map(40));
   PathEvaluation evaluation{.name = "path", .refusal = Refusal{.reason = Rejection::kSlope}};
   evaluation.cornering_limit = CorneringLimit{.wheel = "front_left", .fold_n = 1};
-  evaluation.spread.influences = {{.soil = "mare", .parameter = "kphi"}};
+  evaluation.spread = SoilSpread{.influences = {{.soil = "mare", .parameter = "kphi"}}};
   const EvaluatedPath given{.evaluation = evaluation, .recorded_margin_min = 0.5};
   const EvaluatedPath manoeuvre{
       .evaluation = evaluation, .plane = ManoeuvrePlane{}, .recorded_margin_min = {}};

@@ -56,6 +56,23 @@ TEST_F(Evaluate, RanksPathsFeasibleOnesFirst) {
   EXPECT_NE(folder_.read("out/report.html").find("good.csv"), std::string::npos);
 }
 
+TEST_F(Evaluate, WhatWasNeverDrawnOrDrivenIsNoNumber) {
+  const ProgramRun run = evaluate(file("away.csv", "x_m,y_m\n-30,20\n-10,20\n"));
+  EXPECT_EQ(run.status, 2) << run.errors;
+  const nlohmann::json path = result()["paths"][0];
+  EXPECT_EQ(path["refusal"]["reason"], "bounds");
+  EXPECT_EQ(path["soil_draws"]["draws"], 0);
+  for (const char* key : {"limiting", "margin_min", "margin_worst_tenth", "margin_p05",
+                          "margin_p05_ci95", "probability_feasible", "probability_feasible_ci95"}) {
+    EXPECT_TRUE(path[key].is_null()) << key;
+  }
+  EXPECT_TRUE(path["quantiles"]["margin"]["p05"].is_null());
+  EXPECT_NE(run.output.find("bounds" + std::string(16, ' ') + "-" + std::string(9, ' ') + "-" +
+                            std::string(8, ' ') + "-"),
+            std::string::npos)
+      << run.output;
+}
+
 TEST_F(Evaluate, NothingFeasibleEndsWithStatus2) {
   EXPECT_EQ(evaluate(file("off.csv", "x_m,y_m\n30,20\n50,20\n")).status, 2);
   EXPECT_EQ(result()["status"], "infeasible");

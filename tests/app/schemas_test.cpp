@@ -31,12 +31,17 @@ TEST(Schemas, HoldWhatTheWritersWriteOfEverything) {
   PathEvaluation evaluation{.name = "path", .refusal = Refusal{.reason = Rejection::kSlope}};
   evaluation.rank = 1;
   evaluation.cornering_limit = CorneringLimit{.wheel = "front_left", .fold_n = 1};
-  evaluation.spread.influences = {{.soil = "mare", .parameter = "kphi"}};
+  evaluation.spread = SoilSpread{.influences = {{.soil = "mare", .parameter = "kphi"}}};
   const EvaluatedPath given{.evaluation = evaluation, .recorded_margin_min = 0.5};
   const EvaluatedPath manoeuvre{
       .evaluation = evaluation, .plane = ManoeuvrePlane{}, .recorded_margin_min = {}};
-  expect_kept("evaluation",
-              evaluation_json(problem, {.paths = {given, manoeuvre}, .settings = {}}));
+  const EvaluatedPath without_margins{
+      .evaluation = {.name = "sharp",
+                     .rank = 2,
+                     .refusal = Refusal{.reason = Rejection::kSteering}},
+      .recorded_margin_min = 0.5};
+  expect_kept("evaluation", evaluation_json(problem, {.paths = {given, manoeuvre, without_margins},
+                                                      .settings = {}}));
 
   const DriveRecord driven = made_up_drive(problem, 20);
   expect_kept("drive", drive_json(driven, problem));

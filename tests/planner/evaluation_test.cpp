@@ -211,8 +211,17 @@ TEST(Evaluation, APathThatLeavesTheMapIsRefusedThere) {
               e.refusal->reason == Rejection::kUnknownTerrain);
   EXPECT_GT(e.refusal->x_m, 55);
   EXPECT_LE(e.refusal->x_m, 60.5);
-  EXPECT_EQ(e.margin_min, -1);
-  EXPECT_EQ(e.spread.feasible.share, 0);
+  EXPECT_FALSE(e.spread);  // no soil could give margins there
+}
+
+TEST(Evaluation, APathBeyondTheSteeringIsRefusedWithoutMarginsOrDraws) {
+  const PlanningProblem problem = flat_problem();
+  const PathEvaluation e = evaluated(
+      problem, reference({{20, 25}, {22, 25}, {22.6, 25.6}, {22, 26.2}, {20, 26.2}}, 0.5));
+  ASSERT_FALSE(e.feasible);
+  EXPECT_EQ(e.refusal->reason, Rejection::kSteering);
+  EXPECT_GT(e.refusal->exceeded->found, problem.vehicle.curvature_max_1pm);
+  EXPECT_FALSE(e.spread);
 }
 
 TEST(Evaluation, AVehicleThatSinksTooDeepIsToldSoAndOtherSoilsMayBearIt) {
@@ -223,6 +232,7 @@ TEST(Evaluation, AVehicleThatSinksTooDeepIsToldSoAndOtherSoilsMayBearIt) {
   EXPECT_EQ(e.refusal->reason, Rejection::kSinkage);
   EXPECT_EQ(e.refusal->exceeded->limit, problem.limits.sinkage_max_m);
   EXPECT_GT(e.refusal->exceeded->found, problem.limits.sinkage_max_m);
+  EXPECT_TRUE(e.spread);
 }
 
 TEST(Evaluation, ARockOnThePathIsAnObstacle) {
@@ -405,7 +415,7 @@ TEST(Evaluation, SameSeedSameResultWhateverTheThreads) {
   two.threads = 2;
   const PathEvaluation a = evaluated(turn(2.5), one), b = evaluated(turn(2.5), two);
   EXPECT_EQ(a.margin_min, b.margin_min);
-  EXPECT_EQ(a.spread.margin.p05, b.spread.margin.p05);
+  EXPECT_EQ(a.spread->margin.p05, b.spread->margin.p05);
   EXPECT_EQ(a.tracking.energy_j, b.tracking.energy_j);
 }
 

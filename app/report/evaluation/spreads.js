@@ -21,9 +21,12 @@ function marginSpreads() {
         high: spread.p95,
         at_mean: spread.at_mean,
         margin: spread.margin,
-        text: `${course.name}, ${words(spread.margin)} margin: ${fixed(spread.p50, 3)}, from ${
-            fixed(spread.p05, 3)} to ${fixed(spread.p95, 3)} in 90 % of the draws; ${
-            fixed(spread.at_mean, 3)} at the mean soils`
+        text: `${course.name}, ${words(spread.margin)} margin: ` +
+            (isKnown(spread.p50) ?
+                 `${fixed(spread.p50, 3)}, from ${fixed(spread.p05, 3)} to ${
+                     fixed(spread.p95, 3)} in 90 % of the draws; ${
+                     fixed(spread.at_mean, 3)} at the mean soils` :
+                 'none, not all of the path can be judged')
       }));
   return dotFigure({
     title: 'Smallest margins over the draws of the soils',
@@ -44,14 +47,18 @@ function marginSpreads() {
   });
 }
 
+const inPercent = share => (isKnown(share) ? 100 * share : null);
+
 function probabilities() {
   const dots = ({name, probability: {share, low, high}}) => [{
-    low: 100 * low,
-    middle: 100 * share,
-    high: 100 * high,
+    low: inPercent(low),
+    middle: inPercent(share),
+    high: inPercent(high),
     margin: 'cornering',
-    text: `${name}: the margins hold in ${percent(share, 1)} of the draws, 95 % interval ${
-        fixed(100 * low, 1)} to ${percent(high, 1)}`
+    text: isKnown(share) ?
+        `${name}: the margins hold in ${percent(share, 1)} of the draws, 95 % interval ${
+            fixed(100 * low, 1)} to ${percent(high, 1)}` :
+        `${name}: nothing was drawn, not all of the path can be judged`
   }];
   return dotFigure({
     title: 'How likely the margins hold',
@@ -123,6 +130,10 @@ function drawDot(svg, x, y, {low, middle, high, at_mean, margin, text}) {
                                                 .attr('y2', y2)
                                                 .attr('stroke', colour)
                                                 .attr('stroke-width', width);
+  if (!isKnown(middle) && !isKnown(at_mean)) {
+    svg.append('text').attr('x', x.range()[0]).attr('y', y + 4).text(UNKNOWN);
+    return {x: x.range()[0], y, text};
+  }
   if (isKnown(low) && isKnown(high)) stroke(x(low), x(high), y, y, 2);
   if (isKnown(at_mean)) stroke(x(at_mean), x(at_mean), y - 5.5, y + 5.5, 1.6);
   if (isKnown(middle))
