@@ -12,6 +12,7 @@
 #include "app/drive/follower_pipe.h"
 #include "app/evaluate/path_files.h"
 #include "app/io/interrupt.h"
+#include "app/io/quantity_text.h"
 #include "app/settings/sensor_settings.h"
 #include "app/settings/settings_node.h"
 #include "app/settings/truth_settings.h"
@@ -75,10 +76,9 @@ TrueWorld true_world(const PlanningProblem& problem, DriveRecord& record) {
 std::string summary(const DriveRecord& record, double computed_in_s) {
   const DriveResult& r = record.result;
   return drive_summary(record) +
-         fmt::format(
-             "{:.1f} m in {:.1f} s, {:.1f} kJ; computed in {:.2f} s, {:.0f} times as fast\n",
-             r.length_m, r.duration_s, r.energy_j / 1000, computed_in_s,
-             r.duration_s / computed_in_s);
+         fmt::format("{:.1f} m in {:.1f} s, {}; computed in {:.2f} s, {:.0f} times as fast\n",
+                     r.length_m, r.duration_s, energy_text(r.energy_j), computed_in_s,
+                     r.duration_s / computed_in_s);
 }
 
 ExitStatus run(const Options& options) {

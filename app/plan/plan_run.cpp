@@ -8,6 +8,7 @@
 
 #include "app/command/progress_line.h"
 #include "app/io/interrupt.h"
+#include "app/io/quantity_text.h"
 #include "app/plan/plan_files.h"
 #include "app/plan/plan_report.h"
 #include "planner/plan.h"
@@ -28,12 +29,12 @@ std::string verified_line(const Candidate& candidate, double since_start_s) {
 std::string candidate_row(const Candidate& candidate) {
   const auto& spread = candidate.spread;
   return fmt::format(
-      "{:>4} {:>12} {:>9.1f} {:>10.1f} {:>9.1f} {:>10} {:>10.3f} {:>11} {:>9}\n", candidate.rank,
-      candidate.planner, candidate.length_m, candidate.duration_s, candidate.energy_j / 1000,
-      spread ? fmt::format("{:.3f}", spread->p05) : "-", candidate.margin_min,
+      "{:>4} {:>12} {:>9.1f} {:>10.1f} {:>9} {:>10} {:>10.3f} {:>11} {:>9}\n", candidate.rank,
+      candidate.planner, candidate.length_m, candidate.duration_s, energy_text(candidate.energy_j),
+      spread ? fmt::format("{:.3f}", spread->p05) : std::string(kNotKnown), candidate.margin_min,
       name(candidate.limiting.margin),
       spread ? fmt::format("{:.0f}/{}", spread->feasible.share * spread->draws, spread->draws)
-             : "-");
+             : std::string(kNotKnown));
 }
 
 /// Where the time before the search went, where that is more than a tenth of what the answer may
@@ -62,8 +63,8 @@ std::string summary(const PlanResult& result, const PlanningProblem& problem) {
   }
   if (!result.candidates.empty()) {
     text += fmt::format("{:>4} {:>12} {:>9} {:>10} {:>9} {:>10} {:>10} {:>11} {:>9}\n", "rank",
-                        "planner", "length_m", "duration_s", "energy_kj", "margin_p05",
-                        "margin_min", "limited by", "draws ok");
+                        "planner", "length_m", "duration_s", "energy", "margin_p05", "margin_min",
+                        "limited by", "draws ok");
   }
   for (const Candidate& candidate : result.candidates) text += candidate_row(candidate);
   if (const std::string ties = tie_sentence(result.candidates); !ties.empty()) text += ties + "\n";

@@ -31,7 +31,8 @@ const SECONDS = value_s =>
          fixed(value_s, 1, 's'));
 const energy = value_j =>
     (isKnown(value_j) && Math.abs(value_j) >= 1e4 ? fixed(value_j / 1000, 1, 'kJ') :
-                                                    fixed(value_j, 0, 'J'));
+         isKnown(value_j) && Math.abs(value_j) < 100 ? `${significant(value_j, 3)}\u00a0J` :
+                                                       fixed(value_j, 0, 'J'));
 
 /// A name of files as words: "tip_over" as "tip over".
 const words = name => String(name).replace(/_/g, ' ');
