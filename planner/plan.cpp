@@ -29,6 +29,12 @@ std::optional<std::string> start_certificate(const World& verdict) {
   return "the vehicle may not stand at its start: " + rejection_text(*rejection);
 }
 
+/// Whether the start is an end: at rest in the goal, heading as it asks.
+bool stands_in_goal(const World& verdict) {
+  const VehicleState start = verdict.start();
+  return verdict.dynamics().at_rest(start) && verdict.within_goal(start);
+}
+
 /// One plan on its way.
 class Planning {
  public:
@@ -48,6 +54,11 @@ class Planning {
   PlanResult run() && {
     result_.certificate = start_certificate(verdict_);
     const bool can_stand = !result_.certificate;
+    if (can_stand && stands_in_goal(verdict_)) {
+      result_.status = PlanStatus::kFeasible;
+      result_.reason = "the vehicle stands in its goal already, there is no way to go";
+      return answered();
+    }
     if (can_stand) result_.certificate = certificate_of_infeasibility(problem_);
     timed("certificates");
     if (result_.certificate) {
@@ -117,6 +128,7 @@ class Planning {
                                    improbable.empty() ? "" : "; ", improbable);
       result_.interrupted = stopped();
       session_.on_answer(result_);
+      told_ = true;
       result_.what_ifs = answered_what_ifs(plan, chosen_.front());
     } else {
       const std::string why =
@@ -140,7 +152,7 @@ class Planning {
 
   PlanResult answered() {
     result_.interrupted = stopped();
-    if (result_.status != PlanStatus::kFeasible) session_.on_answer(result_);
+    if (!told_) session_.on_answer(result_);
     return std::move(result_);
   }
 
@@ -148,7 +160,8 @@ class Planning {
   const PlanSession& session_;
   TimeBudget budget_;
   Announcements announcements_;
-  double begun_s_;  ///< when the step on its way began
+  bool told_ = false;  ///< whether the answer was announced
+  double begun_s_;     ///< when the step on its way began
   World verdict_;
   PlanResult result_;
   std::vector<VerifiedPath> chosen_;  ///< the candidates

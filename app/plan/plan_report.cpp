@@ -104,7 +104,7 @@ std::vector<std::string> lead_sentences(const PlanResult& result) {
   std::vector<std::string> sentences;
   if (result.interrupted)
     sentences.emplace_back("The search was interrupted: this is what it had found by then.");
-  if (result.status == PlanStatus::kFeasible && !result.reason.empty())
+  if (!result.candidates.empty() && !result.reason.empty())
     sentences.push_back(with_stop(result.reason));
   if (result.certificate && *result.certificate != result.reason) {
     sentences.push_back("Shown by: " + with_stop(*result.certificate));
@@ -145,7 +145,7 @@ std::string plan_headline(const PlanResult& result, const Limits& limits) {
     case PlanStatus::kFeasible:
       break;
   }
-  if (result.candidates.empty()) return "Feasible.";
+  if (result.candidates.empty()) return with_stop("Feasible: " + result.reason);
   const Candidate& best = result.candidates.front();
   return fmt::format(
       "Feasible{}: {}; {}; {} binds at {}.",

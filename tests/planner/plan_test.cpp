@@ -102,6 +102,32 @@ TEST(Plan, SameSeedAndIterationsGiveTheSameBitsWithAnyNumberOfThreads) {
   EXPECT_NE(fingerprint(once), fingerprint(planned(problem)));
 }
 
+TEST(Plan, AVehicleThatRestsInItsGoalHasNoWayToGo) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.goal.x_m = problem.start.x_m + 1;
+  for (const bool with_heading : {false, true}) {
+    if (with_heading) problem.goal.heading_rad = problem.start.heading_rad;
+    problem.goal.heading_tolerance_rad = 5 * kTestDegree;
+    const PlanResult result = planned(problem);
+    EXPECT_EQ(result.status, PlanStatus::kFeasible);
+    EXPECT_EQ(result.reason, "the vehicle stands in its goal already, there is no way to go");
+    EXPECT_TRUE(result.candidates.empty());
+    EXPECT_EQ(result.propagations, 0);
+  }
+}
+
+TEST(Plan, AVehicleInItsGoalThatHeadsElsewhereOrStillRollsIsPlannedFor) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.goal.x_m = problem.start.x_m + 1;
+  problem.search.planner = "Lattice";
+  PlanningProblem rolling = problem;
+  rolling.start.speed_mps = 0.3;
+  problem.goal.heading_rad = 90 * kTestDegree;
+  problem.goal.heading_tolerance_rad = 10 * kTestDegree;
+  EXPECT_GT(planned(problem).propagations, 0);
+  EXPECT_GT(planned(rolling).propagations, 0);
+}
+
 TEST(Plan, AWallOfRocksIsInfeasibleWithItsCertificate) {
   std::vector<Rock> wall;
   for (int i = 0; i < 40; ++i) wall.push_back({25, 0.5 + 1.25 * i, 0.8, 2});

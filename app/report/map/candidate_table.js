@@ -60,7 +60,10 @@ function limitingCell(path) {
 function candidateTable(host) {
   if (!view.paths.length) {
     host.append(element(
-        'p', {}, 'No path was verified. The map shows where the search met the edge of feasibility.'));
+        'p', {},
+        PLAN.status === 'feasible' ?
+            'There is no path: the vehicle stands in its goal already.' :
+            'No path was verified. The map shows where the search met the edge of feasibility.'));
     return;
   }
   let sorted = {column: 0, descending: false};
