@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "planner/certificate/relaxed_problem.h"
@@ -35,6 +36,8 @@ bool stands_in_goal(const World& verdict) {
   return verdict.dynamics().at_rest(start) && verdict.within_goal(start);
 }
 
+constexpr std::string_view kLookingForHelp = "looking for what would help";
+
 /// One plan on its way.
 class Planning {
  public:
@@ -64,7 +67,11 @@ class Planning {
     if (result_.certificate) {
       result_.status = PlanStatus::kInfeasible;
       // The refusal of a start says itself what would have to give way.
-      result_.reason = can_stand ? with_relaxation(*result_.certificate) : *result_.certificate;
+      if (can_stand) {
+        announcements_.stage(kLookingForHelp, 0);
+        result_.relaxed = relaxed_search(problem_, nullptr, budget_, session_.stop).answers;
+      }
+      result_.reason = with_relaxation(*result_.certificate);
       return answered();
     }
     announcements_.stage("preparing", 0);
@@ -113,8 +120,24 @@ class Planning {
     });
   }
 
+  /// Where the searches came to no path: what would open the way. A path that is found so and needs
+  /// no change after all is a candidate as any other. \returns how many paths were improbable
+  std::size_t look_for_what_would_help(const PlanUnderway& plan) {
+    announcements_.stage(kLookingForHelp, 0);
+    RelaxedSearch search = relaxed_search(problem_, &verdict_, budget_, session_.stop);
+    result_.relaxed = std::move(search.answers);
+    if (!search.within_limits) return 0;
+    announcements_.path_verified(search.within_limits->candidate);
+    result_.first_verified_s = announcements_.first_verified_s();
+    chosen_.push_back(*std::move(search.within_limits));
+    draw_soils(plan, chosen_, result_);
+    return drop_improbable();
+  }
+
   void decide(const PlanUnderway& plan, const SearchEnd& end) {
-    const std::size_t left_out = drop_improbable();
+    std::size_t left_out = drop_improbable();
+    const bool searches_sufficed = !chosen_.empty();
+    if (!searches_sufficed) left_out += look_for_what_would_help(plan);
     rank(chosen_);
     for (const VerifiedPath& path : chosen_) result_.candidates.push_back(path.candidate);
     const std::string improbable =
@@ -123,13 +146,15 @@ class Planning {
                                     left_out, problem_.limits.probability_min);
     if (!chosen_.empty()) {
       result_.status = PlanStatus::kFeasible;
-      result_.reason = fmt::format("{} verified {}{}{}", chosen_.size(),
-                                   chosen_.size() == 1 ? "path" : "different paths",
-                                   improbable.empty() ? "" : "; ", improbable);
+      result_.reason = fmt::format(
+          "{} verified {}{}{}{}", chosen_.size(), chosen_.size() == 1 ? "path" : "different paths",
+          searches_sufficed ? "" : found_otherwise(), improbable.empty() ? "" : "; ", improbable);
+      result_.relaxed.clear();
       result_.interrupted = stopped();
       session_.on_answer(result_);
       told_ = true;
-      result_.what_ifs = answered_what_ifs(plan, chosen_.front());
+      // What a relaxed search found has steps of its own, by which no what-if drives it.
+      if (searches_sufficed) result_.what_ifs = answered_what_ifs(plan, chosen_.front());
     } else {
       const std::string why =
           improbable.empty() ? why_undecided(problem_, result_, end) : improbable;
@@ -138,10 +163,14 @@ class Planning {
     }
   }
 
+  /// That the planner that was asked for has not found what stands as the answer.
+  std::string found_otherwise() const {
+    return fmt::format(", which a brief search by {} found and those by {} did not",
+                       chosen_.front().candidate.planner, problem_.search.planner);
+  }
+
   /// Why there is no path, and what to give up for one.
-  std::string with_relaxation(const std::string& reason) {
-    announcements_.stage("looking for what would help", 0);
-    result_.relaxed = relaxed_answers(problem_, budget_, session_.stop);
+  std::string with_relaxation(const std::string& reason) const {
     std::vector<std::string> opening;
     for (const RelaxedAnswer& answer : result_.relaxed) {
       if (answer.opened) opening.push_back(answer.given_up);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "planner/certificate/relaxed_problem.h"
 #include "planner/ompl/search_run.h"
@@ -18,8 +19,9 @@ namespace {
 
 /// What a brief search finds, where that passes its verification. It is no longer than that of the
 /// plan itself: else it would find what only patience opens.
-std::optional<VerifiedPath> briefly_planned(const PlanningProblem& problem) {
-  const World verdict(problem, WorldUse::kVerdict, 1);
+/// \param verdict the world of the relaxed problem
+std::optional<VerifiedPath> briefly_planned(const World& verdict) {
+  const PlanningProblem& problem = verdict.problem();
   if (verdict.rejected(verdict.start(), {}) || certificate_of_infeasibility(problem))
     return std::nullopt;
   const World searched(problem, WorldUse::kSearch, 1);
@@ -108,11 +110,46 @@ std::vector<Relaxation> relaxations_of(const PlanningProblem& problem, const Ste
   return relaxations;
 }
 
+/// What a search of a relaxed problem found, as its process tells it.
+struct RelaxedPath {
+  VerifiedPath path;
+  bool within_limits = false;  ///< it passes for the problem as it was asked, and is judged by that
+};
+
+template <class Archive, FieldsOf<RelaxedPath> Path>
+void each_field(Archive& archive, Path& path) {
+  each_field(archive, path.path);
+  archive(path.within_limits);
+}
+
+std::optional<RelaxedPath> relaxed_path(const PlanningProblem& relaxed, const World* asked) {
+  const World verdict(relaxed, WorldUse::kVerdict, 1);
+  std::optional<VerifiedPath> opened = briefly_planned(verdict);
+  if (!opened) return std::nullopt;
+  if (asked) {
+    VerifiedPath within = verified_in(*asked, verification_steps(verdict), *opened);
+    if (within.candidate.verified.passed) return RelaxedPath{std::move(within), true};
+  }
+  return RelaxedPath{std::move(*opened), false};
+}
+
+/// Takes what one of the relaxations came to.
+void take(std::optional<RelaxedPath> found, RelaxedAnswer& answer, RelaxedSearch& search) {
+  if (!found) return;
+  Candidate& candidate = found->path.candidate;
+  if (!found->within_limits) {
+    answer.opened = std::move(candidate);
+  } else if (!search.within_limits ||
+             candidate.duration_s < search.within_limits->candidate.duration_s) {
+    search.within_limits = std::move(found->path);
+  }
+}
+
 /// Those of one step, side by side.
-std::vector<RelaxedAnswer> answers_of(const std::vector<Relaxation>& relaxations, int threads,
-                                      const TimeBudget& budget, const std::stop_token& stop,
-                                      const SingleThread& alone) {
-  std::vector<RelaxedAnswer> answers;
+RelaxedSearch step_search(const std::vector<Relaxation>& relaxations, const World* asked,
+                          int threads, const TimeBudget& budget, const std::stop_token& stop,
+                          const SingleThread& alone) {
+  RelaxedSearch search;
   std::size_t given = 0;
   run_in_children(
       threads, AnswerOrder::kAsGiven,
@@ -121,8 +158,8 @@ std::vector<RelaxedAnswer> answers_of(const std::vector<Relaxation>& relaxations
         const double left_s = budget.left_s(TimeBudget::kAnswerShare);
         if (left_s <= 0) return std::nullopt;
         const PlanningProblem& relaxed = relaxations[given++].problem;
-        ChildTask task{.work = [&relaxed] {
-          const std::optional<VerifiedPath> path = briefly_planned(relaxed);
+        ChildTask task{.work = [&relaxed, asked] {
+          const std::optional<RelaxedPath> path = relaxed_path(relaxed, asked);
           return path ? bytes_of(*path) : std::vector<char>();
         }};
         if (std::isfinite(left_s)) task.time_limit_s = left_s;
@@ -130,12 +167,11 @@ std::vector<RelaxedAnswer> answers_of(const std::vector<Relaxation>& relaxations
       },
       [&](const ChildAnswer& answer) {
         if (!answer.bytes) return;
-        answers.push_back({.given_up = relaxations[answer.task].words, .opened = {}});
-        if (auto path = from_bytes<VerifiedPath>(*answer.bytes))
-          answers.back().opened = std::move(path->candidate);
+        search.answers.push_back({.given_up = relaxations[answer.task].words, .opened = {}});
+        take(from_bytes<RelaxedPath>(*answer.bytes), search.answers.back(), search);
       },
       stop, alone);
-  return answers;
+  return search;
 }
 
 }  // namespace
@@ -146,18 +182,20 @@ std::vector<std::vector<Relaxation>> relaxations_of(const PlanningProblem& probl
   return steps;
 }
 
-std::vector<RelaxedAnswer> relaxed_answers(const PlanningProblem& problem, const TimeBudget& budget,
-                                           const std::stop_token& stop, const SingleThread& alone) {
-  std::vector<RelaxedAnswer> answers;
+RelaxedSearch relaxed_search(const PlanningProblem& problem, const World* asked,
+                             const TimeBudget& budget, const std::stop_token& stop,
+                             const SingleThread& alone) {
+  RelaxedSearch search;
   for (const std::vector<Relaxation>& step : relaxations_of(problem)) {
     if (stop.stop_requested()) break;
-    std::ranges::move(answers_of(step, problem.search.threads, budget, stop, alone),
-                      std::back_inserter(answers));
-    if (std::ranges::any_of(answers, [](const RelaxedAnswer& a) { return a.opened.has_value(); })) {
-      break;
-    }
+    RelaxedSearch found = step_search(step, asked, problem.search.threads, budget, stop, alone);
+    std::ranges::move(found.answers, std::back_inserter(search.answers));
+    search.within_limits = std::move(found.within_limits);
+    const bool opened = std::ranges::any_of(
+        search.answers, [](const RelaxedAnswer& a) { return a.opened.has_value(); });
+    if (opened || search.within_limits) break;
   }
-  return answers;
+  return search;
 }
 
 }  // namespace regoplan

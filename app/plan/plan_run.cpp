@@ -52,9 +52,19 @@ std::string before_search_line(const PlanResult& result, const Search& search) {
                      fmt::join(steps, ", "));
 }
 
+/// That the planner that was asked for found nothing that counts; else empty.
+std::string other_planner_line(const PlanResult& result, const Search& search) {
+  if (result.candidates.empty() || search.planner == "auto") return "";
+  const std::string& planner = result.candidates.front().planner;
+  if (planner == search.planner) return "";
+  return fmt::format("The searches by {} found none; a brief one by {} did.\n", search.planner,
+                     planner);
+}
+
 std::string summary(const PlanResult& result, const PlanningProblem& problem) {
   std::string text = plan_headline(result, problem.limits) + "\n";
   if (result.interrupted) text = "Interrupted. " + text;
+  text += other_planner_line(result, problem.search);
   text += before_search_line(result, problem.search);
   if (const auto gap = duration_gap(result)) {
     text += fmt::format(

@@ -57,6 +57,14 @@ VerifiedPath verify(const World& verdict, const World& searched, const FoundPath
   return verified;
 }
 
+VerifiedPath verified_in(const World& verdict, const ReplaySteps& steps, const VerifiedPath& path) {
+  VerifiedPath again{.candidate = path.candidate,
+                     .replay = replay(verdict, path.candidate.controls, steps)};
+  describe(again.candidate, again.replay);
+  again.candidate.verified.deviation_max_m += deviation_max_m(again.replay, path.replay);
+  return again;
+}
+
 std::optional<VerifiedPath> improved_path(const World& verdict, const World& searched,
                                           const VerifiedPath& path) {
   const Candidate& before = path.candidate;

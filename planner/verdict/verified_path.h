@@ -33,6 +33,10 @@ struct VerifiedPath {
 /// where the path was found off them
 VerifiedPath verify(const World& verdict, const World& searched, const FoundPath& path);
 
+/// A path that passed, driven again in the world of another problem of the same vehicle and map.
+/// \param steps those that it was verified with
+VerifiedPath verified_in(const World& verdict, const ReplaySteps& steps, const VerifiedPath& path);
+
 /// A path that passed, improved (`improved`); nothing where that gains nothing, does not pass
 /// verification in its turn or has a smaller margin.
 std::optional<VerifiedPath> improved_path(const World& verdict, const World& searched,

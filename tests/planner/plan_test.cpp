@@ -49,6 +49,7 @@ TEST_P(EveryPlanner, FindsAVerifiedPathAcrossOpenGround) {
   ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
   const Candidate& best = result.candidates.front();
   EXPECT_EQ(best.rank, 1);
+  EXPECT_TRUE(GetParam() == "auto" || best.planner == GetParam()) << best.planner;
   EXPECT_TRUE(best.verified.passed);
   EXPECT_GE(best.margin_min, problem.limits.margin_min);
   EXPECT_LT(best.verified.deviation_max_m, 0.1);
@@ -126,6 +127,27 @@ TEST(Plan, AVehicleInItsGoalThatHeadsElsewhereOrStillRollsIsPlannedFor) {
   problem.goal.heading_tolerance_rad = 10 * kTestDegree;
   EXPECT_GT(planned(problem).propagations, 0);
   EXPECT_GT(planned(rolling).propagations, 0);
+}
+
+TEST(Plan, APathWithinTheLimitsIsNoReasonToGiveLimitsUp) {
+  // A wall with a way round, for which the search that is asked for has too few iterations.
+  std::vector<Rock> wall;
+  for (double y_m = 12; y_m < 50; ++y_m) wall.push_back({25, y_m, 1, 1});
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat, wall));
+  problem.search.planner = "RRT";
+  problem.search.iterations = 50;
+  const PlanResult result = planned(problem);
+  ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+  EXPECT_TRUE(result.relaxed.empty());
+  ASSERT_EQ(result.candidates.size(), 1);
+  const Candidate& path = result.candidates.front();
+  EXPECT_EQ(path.rank, 1);
+  EXPECT_EQ(path.planner, "Lattice");
+  EXPECT_TRUE(path.verified.passed);
+  EXPECT_GE(path.margin_min, problem.limits.margin_min);
+  EXPECT_TRUE(path.spread);
+  EXPECT_NE(result.reason.find("by Lattice found and those by RRT did not"), std::string::npos)
+      << result.reason;
 }
 
 TEST(Plan, AWallOfRocksIsInfeasibleWithItsCertificate) {

@@ -25,7 +25,7 @@ TEST(Relaxation, NamesTheSlopeLimitWhereOnlyASteeperOneOpensTheWay) {
   }));
   problem.limits.slope_max_rad = 10 * kTestDegree;
   // Neither 2.5 deg more nor half of anything else opens it: 5 deg more do.
-  const std::vector<RelaxedAnswer> answers = relaxed_answers(problem, kNoHurry, {});
+  const std::vector<RelaxedAnswer> answers = relaxed_search(problem, nullptr, kNoHurry, {}).answers;
   EXPECT_EQ(answers.size(), count_of(relaxations_of(problem)));
   std::vector<std::string> opening;
   for (const RelaxedAnswer& answer : answers) {
@@ -46,7 +46,7 @@ TEST(Relaxation, SmallChangesThatHelpStandSideBySideAndLargeOnesAreNotAsked) {
   }));
   problem.limits.slope_max_rad = 10 * kTestDegree;
   const auto steps = relaxations_of(problem);
-  const std::vector<RelaxedAnswer> answers = relaxed_answers(problem, kNoHurry, {});
+  const std::vector<RelaxedAnswer> answers = relaxed_search(problem, nullptr, kNoHurry, {}).answers;
   ASSERT_EQ(answers.size(), steps.front().size());
   for (std::size_t i = 0; i < answers.size(); ++i) {
     EXPECT_EQ(answers[i].given_up, steps.front()[i].words);
@@ -99,16 +99,35 @@ TEST(Relaxation, NoLargerGoalHoldsTheStart) {
 TEST(Relaxation, NamesNothingWhereNothingHelps) {
   const PlanningProblem problem =
       lrv_problem(one_soil_map(50, firm_regolith(), flat, ring_of_rocks(10, 25, 7)));
-  const std::vector<RelaxedAnswer> answers = relaxed_answers(problem, kNoHurry, {});
+  const std::vector<RelaxedAnswer> answers = relaxed_search(problem, nullptr, kNoHurry, {}).answers;
   EXPECT_EQ(answers.size(), count_of(relaxations_of(problem)));
   for (const RelaxedAnswer& answer : answers) EXPECT_FALSE(answer.opened) << answer.given_up;
+}
+
+TEST(Relaxation, NoLimitIsBlamedForAPathThatKeepsThemAll) {
+  const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  const World asked(problem, WorldUse::kVerdict, 1);
+  const RelaxedSearch search = relaxed_search(problem, &asked, kNoHurry, {});
+  ASSERT_TRUE(search.within_limits);
+  const Candidate& path = search.within_limits->candidate;
+  EXPECT_TRUE(path.verified.passed);
+  EXPECT_GE(path.margin_min, problem.limits.margin_min);
+  const TrajectoryPoint& end = path.points.back();
+  EXPECT_LE(std::hypot(end.x_m - problem.goal.x_m, end.y_m - problem.goal.y_m),
+            problem.goal.radius_m);
+  // Who keeps to less speed keeps to more. A larger goal may be reached by a path that ends short
+  // of the one that was asked for.
+  for (const RelaxedAnswer& answer : search.answers) {
+    EXPECT_TRUE(!answer.opened || answer.given_up == "with a goal of radius_m 6")
+        << answer.given_up;
+  }
 }
 
 TEST(Relaxation, AnInterruptEndsIt) {
   std::stop_source stop;
   stop.request_stop();
   const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
-  EXPECT_TRUE(relaxed_answers(problem, kNoHurry, stop.get_token()).empty());
+  EXPECT_TRUE(relaxed_search(problem, nullptr, kNoHurry, stop.get_token()).answers.empty());
 }
 
 }  // namespace
