@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "planner/problem/world.h"
+#include "planner/problem/rejection.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/parallel_for.h"
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "terramech/basics/angles.h"
+#include "terramech/margins/state_margins.h"
 
 namespace regoplan {
 
@@ -96,5 +97,11 @@ struct RejectedState {
   std::optional<Exceeded> exceeded = {};
   bool while_stopping = false;  ///< beyond a path's end, on the way that it takes to stop
 };
+
+/// The first margin, in the order of `Rejection`, that is missing or smaller than the least;
+/// sinkage where a wheel sinks deeper in the steady trim than it may. \param at the state, which
+/// the answer describes
+std::optional<RejectedState> rejected_by(const StateMargins& margins, double margin_min,
+                                         RejectedState at);
 
 }  // namespace regoplan

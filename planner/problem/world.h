@@ -28,12 +28,6 @@ struct Judgement {
   std::optional<RejectedState> rejected;
 };
 
-/// The first margin, in the order of `Rejection`, that is missing or smaller than the least;
-/// sinkage where a wheel sinks deeper in the steady trim than it may. \param at the state, which
-/// the answer describes
-std::optional<RejectedState> rejected_by(const StateMargins& margins, double margin_min,
-                                         RejectedState at);
-
 /// A vehicle in its map: how it moves, and what it may not do.
 class World {
  public:
