@@ -15,7 +15,7 @@ struct Unit {
   std::string_view name;
 };
 
-constexpr int kDigits = 3;
+constexpr int kSignificantDigits = 3;
 
 /// \param units the smallest first
 std::string in_fitting_unit(double value, std::span<const Unit> units, std::string_view si_name) {
@@ -29,8 +29,8 @@ std::string in_fitting_unit(double value, std::span<const Unit> units, std::stri
   const auto larger = std::find_if(units.begin() + 1, units.end(),
                                    [&](const Unit& unit) { return size(unit) < 0; });
   const Unit& unit = *(larger - 1);
-  return fmt::format("{:.{}f} {}", value / unit.si, std::max(0, kDigits - 1 - size(unit)),
-                     unit.name);
+  return fmt::format("{:.{}f} {}", value / unit.si,
+                     std::max(0, kSignificantDigits - 1 - size(unit)), unit.name);
 }
 
 }  // namespace
