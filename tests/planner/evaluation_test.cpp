@@ -1,63 +1,12 @@
-#include "planner/evaluation/evaluation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "planner/evaluation/manoeuvres.h"
 #include "planner/plan.h"
-#include "terramech/basics/input_error.h"
-#include "tests/planner/flat_problem.h"
+#include "tests/planner/evaluated.h"
 
 namespace regoplan {
 namespace {
-
-UncertainSoil uncertain_regolith() {
-  UncertainSoil soil = firm_regolith();
-  soil.standard_deviation.cohesion_pa = 50;
-  soil.standard_deviation.friction_angle_rad = 2 * kTestDegree;
-  soil.standard_deviation.ky0_m = 0.003;
-  return soil;
-}
-
-const EvaluationSettings kSettings{.soil_draws = 30, .seed = 3};
-
-ReferencePath reference(const std::vector<PathPoint>& points, double speed_mps) {
-  PathCurve curve(points);
-  SpeedProfile speed({{0, speed_mps}, {curve.length_m(), speed_mps}});
-  return {.name = "path", .legs = {{std::move(curve), std::move(speed)}}};
-}
-
-PathEvaluation evaluated(const PlanningProblem& problem, const ReferencePath& path,
-                         const EvaluationSettings& settings = kSettings) {
-  const World world(problem, WorldUse::kVerdict, 1);
-  return evaluate(world, path, settings);
-}
-
-PlanningProblem flat_problem(const UncertainSoil& soil = firm_regolith()) {
-  PlanningProblem problem = lrv_problem(one_soil_map(60, soil, flat));
-  problem.speed_max_mps *= kSpeedTolerance;
-  return problem;
-}
-
-Manoeuvre turn(double speed_mps, double radius_m = 15) {
-  return {.kind = ManoeuvreKind::kSteadyTurn,
-          .name = "turn",
-          .vehicle = preset_vehicle("lrv"),
-          .soil = {.name = "regolith", .source = "test", .soil = uncertain_regolith()},
-          .speed_mps = speed_mps,
-          .radius_m = radius_m,
-          .angle_rad = 90 * kTestDegree};
-}
-
-PathEvaluation evaluated(const Manoeuvre& manoeuvre,
-                         const EvaluationSettings& settings = kSettings) {
-  const PlanningProblem base = flat_problem();
-  const PreparedManoeuvre prepared = prepare(manoeuvre, base.limits, base);
-  const World world(prepared.problem, WorldUse::kVerdict, 1);
-  return std::visit([&](const auto& course) { return evaluate(world, course, settings); },
-                    prepared.course);
-}
 
 TEST(Evaluation, AStraightPathOnFirmGroundIsFeasibleAndTrackedClosely) {
   const PathEvaluation e = evaluated(flat_problem(), reference({{10, 25}, {45, 25}}, 2));
@@ -132,78 +81,6 @@ TEST(Evaluation, ATurnTooFastNamesCorneringItsPlaceAndTheLimitOfTheSupply) {
   EXPECT_FALSE(e.cornering_limit->wheel.empty());
 }
 
-/// 30 deg to the left within a few points 0.15 m apart, after a straight.
-std::vector<PathPoint> corner_after(double straight_m) {
-  constexpr double kApart_m = 0.15;
-  const double c = std::cos(30 * kTestDegree), s = std::sin(30 * kTestDegree);
-  const double corner_x_m = 10 + straight_m;
-  std::vector<PathPoint> points;
-  for (double x_m = 10; x_m < corner_x_m - 1; x_m += 1) points.push_back({x_m, 25});
-  for (int k = 4; k >= 0; --k) points.push_back({corner_x_m - k * kApart_m, 25});
-  for (const double way_m : {1 * kApart_m, 2 * kApart_m, 3 * kApart_m, 4 * kApart_m, 2.0, 3.0, 4.0,
-                             5.0, 6.0, 7.0, 8.0}) {
-    points.push_back({corner_x_m + c * way_m, 25 + s * way_m});
-  }
-  return points;
-}
-
-TEST(Evaluation, ACornerSharperThanTheSteeringIsRefusedWhereverItLies) {
-  std::vector<double> found_1pm;
-  for (const double straight_m : {15.05, 15.15, 15.25, 15.35, 15.45}) {
-    const PathEvaluation e = evaluated(flat_problem(), reference(corner_after(straight_m), 1));
-    ASSERT_FALSE(e.feasible) << straight_m;
-    EXPECT_EQ(e.refusal->reason, Rejection::kSteering) << straight_m;
-    EXPECT_EQ(e.margin_min, -1) << straight_m;
-    double sharpest_1pm = 0;
-    for (const TrajectoryPoint& at : e.points) {
-      sharpest_1pm = std::max(sharpest_1pm, std::abs(at.curvature_1pm));
-    }
-    found_1pm.push_back(sharpest_1pm);
-  }
-  for (const double sharpest_1pm : found_1pm) EXPECT_NEAR(sharpest_1pm, found_1pm[0], 0.1);
-}
-
-TEST(Evaluation, AHairpinBetweenTwoStationsIsRefusedForSteering) {
-  EvaluationSettings settings = kSettings;
-  settings.deviation_max_m = 20;  // not for leaving the path
-  for (const double apart_m : {2.0, 0.5, 0.0}) {
-    const PathEvaluation e =
-        evaluated(flat_problem(), reference({{10, 25}, {40, 25}, {10, 25 + apart_m}}, 1), settings);
-    ASSERT_FALSE(e.feasible) << apart_m;
-    EXPECT_EQ(e.refusal->reason, Rejection::kSteering) << apart_m;
-    EXPECT_NEAR(e.refusal->x_m, 40, 1);
-  }
-}
-
-TEST(Evaluation, TheMarginOfATurnIsThatOfItsSharpestPlace) {
-  // A bow within the steering whose sharpest place lies at, or between, stations.
-  std::vector<double> margins;
-  for (const double straight_m : {10.0, 10.1, 10.2, 10.3, 10.4}) {
-    std::vector<PathPoint> points{{10, 25}, {12, 25}, {14, 25}, {16, 25}, {18, 25}};
-    const double x_m = 10 + straight_m;
-    for (const auto& [along_m, left_m] : std::vector<std::pair<double, double>>{
-             {0.0, 0.0}, {0.4, 0.02}, {0.8, 0.08}, {2.8, 0.38}, {4.8, 0.68}, {6.8, 0.98}}) {
-      points.push_back({x_m + along_m, 25 + left_m});
-    }
-    margins.push_back(evaluated(flat_problem(), reference(points, 1)).margin_min);
-  }
-  for (const double margin : margins) EXPECT_NEAR(margin, margins[0], 0.005);
-  EXPECT_GT(margins[0], 0);
-}
-
-TEST(Evaluation, DensePointsRoundedToAMillimetreAreNotRefused) {
-  const auto rounded_m = [](double x_m) { return std::round(x_m * 1000) / 1000; };
-  std::vector<PathPoint> points;
-  constexpr double kRadius_m = 15, kApart_m = 0.1;
-  for (int i = 0; i <= 300; ++i) {
-    const double at = i * kApart_m / kRadius_m;
-    points.push_back(
-        {rounded_m(10 + kRadius_m * std::sin(at)), rounded_m(20 + kRadius_m * (1 - std::cos(at)))});
-  }
-  const PathEvaluation e = evaluated(flat_problem(), reference(points, 1));
-  EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
-}
-
 TEST(Evaluation, APathThatLeavesTheMapIsRefusedThere) {
   const PathEvaluation e = evaluated(flat_problem(), reference({{40, 25}, {70, 25}}, 2));
   ASSERT_FALSE(e.feasible);
@@ -212,16 +89,6 @@ TEST(Evaluation, APathThatLeavesTheMapIsRefusedThere) {
   EXPECT_GT(e.refusal->x_m, 55);
   EXPECT_LE(e.refusal->x_m, 60.5);
   EXPECT_FALSE(e.spread);  // no soil could give margins there
-}
-
-TEST(Evaluation, APathBeyondTheSteeringIsRefusedWithoutMarginsOrDraws) {
-  const PlanningProblem problem = flat_problem();
-  const PathEvaluation e = evaluated(
-      problem, reference({{20, 25}, {22, 25}, {22.6, 25.6}, {22, 26.2}, {20, 26.2}}, 0.5));
-  ASSERT_FALSE(e.feasible);
-  EXPECT_EQ(e.refusal->reason, Rejection::kSteering);
-  EXPECT_GT(e.refusal->exceeded->found, problem.vehicle.curvature_max_1pm);
-  EXPECT_FALSE(e.spread);
 }
 
 TEST(Evaluation, AVehicleThatSinksTooDeepIsToldSoAndOtherSoilsMayBearIt) {
@@ -241,17 +108,6 @@ TEST(Evaluation, ARockOnThePathIsAnObstacle) {
   const PathEvaluation e = evaluated(problem, reference({{10, 25}, {45, 25}}, 2));
   ASSERT_FALSE(e.feasible);
   EXPECT_EQ(e.refusal->reason, Rejection::kObstacle);
-}
-
-TEST(Evaluation, ACornerSharperThanTheSteeringIsRefused) {
-  std::vector<PathPoint> points;
-  for (double x = 10; x <= 20; ++x) points.push_back({x, 25});
-  points.push_back({20.7, 25.7});
-  for (double x = 20; x >= 10; --x) points.push_back({x, 26.4});
-  const PathEvaluation e = evaluated(flat_problem(), reference(points, 0.5));
-  ASSERT_FALSE(e.feasible);
-  EXPECT_EQ(e.refusal->reason, Rejection::kSteering);
-  EXPECT_NEAR(e.refusal->x_m, 20, 1.5);
 }
 
 TEST(Evaluation, SlopesThatASideForceCannotHoldAreRefused) {
@@ -307,79 +163,6 @@ TEST(Evaluation, EveryKindOfManoeuvreEndsInAVerdict) {
     EXPECT_TRUE(e.feasible) << name(kind) << ": " << sentence(*e.refusal);
     EXPECT_LT(e.tracking.deviation_max_m, 0.3) << name(kind);
   }
-}
-
-/// Turns of a vehicle by its tightest radius times this.
-PathEvaluation tightest_turn(const char* vehicle, double radius_factor) {
-  Manoeuvre m = turn(0.04);
-  m.vehicle = preset_vehicle(vehicle);
-  m.radius_m = radius_factor / m.vehicle.curvature_max_1pm;
-  const PlanningProblem base = flat_problem();
-  const PreparedManoeuvre prepared = prepare(m, default_limits(m.vehicle), base);
-  const World world(prepared.problem, WorldUse::kVerdict, 1);
-  return evaluate(world, std::get<ReferencePath>(prepared.course), kSettings);
-}
-
-TEST(Evaluation, ATurnIsRefusedForItsSteeringOnlyWhereItIsTighterThanTheVehicleTurns) {
-  for (const char* vehicle : {"lrv", "curiosity", "tohoku"}) {
-    const PathEvaluation at_the_end = tightest_turn(vehicle, 1);
-    EXPECT_TRUE(at_the_end.feasible) << vehicle << ": " << sentence(*at_the_end.refusal);
-    const PathEvaluation beyond = tightest_turn(vehicle, 0.999);
-    ASSERT_TRUE(beyond.refusal) << vehicle;
-    EXPECT_EQ(beyond.refusal->reason, Rejection::kSteering) << vehicle;
-  }
-}
-
-/// Turns Curiosity on a plane of its own.
-Manoeuvre point_turn(double slope_deg) {
-  Manoeuvre m = turn(1);
-  m.kind = ManoeuvreKind::kPointTurn;
-  m.vehicle = preset_vehicle("curiosity");
-  m.slope_rad = slope_deg * kTestDegree;
-  m.turn_rate_rad_s = 1 * kTestDegree;
-  m.angle_rad = 60 * kTestDegree;
-  return m;
-}
-
-PathEvaluation evaluated_on_its_own_limits(const Manoeuvre& manoeuvre) {
-  const PlanningProblem base = flat_problem();
-  const PreparedManoeuvre prepared = prepare(manoeuvre, default_limits(manoeuvre.vehicle), base);
-  const World world(prepared.problem, WorldUse::kVerdict, 1);
-  return evaluate(world, std::get<SpotTurn>(prepared.course), kSettings);
-}
-
-TEST(Evaluation, APointTurnOnTheFlatTurnsWhereItStands) {
-  for (const bool right : {false, true}) {
-    Manoeuvre m = point_turn(0);
-    m.to_the_right = right;
-    const PathEvaluation e = evaluated_on_its_own_limits(m);
-    EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
-    EXPECT_EQ(e.tracking.end, TrackingEnd::kArrived);
-    EXPECT_LT(e.tracking.deviation_max_m, 0.02);
-    EXPECT_NEAR(e.tracking.last.state.yaw_rad, (right ? -1 : 1) * m.angle_rad, 0.02);
-    for (const TrajectoryPoint& point : e.points) EXPECT_NEAR(point.demand_n, 0, 1e-9);
-    // All headings are alike there.
-    EXPECT_NEAR(e.points.front().margin, e.points.back().margin, 1e-6);
-  }
-}
-
-TEST(Evaluation, APointTurnOnASlopeIsWorseTheSteeperItIs) {
-  double before = 1;
-  for (const double slope_deg : {0.0, 8.0, 16.0, 29.0}) {
-    const PathEvaluation e = evaluated_on_its_own_limits(point_turn(slope_deg));
-    EXPECT_LT(e.margin_min, before) << slope_deg;
-    before = e.margin_min;
-    if (slope_deg == 29) {
-      EXPECT_FALSE(e.feasible);
-    }
-  }
-}
-
-TEST(Evaluation, APointTurnOfAVehicleThatCannotIsAnError) {
-  Manoeuvre m = point_turn(0);
-  m.vehicle = preset_vehicle("lrv");  // its wheels do not reach the angle
-  const PlanningProblem base = flat_problem();
-  EXPECT_THROW(prepare(m, base.limits, base), InputError);
 }
 
 TEST(Evaluation, APathIsReversedAsItIsDriven) {
