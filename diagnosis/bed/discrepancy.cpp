@@ -1,11 +1,8 @@
 #include "diagnosis/bed/discrepancy.h"
 
 #include <cmath>
-#include <map>
 #include <mutex>
 #include <utility>
-
-#include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
@@ -13,8 +10,6 @@ namespace {
 double squared(double x) {
   return x * x;
 }
-
-constexpr Sides kSides[] = {Sides::kMirrored, Sides::kApart};
 
 /// Sign of the slip angle; runs straight ahead are straight to within half a degree.
 double side_of(double slip_angle_rad) {
@@ -49,14 +44,16 @@ const std::vector<DiscrepancySetting>& discrepancy_settings() {
   static const std::vector<DiscrepancySetting> settings = [] {
     std::vector<DiscrepancySetting> all{{}};
     constexpr double kLeastApart = 2;
-    for (const Sides sides : kSides) {
-      for (const double amplitude : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0}) {
-        if (sides == Sides::kApart && amplitude < kLeastApart) continue;
+    const auto add = [&all](Sides sides, double least) {
+      for (const double amplitude : kDiscrepancyAmplitudes) {
+        if (amplitude < least) continue;
         for (std::size_t k = 0; k < discrepancy_scales().size(); ++k) {
           all.push_back({amplitude, k, sides});
         }
       }
-    }
+    };
+    add(Sides::kMirrored, kDiscrepancyAmplitudes[1]);
+    add(Sides::kApart, kLeastApart);
     return all;
   }();
   return settings;
@@ -77,67 +74,83 @@ double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, cons
   return angle * std::exp(-d / 2);
 }
 
-namespace {
-
-Eigen::MatrixXd kernel_of(const TestBed& bed, const ChannelData& data,
-                          const DiscrepancyScales& scales, Sides sides) {
-  const auto at = [&](Eigen::Index i) -> const Condition& {
-    return bed.conditions[data.conditions[static_cast<std::size_t>(i)]];
-  };
-  const Eigen::Index n = data.mean.size();
-  Eigen::MatrixXd kernel(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index k = 0; k < n; ++k) {
-      kernel(i, k) = discrepancy_kernel(scales, data.channel, at(i), at(k), sides);
-    }
-  }
-  return kernel;
+ConditionsAt conditions_of(const TestBed& bed, const ChannelData& data) {
+  ConditionsAt conditions;
+  for (const std::size_t k : data.conditions) conditions.push_back(&bed.conditions[k]);
+  return conditions;
 }
 
-}  // namespace
+Eigen::MatrixXd discrepancy_kernels(const DiscrepancyScales& scales, Channel channel,
+                                    const ConditionsAt& a, const ConditionsAt& b, Sides sides) {
+  Eigen::MatrixXd kernels(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      kernels(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
+          discrepancy_kernel(scales, channel, *a[i], *b[k], sides);
+    }
+  }
+  return kernels;
+}
 
 struct Discrepancy::OfChannel {
-  struct Made {
+  /// Made when it is asked for first, by whichever thread asks.
+  template <class Value>
+  struct Lazy {
     std::once_flag once;
-    ChannelCovariance covariance;
+    Value value;
+
+    template <class Make>
+    const Value& made_by(Make make) {
+      std::call_once(once, [&] { value = make(); });
+      return value;
+    }
   };
+
+  Channel channel;
   double scale = 0;
   Eigen::MatrixXd noise;
-  std::map<Sides, std::vector<Eigen::MatrixXd>> kernels;  // one for each of the scales
-  std::vector<Made> made{discrepancy_settings().size()};
+  std::vector<Condition> conditions;
+  std::vector<Lazy<Eigen::MatrixXd>> kernels{2 * discrepancy_scales().size()};
+  std::vector<Lazy<ChannelCovariance>> covariances{discrepancy_settings().size()};
+
+  OfChannel(const TestBed& bed, const ChannelData& data)
+      : channel(data.channel), scale(data.scale), noise(data.noise) {
+    for (const Condition* at : conditions_of(bed, data)) conditions.push_back(*at);
+  }
+
+  const Eigen::MatrixXd& kernel(const DiscrepancySetting& setting) {
+    const std::size_t sides = setting.sides == Sides::kApart ? 1 : 0;
+    return kernels[2 * setting.scales + sides].made_by([&] {
+      ConditionsAt at;
+      for (const Condition& condition : conditions) at.push_back(&condition);
+      return discrepancy_kernels(discrepancy_scales()[setting.scales], channel, at, at,
+                                 setting.sides);
+    });
+  }
+
+  ChannelCovariance covariance(const DiscrepancySetting& setting) {
+    ChannelCovariance covariance;
+    Eigen::MatrixXd whole = noise;
+    if (setting.amplitude > 0) {
+      covariance.discrepancy = squared(setting.amplitude * scale) * kernel(setting);
+      whole += covariance.discrepancy;
+    }
+    covariance.factor.compute(whole);
+    covariance.log_determinant = 2 * covariance.factor.matrixLLT().diagonal().array().log().sum();
+    return covariance;
+  }
 };
 
 Discrepancy::Discrepancy(const TestBed& bed) {
   for (const ChannelData& data : bed.channels) {
-    throw_if_stopped(bed.stop);
-    auto of_channel = std::make_shared<OfChannel>();
-    of_channel->scale = data.scale;
-    of_channel->noise = data.noise;
-    for (const Sides sides : kSides) {
-      for (const DiscrepancyScales& scales : discrepancy_scales()) {
-        of_channel->kernels[sides].push_back(kernel_of(bed, data, scales, sides));
-      }
-    }
-    channels_.push_back(std::move(of_channel));
+    channels_.push_back(std::make_shared<OfChannel>(bed, data));
   }
 }
 
 const ChannelCovariance& Discrepancy::at(std::size_t channel, std::size_t setting) const {
   OfChannel& of_channel = *channels_[channel];
-  OfChannel::Made& made = of_channel.made[setting];
-  std::call_once(made.once, [&] {
-    const DiscrepancySetting& with = discrepancy_settings()[setting];
-    ChannelCovariance& at = made.covariance;
-    Eigen::MatrixXd whole = of_channel.noise;
-    if (with.amplitude > 0) {
-      at.discrepancy = squared(with.amplitude * of_channel.scale) *
-                       of_channel.kernels.at(with.sides)[with.scales];
-      whole += at.discrepancy;
-    }
-    at.factor.compute(whole);
-    at.log_determinant = 2 * at.factor.matrixLLT().diagonal().array().log().sum();
-  });
-  return made.covariance;
+  return of_channel.covariances[setting].made_by(
+      [&] { return of_channel.covariance(discrepancy_settings()[setting]); });
 }
 
 }  // namespace regoplan

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -21,7 +22,7 @@ enum class Sides { kMirrored, kApart };
 
 /// One setting of the discrepancy of a channel.
 struct DiscrepancySetting {
-  double amplitude = 0;    ///< standard deviation in units of one run's noise
+  double amplitude = 0;    ///< one of kDiscrepancyAmplitudes
   std::size_t scales = 0;  ///< index into discrepancy_scales()
   Sides sides = Sides::kMirrored;
 };
@@ -32,6 +33,9 @@ const std::vector<DiscrepancyScales>& discrepancy_scales();
 /// sensors and beds nearly always are level and straight.
 inline constexpr double kApart_log_prior = -3;
 
+/// What a discrepancy's standard deviation may be, in units of one run's noise: none first.
+inline constexpr std::array kDiscrepancyAmplitudes{0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};
+
 /// All settings: no discrepancy first, then every amplitude with every scale, sides mirrored, and
 /// last those of a run's noise twice and more with sides apart.
 const std::vector<DiscrepancySetting>& discrepancy_settings();
@@ -41,6 +45,16 @@ const std::vector<DiscrepancySetting>& discrepancy_settings();
 /// and the side force's part is odd in it.
 double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, const Condition& a,
                           const Condition& b, Sides sides = Sides::kMirrored);
+
+using ConditionsAt = std::vector<const Condition*>;
+
+/// The conditions of a channel, in the order of its values. They are the bed's own.
+ConditionsAt conditions_of(const TestBed& bed, const ChannelData& data);
+
+/// The kernel between all of `a`, one a row, and all of `b`.
+Eigen::MatrixXd discrepancy_kernels(const DiscrepancyScales& scales, Channel channel,
+                                    const ConditionsAt& a, const ConditionsAt& b,
+                                    Sides sides = Sides::kMirrored);
 
 /// Covariance of one channel under one setting, factored.
 struct ChannelCovariance {

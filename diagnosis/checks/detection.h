@@ -22,7 +22,8 @@ enum class NoiseTails {
   kHeavy,  ///< a run as Student's t with 5 degrees of freedom: sensors and beds have outliers
 };
 
-/// Replicates tell outliers from noise; without any these look like a difference.
+/// Replicates tell outliers from noise; where there are none, tails are heavy: outliers would pass
+/// for a misfit.
 NoiseTails tails_of(const CondensedRecording& recording);
 
 /// Lack of fit against pure error. The misfit (priors counted as data) of all channels together and

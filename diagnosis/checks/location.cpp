@@ -53,16 +53,9 @@ Eigen::MatrixXd left_by_surface(const TestBed& bed, const ChannelData& data) {
   constexpr double kAmplitude = 8;  // of one run's noise
   const DiscrepancyScales& scales = discrepancy_scales()[1];
   const Eigen::Index n = data.mean.size();
-  Eigen::MatrixXd whole = data.noise;
-  const auto at = [&](Eigen::Index row) -> const Condition& {
-    return bed.conditions[data.conditions[static_cast<std::size_t>(row)]];
-  };
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index k = 0; k < n; ++k) {
-      whole(i, k) += std::pow(kAmplitude * data.scale, 2) *
-                     discrepancy_kernel(scales, data.channel, at(i), at(k));
-    }
-  }
+  const ConditionsAt at = conditions_of(bed, data);
+  const Eigen::MatrixXd whole = data.noise + std::pow(kAmplitude * data.scale, 2) *
+                                                 discrepancy_kernels(scales, data.channel, at, at);
   return data.noise * whole.llt().solve(Eigen::MatrixXd::Identity(n, n));
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 /// One value that a reference gives of the base model's shortcoming in a channel.
 struct Points {
-  std::vector<const Condition*> at;
+  ConditionsAt at;
   Eigen::VectorXd residual;
   Eigen::MatrixXd noise;
   double scale = 0;
@@ -57,19 +57,6 @@ struct Surface {
   Eigen::MatrixXd covariance;
 };
 
-Eigen::MatrixXd kernel_of(const DiscrepancyScales& scales, Channel channel, Sides sides,
-                          const std::vector<const Condition*>& a,
-                          const std::vector<const Condition*>& b) {
-  Eigen::MatrixXd kernel(static_cast<Eigen::Index>(a.size()), static_cast<Eigen::Index>(b.size()));
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t k = 0; k < b.size(); ++k) {
-      kernel(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          discrepancy_kernel(scales, channel, *a[i], *b[k], sides);
-    }
-  }
-  return kernel;
-}
-
 /// Squared error of a point predicted by all others, over what it is told to be: 1 in the mean of a
 /// surface that errs as it says.
 double left_out_misfit(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::VectorXd& residual) {
@@ -88,8 +75,8 @@ struct Member {
 
 /// Every setting of the discrepancy by its likelihood: the mean over them all, and their spread. A
 /// surface that predicts its own points worse than it says errs as much between them.
-Surface surface_through(const Points& points, Channel channel,
-                        const std::vector<const Condition*>& wanted, const std::stop_token& stop) {
+Surface surface_through(const Points& points, Channel channel, const ConditionsAt& wanted,
+                        const std::stop_token& stop) {
   const auto n = static_cast<Eigen::Index>(wanted.size());
   Surface sum{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   if (points.at.empty()) {
@@ -97,9 +84,10 @@ Surface surface_through(const Points& points, Channel channel,
   }
   std::vector<Member> members;
   const auto add_members = [&](const DiscrepancyScales& scales, Sides sides) {
-    const Eigen::MatrixXd kernel = kernel_of(scales, channel, sides, points.at, points.at);
-    const Eigen::MatrixXd cross = kernel_of(scales, channel, sides, wanted, points.at);
-    const Eigen::MatrixXd own = kernel_of(scales, channel, sides, wanted, wanted);
+    const Eigen::MatrixXd kernel =
+        discrepancy_kernels(scales, channel, points.at, points.at, sides);
+    const Eigen::MatrixXd cross = discrepancy_kernels(scales, channel, wanted, points.at, sides);
+    const Eigen::MatrixXd own = discrepancy_kernels(scales, channel, wanted, wanted, sides);
     for (const double amplitude : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
       throw_if_stopped(stop);
       const double variance = std::pow(amplitude * points.scale, 2);
@@ -134,8 +122,8 @@ Surface surface_through(const Points& points, Channel channel,
   return sum;
 }
 
-std::vector<const Condition*> conditions_of(const TestBed& bed) {
-  std::vector<const Condition*> all;
+ConditionsAt conditions_of(const TestBed& bed) {
+  ConditionsAt all;
   for (const Condition& at : bed.conditions) all.push_back(&at);
   return all;
 }
@@ -254,7 +242,7 @@ DifferenceBed difference_bed(const CondensedRecording& test,
   result.noise_variance.resize(bed.size());
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     ChannelData& data = bed.channels[c];
-    std::vector<const Condition*> wanted;
+    ConditionsAt wanted;
     for (const std::size_t k : data.conditions) wanted.push_back(&places[k]);
     const Surface surface =
         surface_through(points_of(told, predictions, data.channel), data.channel, wanted, bed.stop);

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "diagnosis/bed/whitening.h"
@@ -13,21 +13,17 @@
 namespace regoplan {
 namespace {
 
-/// \param of_amplitude weights of no discrepancy, then of each amplitude in their order
-SettingWeights weights_of(const std::vector<double>& of_amplitude) {
-  const auto& settings = discrepancy_settings();
+/// \param of_amplitude weights of kDiscrepancyAmplitudes
+SettingWeights weights_of(const std::array<double, kDiscrepancyAmplitudes.size()>& of_amplitude) {
   const double scales = static_cast<double>(discrepancy_scales().size());
-  std::map<double, double> weight;
   double sum = 0;
-  auto next = of_amplitude.begin();
-  for (const DiscrepancySetting& setting : settings) {
-    if (weight.contains(setting.amplitude)) continue;
-    weight[setting.amplitude] = *next / (setting.amplitude > 0 ? scales : 1);
-    sum += *next++;
-  }
+  for (const double w : of_amplitude) sum += w;
   SettingWeights weights;
-  for (const DiscrepancySetting& setting : settings) {
-    const double w = weight.at(setting.amplitude) / sum;
+  for (const DiscrepancySetting& setting : discrepancy_settings()) {
+    const auto amplitude = std::ranges::find(kDiscrepancyAmplitudes, setting.amplitude) -
+                           kDiscrepancyAmplitudes.begin();
+    const double w = of_amplitude.at(static_cast<std::size_t>(amplitude)) / sum /
+                     (setting.amplitude > 0 ? scales : 1);
     const double sides = setting.sides == Sides::kApart ? kApart_log_prior : 0;
     weights.log_weight.push_back(w > 0 ? std::log(w) + sides : -1e300);
   }
@@ -161,16 +157,12 @@ double misfit_of(const TestBed& bed, const Discrepancy& discrepancy,
 Eigen::MatrixXd smooth_functions(const TestBed& bed) {
   constexpr std::size_t kMiddling = 1;
   constexpr Eigen::Index kMost = 8;
-  const auto n = static_cast<Eigen::Index>(bed.conditions.size());
-  Eigen::MatrixXd kernel(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    throw_if_stopped(bed.stop);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      kernel(i, k) = discrepancy_kernel(discrepancy_scales()[kMiddling], Channel::kFx,
-                                        bed.conditions[static_cast<std::size_t>(i)],
-                                        bed.conditions[static_cast<std::size_t>(k)]);
-    }
-  }
+  throw_if_stopped(bed.stop);
+  ConditionsAt everywhere;
+  for (const Condition& condition : bed.conditions) everywhere.push_back(&condition);
+  const Eigen::MatrixXd kernel =
+      discrepancy_kernels(discrepancy_scales()[kMiddling], Channel::kFx, everywhere, everywhere);
+  const Eigen::Index n = kernel.rows();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(kernel);
   const Eigen::Index count = std::min(kMost, n);
   return modes.eigenvectors().rightCols(count) *

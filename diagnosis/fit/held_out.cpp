@@ -56,16 +56,9 @@ void add_remainder(const TestBed& bed, const TestBed& rest, const Discrepancy& d
     const ChannelData& seen = rest.channels[c];
     const DiscrepancyScales& scales = discrepancy_scales()[setting.scales];
     const double variance = std::pow(setting.amplitude * all.scale, 2);
-    Eigen::MatrixXd cross(all.mean.size(), seen.mean.size());
-    for (Eigen::Index i = 0; i < cross.rows(); ++i) {
-      for (Eigen::Index k = 0; k < cross.cols(); ++k) {
-        cross(i, k) = variance * discrepancy_kernel(
-                                     scales, all.channel,
-                                     bed.conditions[all.conditions[static_cast<std::size_t>(i)]],
-                                     rest.conditions[seen.conditions[static_cast<std::size_t>(k)]],
-                                     setting.sides);
-      }
-    }
+    const Eigen::MatrixXd cross =
+        variance * discrepancy_kernels(scales, all.channel, conditions_of(bed, all),
+                                       conditions_of(rest, seen), setting.sides);
     const auto& factor = discrepancy.at(c, settings[c]).factor;
     const Eigen::VectorXd part = left.segment(rest.offset(c), seen.mean.size());
     prediction.remainder.segment(bed.offset(c), all.mean.size()) = cross * factor.solve(part);

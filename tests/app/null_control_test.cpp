@@ -48,19 +48,10 @@ std::vector<Eigen::Index> rows_of(const TestBed& bed, const ChannelData& data,
 /// none of the soil's.
 Eigen::MatrixXd covariance_of(const TestBed& bed, const ChannelData& data,
                               const DiscrepancySetting& setting) {
-  Eigen::MatrixXd whole = data.noise;
-  const double deviation = setting.amplitude * data.scale;
-  for (Eigen::Index i = 0; i < whole.rows(); ++i) {
-    for (Eigen::Index k = 0; k < whole.cols(); ++k) {
-      whole(i, k) +=
-          deviation * deviation *
-          discrepancy_kernel(discrepancy_scales()[setting.scales], Channel::kFx,
-                             bed.conditions[data.conditions[static_cast<std::size_t>(i)]],
-                             bed.conditions[data.conditions[static_cast<std::size_t>(k)]],
-                             setting.sides);
-    }
-  }
-  return whole;
+  const ConditionsAt at = conditions_of(bed, data);
+  return data.noise + std::pow(setting.amplitude * data.scale, 2) *
+                          discrepancy_kernels(discrepancy_scales()[setting.scales], Channel::kFx,
+                                              at, at, setting.sides);
 }
 
 /// Misfit of the other half against what a smooth surface through one half and the noise predict.
