@@ -235,7 +235,9 @@ ComparedResult read_compared_result(const std::filesystem::path& folder) {
     result.status = json.value("status", "");
     read_entries(json, result);
   } catch (const Json::exception&) {
-    throw InputError(fmt::format("{}: is not as {} writes it", file.string(), name(kind)));
+    throw InputError(
+        fmt::format("{}: is not as {} writes it; remedy: make it again with this version",
+                    file.string(), name(kind)));
   }
   return result;
 }

@@ -15,6 +15,7 @@
 #include "app/io/number_text.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/mechanisms/mechanism.h"
 
 namespace regoplan {
 namespace {
@@ -166,11 +167,18 @@ std::optional<double> one_for_all(const RecordingFile& read, std::string_view co
   return value;
 }
 
+/// What lugs can be, as the mechanism has it.
+ValueRange of_lugs(std::string_view parameter) {
+  const MechanismForm& lugs = form_of({.id = "grousers", .form = "passive_pressure"});
+  const auto range = std::ranges::find(lugs.parameters, parameter, &MechanismParameter::name);
+  return {.min = range->least, .max = range->most};
+}
+
 RecordedWheel recorded_wheel(const RecordingFile& read) {
   RecordedWheel wheel{.radius_m = one_for_all(read, "wheel_radius_m", kAbove0),
                       .width_m = one_for_all(read, "wheel_width_m", kAbove0),
-                      .lug_height_m = one_for_all(read, "lug_height_m", {.min = 0, .max = 0.2})};
-  if (const auto count = one_for_all(read, "lug_count", {.min = 0, .max = 1000})) {
+                      .lug_height_m = one_for_all(read, "lug_height_m", of_lugs("lug_height_m"))};
+  if (const auto count = one_for_all(read, "lug_count", of_lugs("lugs"))) {
     if (*count != std::floor(*count)) {
       throw InputError(fmt::format("{}: lug_count: {} is not valid (allowed: an integer from 0)",
                                    read.file, *count));

@@ -8,6 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/io/csv_cells.h"
 #include "app/io/csv_table.h"
@@ -32,7 +35,7 @@ constexpr std::array<Condition, 3> kConditions{{
 
 /// Columns that a mechanism may need; each may be left out.
 struct Circumstance {
-  const char* column;
+  std::string_view column;
   ValueRange allowed;
   double WheelConditions::*member;
   double unit;
@@ -49,15 +52,20 @@ constexpr ValueRange kPasses{.min = 1, .max = 1e6};
 /// A mechanism that says nothing where a column is not told, in one form or (empty) in all.
 struct Need {
   std::string_view id, form;
-  const char* column;
+  std::string_view column;
+  bool above_0 = false;
 };
 constexpr std::array<Need, 5> kNeeds{{
     {"multi_pass", "", "pass"},
-    {"rate_dependence", "", "speed_mps"},
+    {"rate_dependence", "", "speed_mps", true},  // at rest there is no rate
     {"soil_zone", "", "position_m"},
     {"cohesion_drift", "", "time_s"},
     {"soil_change", "for_a_time", "time_s"},
 }};
+
+bool is_of(const Need& need, const Mechanism& mechanism) {
+  return mechanism.id == need.id && (need.form.empty() || form_of(mechanism).form == need.form);
+}
 
 constexpr std::array<const char*, 7> kResults{"fx_n", "fy_n", "torque_nm", "sinkage_m",
                                               "fc_n", "fb_n", "status"};
@@ -72,44 +80,59 @@ std::vector<std::string> known_columns() {
   return known;
 }
 
-/// \throws InputError where a mechanism of the model needs a column that the table does not have
-void require_what_mechanisms_need(const CsvTable& table, const WheelModel& model) {
-  for (const Mechanism& mechanism : model.spec().mechanisms) {
-    for (const Need& need : kNeeds) {
-      if (mechanism.id != need.id) continue;
-      if (!need.form.empty() && form_of(mechanism).form != need.form) continue;
-      if (!table.find_column(need.column)) {
-        throw table.error(fmt::format("column {} is missing ({} of the model needs it)",
-                                      need.column, mechanism.id));
+/// What the rows of a table say of the circumstances that mechanisms ask for.
+class CircumstanceColumns {
+ public:
+  /// \throws InputError where a mechanism of the model needs a column that the table does not have
+  CircumstanceColumns(const CsvTable& table, const WheelModel& model)
+      : table_(table), pass_(table.find_column("pass")) {
+    if (model.spec().mechanisms.empty()) return;
+    for (const Circumstance& circumstance : kCircumstances) {
+      if (const auto index = table.find_column(circumstance.column)) {
+        told_.push_back({.index = *index, .circumstance = circumstance});
+      }
+    }
+    for (const Mechanism& mechanism : model.spec().mechanisms) {
+      for (const Need& need : kNeeds) {
+        if (is_of(need, mechanism)) require(need);
       }
     }
   }
-}
 
-/// At rest there is no rate.
-bool has_rates(const WheelModel& model) {
-  return std::ranges::any_of(model.spec().mechanisms, [](const Mechanism& mechanism) {
-    return mechanism.id == "rate_dependence";
-  });
-}
-
-/// What a row says of the circumstances; only where a mechanism asks for them is it read.
-WheelConditions read_circumstances(const CsvTable& table, const Cells& cells,
-                                   const WheelModel& model) {
-  WheelConditions conditions;
-  for (const Circumstance& circumstance : kCircumstances) {
-    if (const auto column = table.find_column(circumstance.column)) {
-      const bool is_rate = circumstance.member == &WheelConditions::speed_mps && has_rates(model);
+  WheelConditions in(const Cells& cells) const {
+    WheelConditions conditions;
+    for (const auto& [index, circumstance, why] : told_) {
       conditions.*circumstance.member =
-          circumstance.unit * table.number(cells, *column, is_rate ? kAbove0 : circumstance.allowed,
-                                           is_rate ? "rate_dependence of the model needs it" : "");
+          circumstance.unit * table_.number(cells, index, circumstance.allowed, why);
+    }
+    if (pass_) conditions.pass = static_cast<int>(table_.number(cells, *pass_, kPasses));
+    return conditions;
+  }
+
+ private:
+  struct Told {
+    std::size_t index;
+    Circumstance circumstance;
+    std::string why = {};  ///< it may not be less
+  };
+
+  void require(const Need& need) {
+    if (!table_.find_column(need.column)) {
+      throw table_.error(
+          fmt::format("column {} is missing ({} of the model needs it)", need.column, need.id));
+    }
+    if (!need.above_0) return;
+    for (Told& told : told_) {
+      if (told.circumstance.column != need.column) continue;
+      told.circumstance.allowed = kAbove0;
+      told.why = fmt::format("{} of the model needs it", need.id);
     }
   }
-  if (const auto column = table.find_column("pass")) {
-    conditions.pass = static_cast<int>(table.number(cells, *column, kPasses));
-  }
-  return conditions;
-}
+
+  const CsvTable& table_;
+  std::optional<std::size_t> pass_;
+  std::vector<Told> told_;
+};
 
 Cells result_cells(const WheelForces& forces, double slip_angle_rad) {
   Cells cells(kResults.size());
@@ -157,7 +180,7 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     condition_columns.at(i) = table.required_column(kConditions.at(i).column, known_columns());
   }
 
-  require_what_mechanisms_need(table, model);
+  const CircumstanceColumns circumstances(table, model);
 
   WheelRowsResult result;
   Cells columns = table.columns();
@@ -182,7 +205,7 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     const WheelForces forces =
         model.spec().mechanisms.empty()
             ? model.forces(load_n, motion)
-            : model.channels(load_n, motion, read_circumstances(table, *cells, model)).forces;
+            : model.channels(load_n, motion, circumstances.in(*cells)).forces;
     for (std::string& cell : result_cells(forces, slip_angle_rad)) {
       cells->push_back(std::move(cell));
     }

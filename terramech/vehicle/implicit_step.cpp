@@ -51,13 +51,14 @@ bool VehicleDynamics::overshoots(const Eigen::Vector3d& start, const Stage& firs
                                  const Stage& second) const {
   const double arm_m = std::sqrt(vehicle_.yaw_inertia_kgm2 / vehicle_.mass_kg);
   const Eigen::Vector3d in_mps{1, 1, arm_m};
-  const auto of = [&](const Eigen::Vector3d& change) -> Eigen::Vector3d {
-    return change.cwiseProduct(in_mps);
-  };
-  const bool pushed_back = of(first.velocity - start).dot(of(second.velocity - second.base)) < 0;
+  const Eigen::Vector3d began = start.cwiseProduct(in_mps);
+  const Eigen::Vector3d settled = first.velocity.cwiseProduct(in_mps);
+  const Eigen::Vector3d extrapolated = second.base.cwiseProduct(in_mps);
+  const Eigen::Vector3d ended = second.velocity.cwiseProduct(in_mps);
+  const bool pushed_back = (settled - began).dot(ended - extrapolated) < 0;
   const double speed_mps =
-      std::max({of(start).norm(), std::abs(second.setting.rim_speed), kStandstillSpeed_mps});
-  return pushed_back && of(second.velocity - first.velocity).norm() > kBeyondShare * speed_mps;
+      std::max({began.norm(), std::abs(second.setting.rim_speed), kStandstillSpeed_mps});
+  return pushed_back && (ended - settled).norm() > kBeyondShare * speed_mps;
 }
 
 bool VehicleDynamics::solve_stage(Stage& stage) const {
