@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "terramech/vehicle/steered_wheel.h"
 #include "terramech/vehicle/wheel_loads.h"
@@ -133,14 +134,20 @@ GroundReaction reaction_at(const Scene& scene, const Vector& v) {
 }
 
 /// What is left over of forces and moment at a motion, in units of the weight.
-Vector imbalance(const Scene& scene, const Vector& v) {
+struct Imbalance {
+  Vector left_over;
+  Sums sums;
+};
+
+Imbalance imbalance(const Scene& scene, const Vector& v) {
   const GroundReaction needed = reaction_at(scene, v);
-  const BodyForce force = sums_at(scene, motion_of(v), needed).force;
+  const Sums sums = sums_at(scene, motion_of(v), needed);
+  const BodyForce& force = sums.force;
   const double weight_n = scene.vehicle.mass_kg * scene.axes.gravity_normal_mps2;
   const double turning = scene.vehicle.yaw_inertia_kgm2 * accelerations_at(scene, v)[2];
-  return Vector{force.forward_n - scene.tow_drag_n - needed.forward_n, force.left_n - needed.left_n,
-                force.yaw_nm - turning} /
-         weight_n;
+  const Vector left_over{force.forward_n - scene.tow_drag_n - needed.forward_n,
+                         force.left_n - needed.left_n, force.yaw_nm - turning};
+  return {left_over / weight_n, sums};
 }
 
 Eigen::Matrix3d response_at(const Scene& scene, const Vector& v, const Vector& here) {
@@ -149,14 +156,20 @@ Eigen::Matrix3d response_at(const Scene& scene, const Vector& v, const Vector& h
   for (int k = 0; k < 3; ++k) {
     Vector moved = v;
     moved[k] += h;
-    slopes.col(k) = (imbalance(scene, moved) - here) / h;
+    slopes.col(k) = (imbalance(scene, moved).left_over - here) / h;
   }
   return slopes.fullPivLu().inverse();
 }
 
+/// A motion at which nothing is left over, and what the wheels do at it.
+struct Balance {
+  MotionStart found;
+  Sums sums;
+};
+
 /// Newton's method with slopes by differences, taken anew where the last ones serve badly; its
-/// steps are kept short.
-std::optional<MotionStart> balanced(const Scene& scene, const MotionStart& start) {
+/// steps are kept short. The last step is so short that forces are those before it.
+std::optional<Balance> balanced(const Scene& scene, const MotionStart& start) {
   const auto& [motion, known] = start;
   Vector v = vector_of(motion);
   Eigen::Matrix3d response = known;
@@ -164,20 +177,25 @@ std::optional<MotionStart> balanced(const Scene& scene, const MotionStart& start
   double last = std::numeric_limits<double>::infinity();
   constexpr int kSteps = 25;
   for (int step = 0; step < kSteps; ++step) {
-    const Vector here = imbalance(scene, v);
-    if (is_slow) response = response_at(scene, v, here);
-    Vector change = -response * here;
+    const Imbalance here = imbalance(scene, v);
+    if (is_slow) response = response_at(scene, v, here.left_over);
+    Vector change = -response * here.left_over;
     const double reach = 0.2 * std::max(std::abs(v[0]), scene.slow_mps);
     const double largest = change.cwiseAbs().maxCoeff();
     if (!std::isfinite(largest)) return {};
     if (largest > reach) change *= reach / largest;
     v += change;
     constexpr double kClose = 2e-5, kSlow = 0.2;
-    if (largest < kClose * scene.slow_mps) return MotionStart{motion_of(v), response};
+    if (largest < kClose * scene.slow_mps) return Balance{{motion_of(v), response}, here.sums};
     is_slow = largest > kSlow * last;
     last = largest;
   }
   return {};
+}
+
+/// A motion, further by what another turned out to be further than it was taken to be.
+BodyMotion further(const BodyMotion& motion, const MotionStart& taken, const MotionStart& found) {
+  return motion_of(vector_of(motion) + vector_of(found.motion) - vector_of(taken.motion));
 }
 
 /// Adds a place to what is said of its window, by its shares.
@@ -265,7 +283,11 @@ void VehicleDeviation::add(const VehicleDeviation& other, double times) {
 }
 
 WindowModel::WindowModel(const TerrainMap& map, const Vehicle& vehicle, double gravity_mps2)
-    : map_(map), vehicle_(vehicle), ground_(map, vehicle), gravity_mps2_(gravity_mps2) {}
+    : map_(map),
+      vehicle_(vehicle),
+      ground_(map, vehicle),
+      gravity_mps2_(gravity_mps2),
+      wheels_(map.soils(), vehicle.wheel, gravity_mps2) {}
 
 bool WindowModel::knows_ground(const WindowInput& input) const {
   return std::ranges::all_of(input.places, [this](const WindowInput::Place& place) {
@@ -307,18 +329,14 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
                         .stretches = stretches,
                         .places = {},
                         .on_soil = std::vector<bool>(soils, false)};
-  std::vector<std::optional<WheelModel>> models(soils * (1 + stretches.size()));
+  std::vector<std::shared_ptr<const WheelModel>> models(soils * (1 + stretches.size()));
   const auto model_of = [&](std::size_t group, std::size_t soil, const SoilNumbers& numbers) {
-    const std::size_t model = group * soils + soil;
-    if (!models[model]) {
+    std::shared_ptr<const WheelModel>& model = models[group * soils + soil];
+    if (!model) {
       motions.on_soil[soil] = true;
-      models[model].emplace(WheelModelSpec{.wheel = vehicle_.wheel,
-                                           .soil = deviating(map_.soils()[soil].soil,
-                                                             numbers_at(deviation, soil, numbers)),
-                                           .gravity_mps2 = gravity_mps2_},
-                            WheelAccuracy::kFast);
+      model = wheels_.on(soil, numbers_at(deviation, soil, numbers));
     }
-    return &*models[model];
+    return model.get();
   };
   const auto model_at = [&](const WheelTime& time, std::size_t soil) {
     const auto on = std::ranges::find_if(
@@ -353,16 +371,17 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
       scene.models.at(i) = model_at(wheel_time(input, place, changed.wheels[i]),
                                     static_cast<std::size_t>(patch.soil.at(i)));
     }
-    auto found = balanced(scene, place.near);
-    if (!found) found = balanced(scene, place.start);
-    if (!found) return motions;
-    const Sums sums = sums_at(scene, found->motion, reaction_at(scene, vector_of(found->motion)));
-    if (!sums.carried) return motions;
-    places.push_back({.found = *found,
+    // What changes the motion at one place changes it much alike at the next.
+    MotionStart near = place.near;
+    if (j > 0) near.motion = further(near.motion, input.places[j - 1].near, places[j - 1].found);
+    auto balance = balanced(scene, near);
+    if (!balance) balance = balanced(scene, place.start);
+    if (!balance || !balance->sums.carried) return motions;
+    places.push_back({.found = balance->found,
                       .axes = scene.axes,
                       .slope_forward = patch.slope_forward,
                       .slope_left = patch.slope_left,
-                      .torque_nm = sums.torque_nm});
+                      .torque_nm = balance->sums.torque_nm});
   }
   motions.places = std::move(places);
   return motions;

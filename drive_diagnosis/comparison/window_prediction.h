@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "drive_diagnosis/comparison/deviating_wheels.h"
 #include "drive_diagnosis/comparison/soil_deviation.h"
 #include "drive_diagnosis/recording/drive_windows.h"
 #include "maps/ground_finder.h"
@@ -150,6 +151,7 @@ class WindowModel {
   const Vehicle& vehicle_;
   GroundFinder ground_;
   double gravity_mps2_;
+  DeviatingWheels wheels_;
 };
 
 }  // namespace regoplan
