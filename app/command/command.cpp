@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "app/io/number_text.h"
 #include "app/io/printable_text.h"
 #include "app/settings/settings_node.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

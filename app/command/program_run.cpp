@@ -14,9 +14,9 @@
 #include <new>
 
 #include "app/io/interrupt.h"
-#include "app/io/number_text.h"
 #include "app/io/printable_text.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

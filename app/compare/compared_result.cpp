@@ -7,9 +7,9 @@
 #include <fstream>
 #include <limits>
 
-#include "app/io/csv_table.h"
 #include "benchmarking/summary.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/tables/csv_table.h"
 
 namespace regoplan {
 namespace {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/diagnose/diagnosis_report.h"
-#include "app/io/csv_cells.h"
 #include "app/io/staged_files.h"
 #include "app/settings/model_settings.h"
+#include "terramech/tables/csv_cells.h"
 
 namespace regoplan {
 namespace {
@@ -250,9 +250,8 @@ std::string residuals_csv(const DiagnosisRun& run) {
     }
   }
   std::string text;
-  for (const std::string& column : recording.columns) {
-    const bool taken = std::ranges::find(added, column) != added.end();
-    text += text_cell(taken ? "input_" + column : column) + ",";
+  for (const std::string& column : names_beside(recording.columns, added)) {
+    text += text_cell(column) + ",";
   }
   text += fmt::format("{}\n", fmt::join(added, ","));
 

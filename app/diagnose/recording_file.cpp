@@ -11,11 +11,11 @@
 #include <map>
 #include <optional>
 
-#include "app/io/csv_table.h"
-#include "app/io/number_text.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/mechanisms/mechanism.h"
+#include "terramech/tables/csv_table.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

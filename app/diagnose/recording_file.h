@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/io/csv_table.h"
 #include "diagnosis/diagnosis.h"
+#include "terramech/tables/csv_table.h"
 
 namespace regoplan {
 

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "app/diagnose_drive/drive_diagnosis_report.h"
-#include "app/io/csv_cells.h"
 #include "drive_diagnosis/corrected_world.h"
 #include "drive_diagnosis/drive_claims.h"
 #include "terramech/basics/angles.h"
+#include "terramech/tables/csv_cells.h"
 
 namespace regoplan {
 namespace {

@@ -11,10 +11,10 @@
 #include <set>
 
 #include "app/diagnose_drive/drive_samples.h"
-#include "app/io/csv_table.h"
-#include "app/io/number_text.h"
 #include "drive_diagnosis/recording/time_checks.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/tables/csv_table.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/io/csv_cells.h"
 #include "planner/problem/rejection_text.h"
 #include "terramech/basics/angles.h"
+#include "terramech/tables/csv_cells.h"
 
 namespace regoplan {
 namespace {

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "app/io/csv_cells.h"
 #include "app/page/report_page.h"
 #include "app/page/svg_panel.h"
 #include "terramech/basics/angles.h"
+#include "terramech/tables/csv_cells.h"
 
 namespace regoplan {
 namespace {

@@ -11,12 +11,12 @@
 #include <optional>
 #include <span>
 
-#include "app/io/csv_cells.h"
-#include "app/io/number_text.h"
 #include "planner/evaluation/course_bounds.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/value_range.h"
+#include "terramech/tables/csv_table.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {
@@ -28,33 +28,10 @@ class PathTable {
     if (std::filesystem::is_directory(file)) throw InputError(file + ": is a folder");
     std::ifstream stream(file);
     if (!stream) throw InputError(file + ": no such file, or it cannot be read");
-    std::string line;
-    int number = 0;
-    while (std::getline(stream, line)) {
-      ++number;
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
-      if (line.find_first_not_of(" ,\t") == std::string::npos) continue;
-      auto cells = split_cells(line);
-      if (!cells) throw error(number, "a quote is not closed");
-      for (std::string& cell : *cells) cell = trimmed(cell);
-      if (columns_.empty()) {
-        columns_ = std::move(*cells);
-        header_line_ = number;
-        if (const auto why = why_no_table(columns_)) throw error(number, *why);
-      } else if (cells->size() != columns_.size()) {
-        throw error(number,
-                    fmt::format("{} cells (the header has {})", cells->size(), columns_.size()));
-      } else {
-        rows_.push_back({number, std::move(*cells)});
-      }
-    }
-    if (columns_.empty()) throw InputError(file + ": empty (expected a header line)");
-    for (const std::string& column : columns_) {
-      if (std::ranges::count(columns_, column) > 1) {
-        throw error(header_line_, "column " + column + " given twice");
-      }
-    }
+    CsvTable table(stream, file, EmptyLines::kAnywhere);
+    columns_ = table.columns();
+    header_line_ = table.line();
+    while (auto cells = table.next()) rows_.push_back({table.line(), std::move(*cells)});
   }
 
   bool has(std::string_view column) const {
@@ -87,25 +64,19 @@ class PathTable {
     return number(row, column, kAnyNumber);
   }
 
-  InputError error(int line, std::string_view what) const {
+  InputError error(std::int64_t line, std::string_view what) const {
     return InputError(fmt::format("{}:{}: {}", file_, line, what));
   }
-  int line(std::size_t row) const { return rows_[row].line; }
+  std::int64_t line(std::size_t row) const { return rows_[row].line; }
   const std::string& file() const { return file_; }
 
  private:
-  static std::string trimmed(const std::string& text) {
-    const std::size_t from = text.find_first_not_of(" \t");
-    if (from == std::string::npos) return "";
-    return text.substr(from, text.find_last_not_of(" \t") - from + 1);
-  }
-
   struct Row {
-    int line;
+    std::int64_t line;
     std::vector<std::string> cells;
   };
   std::string file_;
-  int header_line_ = 1;
+  std::int64_t header_line_ = 1;
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
 };
@@ -134,7 +105,8 @@ PathCurve curve_of(const PathTable& table, const RowRange& rows, const GridFrame
     points.push_back(
         {.x_m = table.number(i, "x_m", x, kWhy), .y_m = table.number(i, "y_m", y, kWhy)});
   }
-  const int last_line = table.rows() == 0 ? 1 : table.line(std::min(rows.last, table.rows() - 1));
+  const std::int64_t last_line =
+      table.rows() == 0 ? 1 : table.line(std::min(rows.last, table.rows() - 1));
   try {
     PathCurve curve(points);
     if (curve.length_m() <= kCourseLengthMax_m) return curve;

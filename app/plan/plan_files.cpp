@@ -8,7 +8,6 @@
 #include <regex>
 #include <string_view>
 
-#include "app/io/csv_cells.h"
 #include "app/page/spread_json.h"
 #include "app/plan/plan_report.h"
 #include "app/settings/effective_settings.h"
@@ -17,6 +16,7 @@
 #include "planner/problem/terrain_rasters.h"
 #include "planner/verdict/pareto.h"
 #include "terramech/basics/angles.h"
+#include "terramech/tables/csv_cells.h"
 
 namespace regoplan {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "app/io/number_text.h"
 #include "app/settings/settings_mapping.h"
 #include "terramech/basics/angles.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/io/number_text.h"
 #include "app/settings/settings_json.h"
 #include "app/settings/vehicle_settings.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
-#include "app/io/number_text.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

@@ -12,8 +12,8 @@
 #include <map>
 #include <sstream>
 
-#include "app/io/number_text.h"
 #include "app/io/printable_text.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <string_view>
 
-#include "app/io/number_text.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

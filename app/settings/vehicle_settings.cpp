@@ -7,12 +7,12 @@
 #include <array>
 #include <string_view>
 
-#include "app/io/number_text.h"
 #include "app/settings/model_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/settings_path.h"
 #include "app/settings/soil_settings.h"
 #include "terramech/basics/angles.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {

@@ -12,12 +12,12 @@
 #include <string_view>
 #include <vector>
 
-#include "app/io/csv_cells.h"
-#include "app/io/csv_table.h"
-#include "app/io/number_text.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/value_range.h"
+#include "terramech/tables/csv_cells.h"
+#include "terramech/tables/csv_table.h"
+#include "terramech/tables/number_text.h"
 #include "terramech/wheel/cornering_force.h"
 
 namespace regoplan {

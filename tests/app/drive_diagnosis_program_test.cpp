@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/io/csv_cells.h"
+#include "terramech/tables/csv_cells.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
 #include "tests/scratch_folder.h"

@@ -1,4 +1,4 @@
-#include "app/io/number_text.h"
+#include "terramech/tables/number_text.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/io/csv_cells.h"
 #include "planner/chart/margin_rasters.h"
+#include "terramech/tables/csv_cells.h"
 #include "tests/app/flat_map.h"
 
 namespace regoplan {

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "app/io/csv_cells.h"
 #include "app/settings/model_settings.h"
+#include "terramech/tables/csv_cells.h"
 #include "tests/app/simulant_model.h"
 #include "tests/error_text.h"
 

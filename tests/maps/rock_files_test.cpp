@@ -32,6 +32,9 @@ TEST(RockFiles, ColumnsMayStandInAnyOrderWithOthersBetween) {
   const std::string file = folder.write(
       "r.csv", "\xEF\xBB\xBFname, height_m ,\"y_m\",x_m,radius_m\r\nbig,4,3, 1 ,2\r\n\r\n");
   EXPECT_EQ(read_rocks(file), (std::vector<Rock>{{1, 3, 2, 4}}));
+  const std::string quoted = folder.write(
+      "q.csv", "\xEF\xBB\xBF\"x_m\",y_m,radius_m,height_m,name,\n\n1,3,2,\"4\",\"a, b\",\n,,,,,\n");
+  EXPECT_EQ(read_rocks(quoted), (std::vector<Rock>{{1, 3, 2, 4}}));
 }
 
 TEST(RockFiles, ErrorsNameFileLineColumnAndValue) {
@@ -43,16 +46,19 @@ TEST(RockFiles, ErrorsNameFileLineColumnAndValue) {
                ? testing::AssertionSuccess()
                : testing::AssertionFailure() << message << "\n  does not say: " << words;
   };
-  EXPECT_TRUE(says(header + "1,2,3,4\n1,2,0,4\n", "r.csv:3: radius_m: \"0\""));
-  EXPECT_TRUE(says(header + "1,2,3,-4\n", "r.csv:2: height_m: \"-4\""));
-  EXPECT_TRUE(says(header + "1,nan,3,4\n", "r.csv:2: y_m: \"nan\""));
-  EXPECT_TRUE(says(header + "1 m,2,3,4\n", "r.csv:2: x_m: \"1 m\""));
-  EXPECT_TRUE(says(header + "1,,3,4\n", "r.csv:2: y_m: \"\""));
-  EXPECT_TRUE(says(header + "1,2,3\n", "r.csv:2: 3 columns where the header has 4"));
-  EXPECT_TRUE(says("x_m,y_m,radius_m\n1,2,3\n", "r.csv:1: column height_m stands 0 times"));
-  EXPECT_TRUE(says("x_m,y_m,radius_m,height_m,x_m\n", "r.csv:1: column x_m stands 2 times"));
-  EXPECT_TRUE(says("", "is empty"));
-  EXPECT_NE(refusal(folder.path("none.csv")).find("none.csv: cannot be read"), std::string::npos);
+  EXPECT_TRUE(says(header + "1,2,3,4\n1,2,0,4\n",
+                   "r.csv:3: radius_m: 0 is not valid (allowed: above 0 to 1000000000000)"));
+  EXPECT_TRUE(says(header + "1,2,3,-4\n", "r.csv:2: height_m: -4 is not valid"));
+  EXPECT_TRUE(says(header + "1,nan,3,4\n", "r.csv:2: y_m: nan is not valid"));
+  EXPECT_TRUE(says(header + "1 m,2,3,4\n", "r.csv:2: x_m: 1 m is not valid"));
+  EXPECT_TRUE(says(header + "1,,3,4\n", "r.csv:2: y_m: an empty cell is not valid"));
+  EXPECT_TRUE(says(header + "1,2,3\n", "r.csv:2: 3 cells (the header has 4)"));
+  EXPECT_TRUE(says("x_m,y_m,radius_m,height\n1,2,3,4\n",
+                   "r.csv:1: column height_m is missing (the header has height)"));
+  EXPECT_TRUE(says("x_m,y_m,radius_m,height_m,x_m\n", "r.csv:1: column x_m given twice"));
+  EXPECT_TRUE(says("x_m;y_m;radius_m;height_m\n", "cells are separated by semicolons"));
+  EXPECT_TRUE(says("", "r.csv: empty (expected a header line)"));
+  EXPECT_NE(refusal(folder.path("none.csv")).find("none.csv: no such file"), std::string::npos);
   EXPECT_EQ(refusal(folder.path("")), folder.path("") + ": is a folder");
 }
 

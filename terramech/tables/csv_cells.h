@@ -21,6 +21,11 @@ std::string own_text_cell(std::string_view text);
 /// something else than commas, or UTF-16. Nothing where it is a column.
 std::optional<std::string> why_no_table(const std::vector<std::string>& columns);
 
+/// What a table's columns are called where columns `added` are written beside them: one of the same
+/// name is `input_<name>`, with as many `input_` as make it a name of its own.
+std::vector<std::string> names_beside(const std::vector<std::string>& columns,
+                                      const std::vector<std::string>& added);
+
 /// The cells of one line, quotes taken off. Nothing where a quote is not closed.
 std::optional<std::vector<std::string>> split_cells(std::string_view line);
 

@@ -37,15 +37,20 @@ std::optional<std::string> meant_column(std::string_view written,
                                         const std::vector<std::string>& columns,
                                         const std::vector<std::string>& known);
 
-/// A CSV table with a header (RFC 4180, one line a row), read row by row. What is wrong with it is
-/// an InputError that names file and line.
+/// What lines without anything but blanks and separators are.
+enum class EmptyLines { kOnlyAtTheEnd, kAnywhere };
+
+/// A CSV table with a header (RFC 4180, one line a row), read row by row. A byte-order mark, blanks
+/// around cells and columns without name and content (separators that a spreadsheet leaves at the
+/// end) say nothing. What is wrong with it is an InputError that names file and line.
 class CsvTable {
  public:
   using Cells = std::vector<std::string>;
 
   /// \param file the table's name, for errors
   /// \throws InputError for a missing header and a column given twice
-  CsvTable(std::istream& stream, std::string file);
+  CsvTable(std::istream& stream, std::string file,
+           EmptyLines empty_lines = EmptyLines::kOnlyAtTheEnd);
 
   const Cells& columns() const { return columns_; }
   std::optional<std::size_t> find_column(std::string_view sought) const;
@@ -56,7 +61,9 @@ class CsvTable {
   /// \param known all names that mean something in such a table
   std::size_t required_column(std::string_view sought, const std::vector<std::string>& known) const;
 
-  /// The next row, as wide as the header; nothing at the end. Empty lines count at the end only.
+  /// The next row, as wide as `columns`; nothing at the end.
+  /// \throws InputError for a row of another width than the header, and for a value in a column
+  ///   without a name: of what it is nobody knows
   std::optional<Cells> next();
   /// Where the row stands that `next` gave last.
   std::int64_t line() const { return line_; }
@@ -71,11 +78,18 @@ class CsvTable {
 
  private:
   std::optional<Cells> next_line();
+  bool is_empty(std::string_view line) const;
+  void read_header();
+  /// The cells of the columns with a name. \throws InputError where another has one
+  Cells named(const Cells& cells) const;
 
   std::istream& stream_;
   std::string file_;
+  EmptyLines empty_lines_;
   std::int64_t line_ = 0;
   Cells columns_;
+  std::vector<std::size_t> places_;  ///< of `columns_` in the header
+  std::size_t width_ = 0;            ///< cells of the header
 };
 
 }  // namespace regoplan

@@ -1,4 +1,4 @@
-#include "app/io/csv_table.h"
+#include "terramech/tables/csv_table.h"
 
 #include <fmt/format.h>
 
@@ -7,16 +7,18 @@
 #include <iterator>
 #include <utility>
 
-#include "app/io/csv_cells.h"
-#include "app/io/number_text.h"
 #include "terramech/basics/nearest_name.h"
+#include "terramech/tables/csv_cells.h"
+#include "terramech/tables/number_text.h"
 
 namespace regoplan {
 namespace {
 
 std::string trimmed(const std::string& cell) {
-  const std::size_t from = cell.find_first_not_of(' ');
-  return from == std::string::npos ? "" : cell.substr(from, cell.find_last_not_of(' ') - from + 1);
+  constexpr const char* kBlanks = " \t";
+  const std::size_t from = cell.find_first_not_of(kBlanks);
+  if (from == std::string::npos) return "";
+  return cell.substr(from, cell.find_last_not_of(kBlanks) - from + 1);
 }
 
 }  // namespace
@@ -31,18 +33,24 @@ std::optional<std::string> meant_column(std::string_view written,
   return nearest_name(written, absent);
 }
 
-CsvTable::CsvTable(std::istream& stream, std::string file)
-    : stream_(stream), file_(std::move(file)) {
+CsvTable::CsvTable(std::istream& stream, std::string file, EmptyLines empty_lines)
+    : stream_(stream), file_(std::move(file)), empty_lines_(empty_lines) {
+  read_header();
+}
+
+void CsvTable::read_header() {
   std::optional<Cells> header = next_line();
   if (!header) throw InputError(file_ + ": empty (expected a header line)");
-  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
-  if (header->front().starts_with(kByteOrderMark)) header->front().erase(0, 3);
-  for (std::string& column : *header) {
-    column = trimmed(column);
-    if (std::ranges::count(*header, column) > 1) throw error("column " + column + " given twice");
+  if (const auto why = why_no_table(*header)) throw error(*why);
+  width_ = header->size();
+  for (std::size_t i = 0; i < width_; ++i) {
+    std::string column = trimmed((*header)[i]);
+    if (column.empty()) continue;
+    if (find_column(column)) throw error("column " + column + " given twice");
+    columns_.push_back(std::move(column));
+    places_.push_back(i);
   }
-  columns_ = std::move(*header);
-  if (const auto why = why_no_table(columns_)) throw error(*why);
+  if (columns_.empty()) throw error("no column has a name (expected a header line)");
 }
 
 std::optional<std::size_t> CsvTable::find_column(std::string_view sought) const {
@@ -69,12 +77,30 @@ std::size_t CsvTable::required_column(std::string_view sought,
 }
 
 std::optional<CsvTable::Cells> CsvTable::next() {
-  std::optional<Cells> cells = next_line();
-  if (cells && cells->size() != columns_.size()) {
-    throw error(fmt::format("{} cells (the header has {})", cells->size(), columns_.size()));
+  const std::optional<Cells> cells = next_line();
+  if (!cells) return {};
+  if (cells->size() != width_) {
+    throw error(fmt::format("{} cells (the header has {})", cells->size(), width_));
   }
-  if (cells) std::ranges::transform(*cells, cells->begin(), trimmed);
-  return cells;
+  return named(*cells);
+}
+
+CsvTable::Cells CsvTable::named(const Cells& cells) const {
+  Cells kept;
+  kept.reserve(columns_.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    std::string cell = trimmed(cells[i]);
+    const bool has_name = kept.size() < places_.size() && places_[kept.size()] == i;
+    if (has_name) {
+      kept.push_back(std::move(cell));
+    } else if (!cell.empty()) {
+      throw error(fmt::format(
+          "column {}, which has no name in the header: {} is not valid (allowed: empty cells, or a "
+          "name in the header{})",
+          i + 1, cell, i == 0 ? "; pandas writes its index there without index=False" : ""));
+    }
+  }
+  return kept;
 }
 
 double CsvTable::number(const Cells& cells, std::size_t index, const ValueRange& allowed,
@@ -91,18 +117,28 @@ double CsvTable::number(const Cells& cells, std::size_t index, const ValueRange&
       {.line = line_, .column = columns_[index], .value = *value, .allowed = allowed.text()});
 }
 
+bool CsvTable::is_empty(std::string_view line) const {
+  return empty_lines_ == EmptyLines::kAnywhere
+             ? line.find_first_not_of(" ,\t") == std::string_view::npos
+             : line.empty();
+}
+
 std::optional<CsvTable::Cells> CsvTable::next_line() {
+  constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
   std::string line;
-  int blank = 0;
-  while (std::getline(stream_, line)) {
-    ++line_;
+  int empty = 0;
+  bool any = false;
+  while (!any && std::getline(stream_, line)) {
+    if (++line_ == 1 && line.starts_with(kByteOrderMark)) line.erase(0, 3);
     if (line.ends_with('\r')) line.pop_back();
-    if (!line.empty()) break;
-    ++blank;
+    any = !is_empty(line);
+    if (!any) ++empty;
   }
   if (stream_.bad()) throw InputError(file_ + ": cannot be read");
-  if (line.empty()) return {};  // blank lines at the end say nothing
-  if (blank > 0) throw InputError(fmt::format("{}:{}: an empty line", file_, line_ - 1));
+  if (!any) return {};  // empty lines at the end say nothing
+  if (empty > 0 && empty_lines_ == EmptyLines::kOnlyAtTheEnd) {
+    throw InputError(fmt::format("{}:{}: an empty line", file_, line_ - 1));
+  }
   std::optional<Cells> cells = split_cells(line);
   if (!cells) throw error("a quote is not closed");
   return cells;

@@ -1,7 +1,8 @@
-#include "app/io/csv_cells.h"
+#include "terramech/tables/csv_cells.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -39,6 +40,21 @@ std::optional<std::string> why_no_table(const std::vector<std::string>& columns)
     }
   }
   return {};
+}
+
+std::vector<std::string> names_beside(const std::vector<std::string>& columns,
+                                      const std::vector<std::string>& added) {
+  const auto is_in = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  std::vector<std::string> names = columns;
+  for (std::string& name : names) {
+    if (!is_in(added, name)) continue;
+    do {
+      name.insert(0, "input_");
+    } while (is_in(added, name) || is_in(columns, name));
+  }
+  return names;
 }
 
 std::optional<std::vector<std::string>> split_cells(std::string_view line) {
