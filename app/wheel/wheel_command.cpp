@@ -96,7 +96,7 @@ ExitStatus run_wheel(const WheelOptions& options) {
     staged->commit();
   }
   if (!result.renamed.empty()) {
-    notify(fmt::format("{}: {} kept as input_*; the model writes columns of these names",
+    notify(fmt::format("{}: measured columns are kept as {}; the model writes their names",
                        options.conditions, fmt::join(result.renamed, ", ")),
            options.quiet);
   }

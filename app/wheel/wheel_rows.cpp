@@ -10,6 +10,7 @@
 #include <ostream>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "terramech/basics/angles.h"
@@ -154,6 +155,18 @@ std::string csv_line(const Cells& cells) {
   return line + '\n';
 }
 
+/// \throws InputError where one of the texts is none that JSON can hold
+void require_utf8(const CsvTable& table, const Cells& texts) {
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    try {
+      std::ignore = nlohmann::json(texts[i]).dump();
+    } catch (const nlohmann::json::type_error&) {
+      throw table.error(fmt::format(
+          "{}: not UTF-8, which JSON needs; remedy: iconv -f LATIN1 -t UTF-8", table.columns()[i]));
+    }
+  }
+}
+
 nlohmann::ordered_json json_row(const Cells& columns, const Cells& cells) {
   nlohmann::ordered_json row = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -183,15 +196,13 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
   const CircumstanceColumns circumstances(table, model);
 
   WheelRowsResult result;
-  Cells columns = table.columns();
-  for (std::string& column : columns) {
-    if (std::ranges::find(kResults, column) == kResults.end()) continue;
-    result.renamed.push_back(column);
-    column.insert(0, "input_");
+  Cells columns = names_beside(table.columns(), {kResults.begin(), kResults.end()});
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i] != table.columns()[i]) result.renamed.push_back(columns[i]);
   }
   columns.insert(columns.end(), kResults.begin(), kResults.end());
-  if (sinks.csv) *sinks.csv << csv_line(columns);
-  if (sinks.json) *sinks.json << R"({"rows": [)";
+  if (sinks.json) require_utf8(table, table.columns());
+  std::string json = R"({"rows": [)";  // whole, or nothing of it where a later row is bad
 
   while (std::optional<Cells> cells = table.next()) {
     if (stop.stop_requested()) break;
@@ -199,6 +210,7 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     for (std::size_t i = 0; i < kConditions.size(); ++i) {
       values.at(i) = table.number(*cells, condition_columns.at(i), kConditions.at(i).allowed);
     }
+    if (sinks.json) require_utf8(table, *cells);
     const auto [load_n, slip, slip_angle_deg] = values;
     const double slip_angle_rad = slip_angle_deg * kDegree;
     const WheelMotion motion = motion_at(slip, slip_angle_rad);
@@ -209,16 +221,19 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     for (std::string& cell : result_cells(forces, slip_angle_rad)) {
       cells->push_back(std::move(cell));
     }
-    if (sinks.csv) *sinks.csv << csv_line(*cells);
-    if (sinks.json) *sinks.json << (result.rows ? ",\n" : "\n") << json_row(columns, *cells).dump();
-    if ((sinks.csv && !*sinks.csv) || (sinks.json && !*sinks.json)) {
-      throw InputError("the rows cannot be written (disk full?)");
-    }
+    if (sinks.csv) *sinks.csv << (result.rows ? "" : csv_line(columns)) << csv_line(*cells);
+    if (sinks.json) json += (result.rows ? ",\n" : "\n") + json_row(columns, *cells).dump();
+    if (sinks.csv && !*sinks.csv) throw InputError("the rows cannot be written (disk full?)");
     ++result.rows;
   }
   result.interrupted = stop.stop_requested();
+  if (result.rows == 0 && !result.interrupted) {
+    throw InputError(file + ": no rows below the header");
+  }
   if (sinks.json) {
-    *sinks.json << "\n], \"interrupted\": " << (result.interrupted ? "true" : "false") << "}\n";
+    *sinks.json << json << "\n], \"interrupted\": " << (result.interrupted ? "true" : "false")
+                << "}\n";
+    if (!*sinks.json) throw InputError("the rows cannot be written (disk full?)");
   }
   return result;
 }

@@ -127,6 +127,9 @@ TEST(WheelRows, AMeasuredColumnOfTheSameNameIsKeptUnderAnother) {
   EXPECT_EQ(rows[1][3], "123");
   EXPECT_EQ(rows[0][4], "fx_n");
   EXPECT_NE(rows[1][4], "123");
+  const auto both = rows_of("load_n,slip_ratio,slip_angle_deg,fx_n,input_fx_n\n64.7,0.3,0,1,2\n");
+  EXPECT_EQ(both[0][3], "input_input_fx_n");
+  EXPECT_EQ(both[0][4], "input_fx_n");
 }
 
 TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
@@ -144,6 +147,7 @@ TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
   EXPECT_EQ(rows_error("load_n,slip_ratio,Slip angle [deg]\n1,0,0\n"),
             "c.csv:1: column slip_angle_deg is missing (the header has Slip angle [deg])");
   EXPECT_EQ(rows_error("load_n,load_n\n"), "c.csv:1: column load_n given twice");
+  EXPECT_EQ(rows_error(",,\n"), "c.csv:1: no column has a name (expected a header line)");
   EXPECT_EQ(rows_error(""), "c.csv: empty (expected a header line)");
   EXPECT_EQ(rows_error("load_n;slip_ratio\n1;0\n"),
             "c.csv:1: cells are separated by semicolons (allowed: commas)");
@@ -152,13 +156,22 @@ TEST(WheelRows, ABadRowNamesLineColumnValueAndRange) {
   EXPECT_EQ(rows_error("\xFF\xFEl"), "c.csv:1: the file is UTF-16 (allowed: UTF-8)");
 }
 
+TEST(WheelRows, MarksAndSeparatorsThatProgramsAddSayNothing) {
+  const auto plain = rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n");
+  EXPECT_EQ(rows_of("\xEF\xBB\xBF\"load_n\",\"slip_ratio\",slip_angle_deg\n64.7,0,0\n"), plain);
+  EXPECT_EQ(rows_of("load_n,slip_ratio,,slip_angle_deg,,\n64.7,0,,0,,\n"), plain);
+  EXPECT_EQ(rows_error("load_n,slip_ratio,slip_angle_deg,\n64.7,0,0,5\n"),
+            "c.csv:2: column 4, which has no name in the header: 5 is not valid (allowed: empty "
+            "cells, or a name in the header)");
+}
+
 TEST(WheelRows, BlanksAroundCellsSayNothing) {
   EXPECT_EQ(rows_of("load_n, slip_ratio, slip_angle_deg\n64.7, 0, 0 \n"),
             rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n"));
 }
 
-TEST(WheelRows, ATableWithoutRowsIsATableWithoutRows) {
-  EXPECT_EQ(rows_of("load_n,slip_ratio,slip_angle_deg\n").size(), 1);
+TEST(WheelRows, ATableWithoutRowsIsAnError) {
+  EXPECT_EQ(rows_error("load_n,slip_ratio,slip_angle_deg\n"), "c.csv: no rows below the header");
   EXPECT_EQ(rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n\n\n").size(), 2);
 }
 
@@ -217,6 +230,22 @@ TEST(WheelRows, JsonSaysWhatTheTableSays) {
   EXPECT_EQ(rows[0]["id"], "a");
   EXPECT_TRUE(rows[1]["fx_n"].is_null());
   EXPECT_EQ(rows[1]["status"], "sinks_to_axle");
+}
+
+TEST(WheelRows, JsonIsWholeOrNothing) {
+  for (const auto& [last, error] :
+       {std::pair{"-1,0,0,a\n", "c.csv:3: load_n: -1 is not valid (allowed: above 0)"},
+        std::pair{"64.7,0,0,\xE4\n",
+                  "c.csv:3: id: not UTF-8, which JSON needs; remedy: iconv -f LATIN1 -t UTF-8"}}) {
+    std::istringstream conditions(std::string("load_n,slip_ratio,slip_angle_deg,id\n64.7,0,0,a\n") +
+                                  last);
+    std::ostringstream json;
+    EXPECT_EQ(error_text([&] {
+                compute_wheel_rows(conditions, "c.csv", simulant(), {.json = &json}, {});
+              }),
+              error);
+    EXPECT_EQ(json.str(), "");
+  }
 }
 
 }  // namespace
