@@ -77,6 +77,7 @@ ModelSettings read_model(const SettingsNode& node) {
     const SettingsNode& soil = mapping.required("soil");
     settings.soil = read_mapping(
         soil, [&](SettingsMapping& keys) { return read_soil(keys, settings.spec.variant); });
+    require_resistance(soil, settings.soil.mean, settings.spec.wheel.width_m);
     settings.spec.soil = settings.soil.mean;
     settings.warnings = doubtful_units(soil, settings.soil.mean);
     if (const SettingsNode* name = mapping.optional("soil_name")) settings.soil_name = name->text();

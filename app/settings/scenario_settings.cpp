@@ -186,7 +186,7 @@ Search overridden(Search search, const ScenarioOverrides& overrides) {
 }
 
 ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& folder,
-                     WheelVariant variant) {
+                     WheelVariant variant, std::optional<double> wheel_width_m) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
     std::vector<InputFile> inputs;
     const auto read_named = [&](const SettingsNode& name, auto read) {
@@ -202,6 +202,7 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
     const SettingsNode& soils = mapping.required("soils");
     const auto read_soils = [&](const SettingsNode& given) {
       SoilCatalogue catalogue = read_soil_catalogue(given, variant);
+      if (wheel_width_m) require_resistance(given, catalogue, *wheel_width_m);
       std::ranges::move(doubtful_units(given, catalogue), std::back_inserter(notices));
       return catalogue;
     };
@@ -247,6 +248,11 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
       rocks = read_named(*name, [&](const NamedFile& file) {
         return read_rocks(file.path.string(), elevation.frame);
       });
+    } else if (std::filesystem::exists(folder / "rocks.csv")) {
+      notices.push_back(fmt::format(
+          "{}:{}: {}: rocks.csv lies beside it and is not read; remedy, where its rocks stand on "
+          "this map: rocks: rocks.csv",
+          node.file(), node.line(), node.path()));
     }
     return with_class_notice({.map = TerrainMap(std::move(elevation), std::move(classes),
                                                 std::move(catalogue), std::move(rocks)),
@@ -297,7 +303,7 @@ Scenario read_scenario(const std::string& file, const ScenarioOverrides& overrid
     const Limits kept =
         limits ? read_limits(*limits, default_limits(vehicle)) : default_limits(vehicle);
     const Search search = overridden(planner ? read_search(*planner) : Search{}, overrides);
-    ScenarioMap read = read_map(mapping.required("map"), folder, variant);
+    ScenarioMap read = read_map(mapping.required("map"), folder, variant, vehicle.wheel.width_m);
     Scenario scenario{
         .problem = {.map = model ? with_model_soil(read.map, *model, *overrides.model_file)
                                  : std::move(read.map),

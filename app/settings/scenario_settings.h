@@ -59,7 +59,8 @@ ScenarioMap read_scenario_map(const std::string& file);
 
 /// Reads a map `{elevation, soil_class, soils, rocks}` with file names relative to `folder`, or
 /// `{terrain, soils}` with a terrain that stands in the scenario itself (`read_terrain`).
+/// \param wheel_width_m where it is given, every soil must carry wheels of that width
 ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& folder,
-                     WheelVariant variant);
+                     WheelVariant variant, std::optional<double> wheel_width_m = std::nullopt);
 
 }  // namespace regoplan

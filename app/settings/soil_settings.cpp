@@ -108,6 +108,22 @@ SoilCatalogue read_soil_catalogue(const SettingsNode& node, WheelVariant variant
   });
 }
 
+void require_resistance(const SettingsNode& soil, const Soil& mean, double wheel_width_m) {
+  if (resists_sinkage(mean, wheel_width_m)) return;
+  throw placed_error(
+      soil, ValueError("kc", mean.kc,
+                       fmt::format("kc/width_m + kphi above 0, with kphi {} and wheels of {} m",
+                                   mean.kphi, wheel_width_m)));
+}
+
+void require_resistance(const SettingsNode& node, const SoilCatalogue& catalogue,
+                        double wheel_width_m) {
+  const SettingsNode* soils = node.find("soils");
+  for (std::size_t i = 0; soils && i < catalogue.soils.size(); ++i) {
+    require_resistance(soils->mapping().at(i).value, catalogue.soils[i].soil.mean, wheel_width_m);
+  }
+}
+
 std::vector<std::string> doubtful_units(const SettingsNode& soil, const Soil& mean) {
   struct Doubt {
     std::string_view key;

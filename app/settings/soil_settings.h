@@ -18,6 +18,13 @@ UncertainSoil read_soil(SettingsMapping& mapping, WheelVariant variant);
 /// forbidden}`; without `unmapped`, unmapped cells are forbidden.
 SoilCatalogue read_soil_catalogue(const SettingsNode& node, WheelVariant variant);
 
+/// \throws SettingsError where a soil, in the mean, does not carry a wheel of this width at all
+/// \param soil where the keys stand
+void require_resistance(const SettingsNode& soil, const Soil& mean, double wheel_width_m);
+/// Of every soil of a catalogue. \param node what `catalogue` was read from
+void require_resistance(const SettingsNode& node, const SoilCatalogue& catalogue,
+                        double wheel_width_m);
+
 /// Means that hardly any soil has, but that the usual slip of a unit gives (an angle in radians,
 /// kPa for Pa, ...): a sentence each, with file, line, key, value and the unit that is suspected.
 /// \param soil where the keys stand \param mean what was read there

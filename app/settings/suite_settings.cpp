@@ -154,14 +154,22 @@ void read_sweep(const SettingsNode& node, Suite& suite) {
     if (suite.sweep.size() * values.list().size() > kPointsMax) {
       throw values.error(fmt::format("more than {} combinations", kPointsMax));
     }
+    std::vector<double> numbers;
+    for (const SettingsNode& value : values.list()) {
+      const double number = value.number(key.allowed);
+      if (std::ranges::find(numbers, number) != numbers.end()) {
+        throw value.error(fmt::format("{} stands twice", number));
+      }
+      numbers.push_back(number);
+    }
+    if (numbers.empty()) throw values.error("is empty (allowed: at least one)");
     std::vector<SweepPoint> more;
     for (const SweepPoint& point : suite.sweep) {
-      for (const SettingsNode& value : values.list()) {
+      for (const double number : numbers) {
         more.push_back(point);
-        more.back()[entry.key] = value.number(key.allowed);
+        more.back()[entry.key] = number;
       }
     }
-    if (more.empty()) throw values.error("is empty (allowed: at least one)");
     suite.sweep = std::move(more);
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include "app/settings/model_settings.h"
@@ -41,6 +42,12 @@ double soil_number(const SettingsNode& node, const SoilParameter& parameter,
   }
   return read_mapping(node, [&](SettingsMapping& mapping) {
     const double off = mapping.number("std", {.min = -10, .max = 10});
+    if (off != 0 && known.standard_deviation.*parameter.member == 0) {
+      throw mapping.required("std").error(fmt::format(
+          "{} of the planned soil has no std, of which {} is nothing (allowed: a number instead of "
+          "the mapping)",
+          parameter.name, off));
+    }
     const double value =
         known.mean.*parameter.member + off * known.standard_deviation.*parameter.member;
     const double shown = value / parameter.file_unit;
@@ -103,6 +110,25 @@ void require_on_map(const SoilZone& zone, const GridFrame& map, const SettingsNo
                   map.west_m, map.east_m(), map.south_m(), map.north_m));
 }
 
+/// Between corners on one line there is no ground.
+void require_area(const SoilZone& zone, const SettingsNode& corners) {
+  const PathPoint& first = zone.corners.front();
+  const auto distance_m = [&first](const PathPoint& corner) {
+    return std::hypot(corner.x_m - first.x_m, corner.y_m - first.y_m);
+  };
+  const PathPoint farthest = *std::ranges::max_element(zone.corners, {}, distance_m);
+  const double length_m = distance_m(farthest);
+  constexpr double kRounding = 1e-9;  // of the length
+  const auto beside = [&](const PathPoint& corner) {
+    const double area_m2 = (farthest.x_m - first.x_m) * (corner.y_m - first.y_m) -
+                           (farthest.y_m - first.y_m) * (corner.x_m - first.x_m);
+    return std::abs(area_m2) > kRounding * length_m * length_m;
+  };
+  if (std::ranges::none_of(zone.corners, beside)) {
+    throw corners.error("the corners lie on one line (allowed: corners around some ground)");
+  }
+}
+
 SoilZone read_zone(const SettingsNode& node, const Planned& planned) {
   return read_mapping(node, [&](SettingsMapping& mapping) {
     SoilZone zone{.name = mapping.required("name").text(),
@@ -118,6 +144,7 @@ SoilZone read_zone(const SettingsNode& node, const Planned& planned) {
       throw corners.error(
           fmt::format("{} corners are not valid (allowed: at least 3)", zone.corners.size()));
     }
+    require_area(zone, corners);
     require_on_map(zone, planned.problem.map.elevation().frame, corners);
     return zone;
   });
@@ -148,11 +175,15 @@ ZoneRaster read_zone_raster(const SettingsNode& node, const Planned& planned) {
   });
 }
 
-TrueMechanism read_true_mechanism(const SettingsNode& node) {
-  return read_mapping(node, [](SettingsMapping& mapping) {
+TrueMechanism read_true_mechanism(const SettingsNode& node, const Vehicle& vehicle) {
+  std::vector<std::string> names;
+  for (const WheelMount& wheel : vehicle.wheels) names.push_back(wheel.name);
+  return read_mapping(node, [&names](SettingsMapping& mapping) {
     TrueMechanism one{.mechanism = read_mechanism(mapping)};
     if (const SettingsNode* wheels = mapping.optional("wheels")) {
-      for (const SettingsNode& wheel : wheels->list()) one.wheels.push_back(wheel.text());
+      for (const SettingsNode& wheel : wheels->list()) {
+        one.wheels.push_back(names[wheel.choice(names)]);
+      }
     }
     return one;
   });
@@ -244,7 +275,7 @@ DriveTruth parse_truth(const std::string& text, const std::string& file,
     }
     if (const SettingsNode* mechanisms = mapping.optional("mechanisms")) {
       for (const SettingsNode& one : mechanisms->list()) {
-        truth.mechanisms.push_back(read_true_mechanism(one));
+        truth.mechanisms.push_back(read_true_mechanism(one, problem.vehicle));
       }
     }
     if (const SettingsNode* vehicle = mapping.optional("vehicle")) {

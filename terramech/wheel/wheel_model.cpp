@@ -105,7 +105,7 @@ std::string_view name(WheelStatus status) {
 WheelMotion motion_at(double slip_ratio, double slip_angle_rad) {
   if (!(std::abs(slip_ratio) <= 1)) throw ValueError("slip_ratio", slip_ratio, "-1 to 1");
   if (!(std::abs(slip_angle_rad) <= kQuarterTurn * (1 + 1e-15))) {
-    throw ValueError("slip_angle_deg", slip_angle_rad * 180 / std::numbers::pi, "-90 to 90");
+    throw ValueError("slip_angle_rad", slip_angle_rad, "-pi/2 to pi/2, in rad");
   }
   // At slip ratio 1 the axle stands still, yet the slip angle counts (kx, ky): the limit of an axle
   // that hardly moves.

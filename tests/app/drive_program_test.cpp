@@ -107,6 +107,11 @@ TEST_F(DriveProgram, TruthFilesAreReadStrictly) {
           {"truth.yaml:1", "2 corners", "at least 3"});
   refused("zones: [{name: a, like: mare, corners_m: [[0, 0], [1, 0], [1e300, 0]]}]\n",
           {"1e300", "-1000000000 to 1000000000"});
+  refused("zones:\n- {name: a, like: mare, corners_m: [[1, 1], [2, 2], [4, 4]]}\n",
+          {"truth.yaml:2: zones[0].corners_m: the corners lie on one line"});
+  refused("soils:\n  mare: {n: {std: 1}}\n", {"truth.yaml:2: soils.mare.n.std", "has no std"});
+  refused("mechanisms:\n- {id: slip_sinkage, wheels: [fifth]}\n",
+          {"truth.yaml:2: mechanisms[0].wheels[0]: fifth is not valid (allowed: front_left"});
   refused("zones:\n- {name: a, like: mare, corners_m: [[-9, 0], [-8, 0], [-8, 5]]}\n",
           {"truth.yaml:2", "corners_m", "beside the map (x 0 to "});
   refused("ruts: {stiffening: -1}\n", {"stiffening", "0 to 10"});

@@ -35,6 +35,9 @@ TEST(ModelSettings, WhatCannotBeAModelIsAnErrorWithItsLine) {
             "m.yaml:3: gravity_mps2: 980.665 is not valid (allowed: above 0 to 100)");
   EXPECT_EQ(model_error("ishigami2007", "bekker1956"),
             "m.yaml:1: model: bekker1956 is not valid (allowed: ishigami2007 | yoshida2004)");
+  EXPECT_EQ(model_error("kc: 1.37e3", "kc: -1e9"),
+            "m.yaml:8: soil.kc: -1000000000 is not valid (allowed: kc/width_m + kphi above 0, with "
+            "kphi 814000 and wheels of 0.1 m)");
   EXPECT_EQ(model_error("ishigami2007", "yoshida2004"), "m.yaml:5: soil: c0_m is missing");
   EXPECT_TRUE(model_error("mechanisms: []", "mechanisms: [{id: stickiness}]")
                   .starts_with("m.yaml:19: mechanisms[0]"));

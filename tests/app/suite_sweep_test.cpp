@@ -83,6 +83,7 @@ TEST_F(SuiteSweep, RefusesWithFileLineAndRange) {
            {"soil.n: one", "one is not valid (allowed: a list)"},
            {"soil.n: [one]", "one is not valid (allowed: a number, 0.3 to 2)"},
            {"soil.n: []", "is empty"},
+           {"soil.n: [1, 0.9, 1.0]", ":6: sweep.soil.n[2]: 1 stands twice"},
            {"soil.a0: [0.95]", ":6: sweep: scenario,soil.a0=0.95: a1: 0.15 is not valid"},
            {"vehicle.speed_max_mps: [0.1]",
             ":6: sweep: scenario,vehicle.speed_max_mps=0.1: "

@@ -298,7 +298,7 @@ TEST(WheelBadInput, NamesTheConditionThatCannotBe) {
   EXPECT_EQ(rejected_field([&] { model.forces(60, {1, 0, nan}); }), "rim_speed_mps");
   EXPECT_EQ(rejected_field([&] { motion_at(1.01, 0); }), "slip_ratio");
   EXPECT_EQ(rejected_field([&] { motion_at(nan, 0); }), "slip_ratio");
-  EXPECT_EQ(rejected_field([&] { motion_at(0, 91 * kDegree); }), "slip_angle_deg");
+  EXPECT_EQ(rejected_field([&] { motion_at(0, 91 * kDegree); }), "slip_angle_rad");
 }
 
 // The claims of the text and of Figs. 6 and 7, at the paper's load.
