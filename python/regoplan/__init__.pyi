@@ -23,6 +23,8 @@ class InputError(ValueError):
     field: str | None
     value: str | None
     allowed: str | None
+    file: str | None
+    line: int | None
     def __init__(self, message: str) -> None: ...
 
 class ProgramError(RuntimeError): ...

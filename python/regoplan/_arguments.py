@@ -29,6 +29,14 @@ def numbers(name, value):
     return array
 
 
+def require_all(name, array, valid, allowed):
+    """Refuses the first number of an array that is not valid, and says where it stands."""
+    bad = np.argwhere(~valid)
+    if len(bad):
+        place = ", ".join(map(str, bad[0]))
+        raise InputError(f"{name}[{place}]: {array[tuple(bad[0])]} is not valid (allowed: {allowed})")
+
+
 def scalar(name, value):
     """A single real number."""
     array = numbers(name, value)
@@ -128,6 +136,8 @@ def _given(place, value):
                 raise InputError(f"{place}: {key!r} is not valid as a key (allowed: text)")
         return {str(key): _given(f"{place}.{key}", item) for key, item in value.items()
                 if item is not None}
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, (list, tuple)):
         return [_given(f"{place}[{i}]", item) for i, item in enumerate(value)]
     if isinstance(value, (float, np.floating)) and not np.isfinite(value):

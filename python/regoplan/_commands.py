@@ -356,6 +356,9 @@ class _Call:
             return self._file(name, ".csv", value.csv)
         if _tables.is_table(value):
             return self._file(name, ".csv", _tables.csv_text(name, value))
+        if not isinstance(value, (str, bytes, os.PathLike)):
+            raise InputError(f"{name}: {type(value).__name__} is not valid (allowed: named columns, "
+                             "a candidate of a plan, a file name)")
         return absolute(value, name)
 
     def result(self, name, value):

@@ -8,6 +8,12 @@ _NOT_VALID = re.compile(
     r" \(allowed: (?P<allowed>.*)\)",
     re.S,
 )
+_PLACE = re.compile(r"^(?P<file>[^\n]*?):(?P<line>\d+): ")
+# What is said of a key or an argument that has no value to tell.
+_NAMED = re.compile(
+    r"(?:^|: )(?:column )?(?P<field>[\w.-]+(?:\[[\d, ]+\][\w.]*)*)"
+    r"(?: is missing|: (?:unknown key|shape does not broadcast|masked values|is needed|is no |stands twice))"
+)
 
 
 class InputError(ValueError):
@@ -21,12 +27,18 @@ class InputError(ValueError):
         What stood there.
     allowed : str or None
         The valid range in words: ``-1 to 1``, ``above 0``.
+    file, line : str and int, or None
+        Where it stands, of input in files.
     """
 
     def __init__(self, message):
         message = _FROM_DICT.sub(r"\1: ", str(message))
         super().__init__(message)
         found = _NOT_VALID.search(message)
-        self.field = found["field"] if found else None
+        named = found or _NAMED.search(message)
+        self.field = named["field"] if named else None
         self.value = found["value"] if found else None
         self.allowed = found["allowed"] if found else None
+        place = _PLACE.match(message)
+        self.file = place["file"] if place else None
+        self.line = int(place["line"]) if place else None

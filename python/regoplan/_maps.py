@@ -48,8 +48,8 @@ class TerrainMap:
     def __init__(self, elevation_m, cell_m, soils, *, west_m=0.0, south_m=0.0, soil_class=None,
                  classes=None, unmapped=None, rocks=None):
         self._elevation_m = _raster("elevation_m", elevation_m).astype("<f4")
-        if np.any(np.isinf(self._elevation_m)):
-            raise InputError("elevation_m: inf is not valid (allowed: finite numbers, NaN: unknown)")
+        _arguments.require_all("elevation_m", self._elevation_m, ~np.isinf(self._elevation_m),
+                               "finite numbers, NaN: unknown")
         self._elevation_m.flags.writeable = False
         cell = _arguments.scalar("cell_m", cell_m)
         if not 0 < cell < np.inf:
@@ -140,9 +140,10 @@ def _raster(name, value):
 
 def _rocks(value):
     rocks = _arguments.numbers("rocks", value).astype(float)
-    if rocks.ndim != 2 or rocks.shape[1] != 4 or not np.all(np.isfinite(rocks)):
+    if rocks.ndim != 2 or rocks.shape[1] != 4:
         raise InputError(f"rocks: shape {rocks.shape} is not valid "
                          "(allowed: n x 4 finite numbers x_m, y_m, radius_m, height_m)")
+    _arguments.require_all("rocks", rocks, np.isfinite(rocks), "finite numbers")
     return rocks
 
 

@@ -150,8 +150,15 @@ def _end(child, listener):
 
 
 def _renamed(line, shown):
+    """What came from Python has no file: lines of a table are its rows, counted from 0."""
     for file, name in shown:
-        line = re.sub(re.escape(str(file)) + r"(?::\d+)?", lambda _, name=name: name, line)
+        is_table = str(file).endswith(".csv")
+
+        def called(found, name=name, is_table=is_table):
+            number = int(found["line"] or 0)
+            return f"{name}, row {number - 2}" if is_table and number > 1 else name
+
+        line = re.sub(re.escape(str(file)) + r"(?::(?P<line>\d+))?", called, line)
     return line
 
 

@@ -55,10 +55,11 @@ def test_bad_options_are_named(scenario, option, value, told):
 
 @pytest.mark.parametrize("path, told", [
     ({"x_m": [1, 2], "y_m": [1]}, "columns differ in length"),
-    ({"x_m": [10, 20], "y_m": [25, np.nan]}, "y_m"),
+    ({"x_m": [10, 20], "y_m": [25, np.nan]}, "row 1: y_m: an empty cell"),
     ({"x_m": [10, 20], "z": [25, 25]}, "y_m"),
     ({"x_m": [[10]], "y_m": [[25]]}, "x_m: shape"),
     ("missing.csv", "missing.csv"),
+    (np.ones((2, 2)), "ndarray is not valid .allowed: named columns"),
 ])
 def test_bad_paths_are_named(scenario, path, told):
     with pytest.raises(regoplan.InputError, match=told):
@@ -93,7 +94,8 @@ def test_bad_maps_are_named(soil):
     for arguments, told in [
         ({"elevation_m": np.zeros(10)}, "elevation_m: shape"),
         ({"elevation_m": flat + 1j}, "elevation_m: dtype"),
-        ({"elevation_m": flat + np.inf}, "elevation_m: inf"),
+        ({"elevation_m": flat + np.inf}, r"elevation_m\[0, 0\]: inf"),
+        ({"rocks": [[1, 2, 3, np.nan]]}, r"rocks\[0, 3\]: nan"),
         ({"cell_m": 0}, "cell_m"),
         ({"soil_class": np.ones((3, 3), int), "classes": {1: "soil"}}, "soil_class: shape"),
         ({"soil_class": flat, "classes": {1: "soil"}}, "soil_class"),

@@ -216,6 +216,15 @@ def test_bad_wheels_are_refused(soil, change, told):
         regoplan.Wheel(**{"radius_m": 0.4, "width_m": 0.2, "soil": soil, **change})
 
 
+def test_errors_of_files_know_their_place(wheel, tmp_path):
+    file = tmp_path / "model.yaml"
+    file.write_text(json.dumps({**wheel.to_dict(), "gravity_mps2": -1}, indent=1))
+    with pytest.raises(regoplan.InputError) as caught:
+        regoplan.Wheel.from_file(file)
+    bad = caught.value
+    assert (bad.file, bad.field, bad.value) == (str(file), "gravity_mps2", "-1") and bad.line > 1
+
+
 def test_the_module_itself_knows_its_methods(wheel):
     with pytest.raises(regoplan.InputError, match="method: slow is not valid .*direct . fast"):
         regoplan._physics.WheelSource(json.dumps(wheel.to_dict()), "slow", 0)
@@ -226,8 +235,9 @@ def test_soils_are_strict_and_immutable(soil):
     assert soil.lambda_ == 0.9 and soil == regoplan.Soil(**soil.to_dict())
     with pytest.raises(regoplan.InputError, match="friction_angle_deg"):
         soil.replace(friction_angle_deg=80)
-    with pytest.raises(regoplan.InputError, match="cohesion_kpa"):
+    with pytest.raises(regoplan.InputError, match="cohesion_kpa") as caught:
         regoplan.Soil(cohesion_kpa=1, **soil.model_keys())
+    assert caught.value.field == "cohesion_kpa"
     with pytest.raises(AttributeError):
         soil.n = 2
 
