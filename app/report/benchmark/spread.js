@@ -34,7 +34,9 @@ function boxFigure({key, title, unit, log, scale = 1}) {
   };
   return figure(spec, (svg, width) => {
            const height = 42 + 34 * planners.length;
-           const box = chartBox(svg, width, height, {left: 104, right: 22, top: 4, bottom: 24});
+           let box = chartBox(svg, width, height, {left: 0, right: 22, top: 4, bottom: 24});
+           const names = namesBeside(svg, planners.map(p => p.name), 0.4 * width);
+           box = {...box, left: Math.max(104, names.width + 10)};
            let [low, high] = d3.extent(planners.flatMap(numbers));
            if (low === high) [low, high] = [low * 0.95 - 1e-6, high * 1.05 + 1e-6];
            const x = (log ? d3.scaleLog() : d3.scaleLinear()).domain([low, high]).range([
@@ -47,7 +49,7 @@ function boxFigure({key, title, unit, log, scale = 1}) {
            const ticks = log ? decadeTicks(x.domain()) : x.ticks(tickCount(box));
            drawAxes(
                svg, box, {scale: x, values: ticks, format: v => significant(v, 3), grid: true},
-               {scale: y});
+               {scale: y, format: names.format});
            return planners.flatMap(planner => {
              const middle = y(planner.name) + y.bandwidth() / 2;
              drawBox(svg, x, y, planner, numbers(planner));

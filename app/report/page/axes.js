@@ -81,3 +81,23 @@ function paddedScale(values, least, range) {
   const middle = (low + high) / 2, half = Math.max(high - low, least) / 2;
   return d3.scaleLinear().domain([middle - half * 1.12, middle + half * 1.12]).range(range);
 }
+
+/// Room for names beside an axis, and the names as they fit into it: what is wider loses its
+/// middle, as the names of a family differ at their ends.
+function namesBeside(svg, names, most_px) {
+  const group = svg.append('g').attr('class', 'axis');
+  const text = group.append('text');
+  const width = name => text.text(name).node().getComputedTextLength();
+  const fitted = name => {
+    let kept = name.length, shown = name;
+    while (kept > 4 && width(shown) > most_px) {
+      --kept;
+      shown = `${name.slice(0, Math.floor(kept / 2))}…${name.slice(-Math.ceil(kept / 2))}`;
+    }
+    return shown;
+  };
+  const shown = new Map(names.map(name => [name, fitted(name)]));
+  const widest_px = Math.max(0, ...[...shown.values()].map(width));
+  group.remove();
+  return {width: Math.ceil(widest_px), format: name => shown.get(name)};
+}
