@@ -168,6 +168,13 @@ std::vector<InputFile> inputs_of(const std::string& file, const SettingsNode& ve
   return inputs;
 }
 
+std::string unread_rocks_notice(const SettingsNode& map) {
+  return fmt::format(
+      "{}:{}: {}: rocks.csv lies beside it and is not read; remedy, where its rocks stand on this "
+      "map: rocks: rocks.csv",
+      map.file(), map.line(), map.path());
+}
+
 }  // namespace
 
 Search overridden(Search search, const ScenarioOverrides& overrides) {
@@ -249,10 +256,7 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
         return read_rocks(file.path.string(), elevation.frame);
       });
     } else if (std::filesystem::exists(folder / "rocks.csv")) {
-      notices.push_back(fmt::format(
-          "{}:{}: {}: rocks.csv lies beside it and is not read; remedy, where its rocks stand on "
-          "this map: rocks: rocks.csv",
-          node.file(), node.line(), node.path()));
+      notices.push_back(unread_rocks_notice(node));
     }
     return with_class_notice({.map = TerrainMap(std::move(elevation), std::move(classes),
                                                 std::move(catalogue), std::move(rocks)),
