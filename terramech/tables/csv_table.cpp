@@ -21,6 +21,11 @@ std::string trimmed(const std::string& cell) {
   return cell.substr(from, cell.find_last_not_of(kBlanks) - from + 1);
 }
 
+/// Data frames are written with the index of their rows first, in a column without a name.
+bool is_row_index(std::size_t column, std::string_view cell) {
+  return column == 0 && cell.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 }  // namespace
 
 std::optional<std::string> meant_column(std::string_view written,
@@ -93,11 +98,11 @@ CsvTable::Cells CsvTable::named(const Cells& cells) const {
     const bool has_name = kept.size() < places_.size() && places_[kept.size()] == i;
     if (has_name) {
       kept.push_back(std::move(cell));
-    } else if (!cell.empty()) {
+    } else if (!cell.empty() && !is_row_index(i, cell)) {
       throw error(fmt::format(
           "column {}, which has no name in the header: {} is not valid (allowed: empty cells, or a "
-          "name in the header{})",
-          i + 1, cell, i == 0 ? "; pandas writes its index there without index=False" : ""));
+          "name in the header)",
+          i + 1, cell));
     }
   }
   return kept;

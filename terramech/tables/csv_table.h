@@ -42,7 +42,8 @@ enum class EmptyLines { kOnlyAtTheEnd, kAnywhere };
 
 /// A CSV table with a header (RFC 4180, one line a row), read row by row. A byte-order mark, blanks
 /// around cells and columns without name and content (separators that a spreadsheet leaves at the
-/// end) say nothing. What is wrong with it is an InputError that names file and line.
+/// end) say nothing, nor does a first column without a name that counts the rows (what data frames
+/// write). What is wrong with it is an InputError that names file and line.
 class CsvTable {
  public:
   using Cells = std::vector<std::string>;

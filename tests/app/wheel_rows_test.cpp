@@ -160,6 +160,7 @@ TEST(WheelRows, MarksAndSeparatorsThatProgramsAddSayNothing) {
   const auto plain = rows_of("load_n,slip_ratio,slip_angle_deg\n64.7,0,0\n");
   EXPECT_EQ(rows_of("\xEF\xBB\xBF\"load_n\",\"slip_ratio\",slip_angle_deg\n64.7,0,0\n"), plain);
   EXPECT_EQ(rows_of("load_n,slip_ratio,,slip_angle_deg,,\n64.7,0,,0,,\n"), plain);
+  EXPECT_EQ(rows_of(",load_n,slip_ratio,slip_angle_deg\n0,64.7,0,0\n"), plain);
   EXPECT_EQ(rows_error("load_n,slip_ratio,slip_angle_deg,\n64.7,0,0,5\n"),
             "c.csv:2: column 4, which has no name in the header: 5 is not valid (allowed: empty "
             "cells, or a name in the header)");
