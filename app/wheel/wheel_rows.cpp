@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "app/io/held_text.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/value_range.h"
@@ -167,7 +168,8 @@ void require_utf8(const CsvTable& table, const Cells& texts) {
   }
 }
 
-nlohmann::ordered_json json_row(const Cells& columns, const Cells& cells) {
+/// \throws InputError where one of its texts is none that JSON can hold
+std::string json_row(const CsvTable& table, const Cells& columns, const Cells& cells) {
   nlohmann::ordered_json row = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::optional<double> number = parse_number(cells[i]);
@@ -179,7 +181,12 @@ nlohmann::ordered_json json_row(const Cells& columns, const Cells& cells) {
       row[columns[i]] = cells[i];
     }
   }
-  return row;
+  try {
+    return row.dump();
+  } catch (const nlohmann::json::type_error&) {
+    require_utf8(table, cells);
+    throw;
+  }
 }
 
 }  // namespace
@@ -202,7 +209,8 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
   }
   columns.insert(columns.end(), kResults.begin(), kResults.end());
   if (sinks.json) require_utf8(table, table.columns());
-  std::string json = R"({"rows": [)";  // whole, or nothing of it where a later row is bad
+  std::optional<HeldText> json;  // whole, or nothing of it where a later row is bad
+  if (sinks.json) json.emplace().add(R"({"rows": [)");
 
   while (std::optional<Cells> cells = table.next()) {
     if (stop.stop_requested()) break;
@@ -210,7 +218,6 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
     for (std::size_t i = 0; i < kConditions.size(); ++i) {
       values.at(i) = table.number(*cells, condition_columns.at(i), kConditions.at(i).allowed);
     }
-    if (sinks.json) require_utf8(table, *cells);
     const auto [load_n, slip, slip_angle_deg] = values;
     const double slip_angle_rad = slip_angle_deg * kDegree;
     const WheelMotion motion = motion_at(slip, slip_angle_rad);
@@ -222,7 +229,7 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
       cells->push_back(std::move(cell));
     }
     if (sinks.csv) *sinks.csv << (result.rows ? "" : csv_line(columns)) << csv_line(*cells);
-    if (sinks.json) json += (result.rows ? ",\n" : "\n") + json_row(columns, *cells).dump();
+    if (json) json->add((result.rows ? ",\n" : "\n") + json_row(table, columns, *cells));
     if (sinks.csv && !*sinks.csv) throw InputError("the rows cannot be written (disk full?)");
     ++result.rows;
   }
@@ -230,9 +237,9 @@ WheelRowsResult compute_wheel_rows(std::istream& conditions, const std::string& 
   if (result.rows == 0 && !result.interrupted) {
     throw InputError(file + ": no rows below the header");
   }
-  if (sinks.json) {
-    *sinks.json << json << "\n], \"interrupted\": " << (result.interrupted ? "true" : "false")
-                << "}\n";
+  if (json) {
+    json->add(fmt::format("\n], \"interrupted\": {}}}\n", result.interrupted));
+    json->write_to(*sinks.json);
     if (!*sinks.json) throw InputError("the rows cannot be written (disk full?)");
   }
   return result;

@@ -15,7 +15,8 @@
 namespace regoplan {
 
 /// A wheel on soils that lie off those of a map, in fast accuracy. Each is made when it is first
-/// asked for: its tables take as long as the motions of a window, and all windows ask for the same.
+/// asked for: its tables take half as long as the motions of a window, and all windows ask for the
+/// same.
 /// May be asked by several threads at once.
 class DeviatingWheels {
  public:

@@ -193,8 +193,8 @@ std::optional<Balance> balanced(const Scene& scene, const MotionStart& start) {
   return {};
 }
 
-/// A motion, further by what another turned out to be further than it was taken to be.
-BodyMotion further(const BodyMotion& motion, const MotionStart& taken, const MotionStart& found) {
+/// A motion, moved by as much as the search for another one moved it.
+BodyMotion moved_as(const BodyMotion& motion, const MotionStart& taken, const MotionStart& found) {
   return motion_of(vector_of(motion) + vector_of(found.motion) - vector_of(taken.motion));
 }
 
@@ -373,7 +373,7 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
     }
     // What changes the motion at one place changes it much alike at the next.
     MotionStart near = place.near;
-    if (j > 0) near.motion = further(near.motion, input.places[j - 1].near, places[j - 1].found);
+    if (j > 0) near.motion = moved_as(near.motion, input.places[j - 1].near, places[j - 1].found);
     auto balance = balanced(scene, near);
     if (!balance) balance = balanced(scene, place.start);
     if (!balance || !balance->sums.carried) return motions;
