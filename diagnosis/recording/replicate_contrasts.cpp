@@ -34,10 +34,14 @@ ReplicateContrasts::ReplicateContrasts(const Recording& recording,
   }
   e_ = contrasts * rows_.value;
   const Eigen::MatrixXd within = contrasts * own.asDiagonal() * contrasts.transpose();
-  // By more than days usually do they differ for a reason, which a column may tell.
+  // By more than days usually do they differ for a reason, which a column may tell. Of signals that
+  // are much alike, an offset passes for a share of the signal.
   const double usual = usual_deviation(plain, {signal.begin(), signal.end()});
-  const double offset = std::min(plain.day_offset, Thresholds::kUsualDay_deviations * usual);
+  const double size = std::sqrt(signal.squaredNorm() / static_cast<double>(signal.size()));
   const double gain = std::min(plain.day_gain, Thresholds::kUsualDay_share);
+  const double beyond = (std::pow(plain.day_gain, 2) - gain * gain) * size * size;
+  const double offset = std::min(std::sqrt(std::pow(plain.day_offset, 2) + beyond),
+                                 Thresholds::kUsualDay_deviations * usual);
   const Eigen::MatrixXd of_days =
       (offset * offset + gain * gain * (signal * signal.transpose()).array()) *
       rows_.same_day.array();

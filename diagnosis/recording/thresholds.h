@@ -55,13 +55,12 @@ struct Thresholds {
   /// where a course tells it.
   static constexpr double kUsualDay_deviations = 1;
   static constexpr double kUsualDay_share = 0.01;
-  /// That a course must gain over usual days and scatter: of 640 generated recordings without one,
-  /// 440 of them with each run at a time of its own, four came there (17.8, 15.9, 15.3 and 14.5
-  /// nats; six at 11), and 0 of 16 that somebody else's generator made; of 60 with one of 8 sigma
-  /// and more 42 do, and 44 at 11.
-  static constexpr double kCourse_nats = 12.5;
-  /// That it must gain to be noted as doubtful: chosen, half of it.
-  static constexpr double kDoubtfulCourse_nats = kCourse_nats / 2;
+  /// That a course must gain over usual days and scatter: of 1500 generated recordings without one,
+  /// 500 of them with each run at a time of its own, four came there (the most 13.1 nats); of 180
+  /// with one of 8 sigma and more 135 do.
+  static constexpr double kCourse_nats = 11;
+  /// That it must gain to be noted as doubtful: chosen, three fifths of it.
+  static constexpr double kDoubtfulCourse_nats = 0.6 * kCourse_nats;
   /// Runs that must carry a course at least, by their squared distance from their replicates: a
   /// single run that has no run before it, or lies at an end of time, carries no more than 2.
   static constexpr double kCourseRuns = 4;

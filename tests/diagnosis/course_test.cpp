@@ -146,6 +146,28 @@ TEST(Course, OfDaysThatDifferAsMuchAsARunScattersIsNone) {
   EXPECT_LE(followed, 1);
 }
 
+/// Sinkages that are much alike, each day's off by about as much as one run scatters.
+Recording with_sinkages_alike(std::uint64_t seed) {
+  constexpr double kScatter_m = 1e-3;
+  Recording recording = on_three_days(seed, 0);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  const std::array<double, 3> off = {normal(random), normal(random), normal(random)};
+  for (WheelRun& run : recording.runs) {
+    run.measured[3] =
+        0.02 + kScatter_m * (off.at(static_cast<std::size_t>(run.day)) + normal(random));
+  }
+  return recording;
+}
+
+TEST(Course, OfDaysThatDifferAsMuchAsARunScattersIsNoneWhereSignalsAreAlike) {
+  int followed = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    followed += condense(with_sinkages_alike(seed), simulant_setup()).course.has_value();
+  }
+  EXPECT_LE(followed, 1);
+}
+
 TEST(Course, ADayWhoseBedIsFirmerIsNoScatterOfDays) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const CondensedRecording found = condense(on_three_days(seed, 0.15), simulant_setup());
