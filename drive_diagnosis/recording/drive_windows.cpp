@@ -178,19 +178,21 @@ std::vector<DriveWindow> drive_windows(const DriveRecording& drive, std::size_t 
                                        double window_s, double beyond) {
   std::vector<DriveWindow> windows;
   const double gap_s = gap_max_s(drive), pace = pace_of(drive);
+  // Windows are often a whole number of steps long: which rows they have must not hang on rounding.
+  const double slack_s = clock_slack_s(drive);
   const std::size_t n = drive.size();
   for (std::size_t from = 0; from < n;) {
     std::size_t to = from + 1;
-    while (to < n && drive.time_s[to] < drive.time_s[from] + window_s &&
+    while (to < n && drive.time_s[to] - drive.time_s[from] < window_s - slack_s &&
            drive.time_s[to] - drive.time_s[to - 1] <= gap_s) {
       ++to;
     }
     constexpr double kLeastShare = 0.8;
     constexpr std::size_t kLeastRows = 5;
     if (to - from >= kLeastRows &&
-        drive.time_s[to - 1] - drive.time_s[from] >= kLeastShare * window_s) {
+        drive.time_s[to - 1] - drive.time_s[from] >= kLeastShare * window_s - slack_s) {
       Rows wide{from, to};
-      const double reach_s = beyond * window_s;
+      const double reach_s = beyond * window_s + slack_s;
       while (wide.from > 0 && drive.time_s[from] - drive.time_s[wide.from - 1] <= reach_s &&
              drive.time_s[wide.from] - drive.time_s[wide.from - 1] <= gap_s) {
         --wide.from;

@@ -45,14 +45,6 @@ bool turn_round(DriveRecording& drive) {
   return true;
 }
 
-double median_step_s(const std::vector<double>& time_s) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < time_s.size(); ++i) {
-    if (time_s[i] > time_s[i - 1]) steps.push_back(time_s[i] - time_s[i - 1]);
-  }
-  return steps.empty() ? 0.1 : median_value(std::move(steps));
-}
-
 void tell(DriveRecording& drive, std::string id, std::string text, double value,
           std::string unit = "") {
   drive.findings.push_back({.id = std::move(id),
@@ -143,8 +135,22 @@ void take_steps_back(DriveRecording& drive, double speed_max_mps) {
 
 }  // namespace
 
+double median_step_s(const DriveRecording& drive) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < drive.size(); ++i) {
+    const double step_s = drive.time_s[i] - drive.time_s[i - 1];
+    if (step_s > 0) steps.push_back(step_s);
+  }
+  return steps.empty() ? 0.1 : median_value(std::move(steps));
+}
+
+double clock_slack_s(const DriveRecording& drive) {
+  constexpr double kOfStep = 0.25;
+  return kOfStep * median_step_s(drive);
+}
+
 double gap_max_s(const DriveRecording& drive) {
-  return std::max(1.0, 10 * median_step_s(drive.time_s));
+  return std::max(1.0, 10 * median_step_s(drive)) + clock_slack_s(drive);
 }
 
 void mend_time(DriveRecording& drive) {
@@ -153,7 +159,7 @@ void mend_time(DriveRecording& drive) {
          static_cast<double>(drive.size()));
   }
   std::vector<double>& time = drive.time_s;
-  const double step_s = median_step_s(time);
+  const double step_s = median_step_s(drive);
   std::vector<bool> kept(time.size(), true);
   double shift_s = 0, last_s = -std::numeric_limits<double>::infinity();
   std::size_t out_of_order = 0, repeated = 0, resets = 0;

@@ -16,8 +16,15 @@ void mend_time(DriveRecording& drive);
 /// \param speed_max_mps what the vehicle can do at most; a jump is at least twice that
 void mend_positions(DriveRecording& drive, double speed_max_mps);
 
+/// The median step of the clock from row to row; a tenth of a second where there is none.
+double median_step_s(const DriveRecording& drive);
+
+/// By how much times may be off the even ticks of a clock, if only by rounding, without a row
+/// changing sides: a quarter of the median step.
+double clock_slack_s(const DriveRecording& drive);
+
 /// The largest gap that does not end a stretch of a recording: ten times the median step, and 1 s
-/// at least.
+/// at least, within the slack of the clock.
 double gap_max_s(const DriveRecording& drive);
 
 }  // namespace regoplan
