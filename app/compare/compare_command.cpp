@@ -64,7 +64,13 @@ void require_other_folder(const CompareOptions& options) {
   }
 }
 
+void require_named(const char* which, const std::filesystem::path& result) {
+  if (result.empty()) throw InputError(fmt::format("{}: empty, names no folder", which));
+}
+
 ExitStatus run(const CompareOptions& options) {
+  require_named("A", options.a);
+  require_named("B", options.b);
   if (!options.folder.path.empty()) {
     require_other_folder(options);
     require_results_fit(options.folder, {"comparison.json", "report.html"});

@@ -133,15 +133,16 @@ Json path_json(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
   Json json{{"rank", e.rank}};
   json[path.plane ? "manoeuvre" : "file"] = e.name;
-  json.update(Json{{"vehicle", path.vehicle},
-                   {"feasible", e.feasible},
-                   {"reason", e.refusal ? Json(sentence(*e.refusal)) : Json(nullptr)},
-                   {"refusal", e.refusal ? refusal_json(*e.refusal) : Json(nullptr)},
-                   {"limiting", limiting_json(e)},
-                   {"length_m", e.length_m},
-                   {"duration_s", e.duration_s},
-                   {"speed_max_mps", e.speed_max_mps},
-                   {"energy_j", e.tracking.energy_j}});
+  json.update(
+      Json{{"vehicle", path.vehicle},
+           {"feasible", e.feasible},
+           {"reason", e.refusal ? Json(sentence(*e.refusal)) : Json(nullptr)},
+           {"refusal", e.refusal ? refusal_json(*e.refusal) : Json(nullptr)},
+           {"limiting", limiting_json(e)},
+           {"length_m", e.length_m},
+           {"duration_s", e.duration_s},
+           {"speed_max_mps", e.speed_max_mps},
+           {"energy_j", e.tracking.duration_s > 0 ? Json(e.tracking.energy_j) : Json(nullptr)}});
   json.update(margins_of_path_json(e));
   json.update(Json{{"soil_draws", soil_draws_json(e.spread)}, {"tracked", tracking_json(e)}});
   if (path.recorded_margin_min) {

@@ -121,16 +121,20 @@ Command add_wheel_command(CLI::App& program) {
   CLI::Option* model =
       parser->add_option("--model", options->model, "model, wheel, gravity_mps2, soil")
           ->type_name("FILE.yaml");
+  CLI::Option* out =
+      parser->add_option("--out", options->out, "where the table goes; default: standard output")
+          ->type_name("OUT.csv");
+  add_force_flag(*parser, options->folder);
+  add_output_flags(*parser, options->json, options->quiet);
+  // Figures are no table: what says where or how a table goes would be left unheard.
   parser
       ->add_option("--figures", options->figures,
                    "instead: Figs. 6, 7 and 10 of the paper as SVG and CSV")
       ->type_name("DIR")
       ->excludes(conditions)
-      ->excludes(model);
-  parser->add_option("--out", options->out, "where the table goes; default: standard output")
-      ->type_name("OUT.csv");
-  add_force_flag(*parser, options->folder);
-  add_output_flags(*parser, options->json, options->quiet);
+      ->excludes(model)
+      ->excludes(out)
+      ->excludes(parser->get_option("--json"));
   return {parser, [options] { return run_wheel(*options); }};
 }
 

@@ -147,7 +147,7 @@ bool ClosedBoxes::too_steep(const PoseBox& box) const {
     }
   }
   const double turned = slope_per_deviation_1pm_ * (deviation.high - deviation.low) / 2;
-  return std::hypot(east, north) - turned > std::tan(problem_.limits.slope_max_rad);
+  return std::hypot(east, north) - turned > std::tan(steepest_held_rad(problem_.limits));
 }
 
 const ClosedBoxes::RockBound& ClosedBoxes::bound(const Rock& rock) const {
@@ -170,7 +170,7 @@ ClosedBoxes::RockBound ClosedBoxes::looked_at(const Rock& rock) const {
   // Steeper poses than the limit are forbidden whatever they cover.
   return {.asked = true,
           .too_high = base + rock.height_m >= underside && base - rock.height_m <= top,
-          .tilt_rad = std::min(problem_.limits.slope_max_rad,
+          .tilt_rad = std::min(steepest_held_rad(problem_.limits),
                                std::atan(slope_per_deviation_1pm_ * relief / 2))};
 }
 

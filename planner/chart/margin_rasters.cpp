@@ -94,10 +94,11 @@ std::vector<Cell> cells_of(const PlanningProblem& problem, const GridFrame& fram
       const std::optional<int> soil = problem.map.soil_index(x_m, y_m);
       const GroundPatch patch = soil ? ground.at(x_m, y_m, 0) : GroundPatch{};
       const double tilt = patch.tilt_rad();
-      if (!patch.known || tilt > problem.limits.slope_max_rad) {
+      if (!patch.known || tilt > steepest_held_rad(problem.limits)) {
         cells.push_back({});
       } else {
-        cells.push_back({.soil = static_cast<std::size_t>(*soil), .slope_rad = tilt});
+        cells.push_back({.soil = static_cast<std::size_t>(*soil),
+                         .slope_rad = std::min(tilt, problem.limits.slope_max_rad)});
       }
     }
   }

@@ -162,14 +162,15 @@ WhatIf what_if(Circumstance circumstance, const World& world, const Replay& veri
     // At twice the speeds the speed limit is not the question.
     const PlanningProblem problem =
         with_speed_max(world.problem(), std::numeric_limits<double>::infinity());
-    return same_path("the same path at twice its speeds", World(problem, WorldUse::kVerdict, 1),
-                     verified, [](VehicleState state) {
-                       state.motion.vx_mps *= 2;
-                       state.motion.vy_mps *= 2;
-                       state.motion.yaw_rate_rad_s *= 2;
-                       state.rim_speed_mps *= 2;
-                       return state;
-                     });
+    return same_path(
+        "the same path at twice its speeds, gathering speed and braking as hard as it does",
+        World(problem, WorldUse::kVerdict, 1), verified, [](VehicleState state) {
+          state.motion.vx_mps *= 2;
+          state.motion.vy_mps *= 2;
+          state.motion.yaw_rate_rad_s *= 2;
+          state.rim_speed_mps *= 2;
+          return state;
+        });
   }
   const PlanningProblem problem = on_weaker_soils(world.problem(), 0.5);
   const World weaker(problem, WorldUse::kVerdict, 1);

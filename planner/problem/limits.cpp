@@ -18,6 +18,11 @@ Limits default_limits(const Vehicle& vehicle) {
           .sinkage_max_m = vehicle.sinkage_max_m};
 }
 
+double steepest_held_rad(const Limits& limits) {
+  constexpr double kRounding = 1e-4;
+  return (1 + kRounding) * limits.slope_max_rad;
+}
+
 StrainLimits strain_limits(const Limits& limits) {
   return {.slip_angle_max_rad = limits.slip_angle_max_rad,
           .slip_max = limits.slip_max,

@@ -25,6 +25,10 @@ struct Limits {
 /// The limits that a vehicle brings where a scenario gives none.
 Limits default_limits(const Vehicle& vehicle);
 
+/// The steepest ground that counts as held. Rasters hold heights in single precision: a plane of
+/// just the slope that is allowed comes out steeper by less than this share.
+double steepest_held_rad(const Limits& limits);
+
 /// A limit as it stands in files and messages. What reads, checks, sweeps or writes limits goes
 /// over `limit_keys()`: a new limit is added there, and where states are judged.
 struct LimitKey {

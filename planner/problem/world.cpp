@@ -171,16 +171,19 @@ std::optional<RejectedState> World::rejected(const VehicleState& state, const Wh
     Rejection reason;
     double found;
     double limit;
+    double held;  // up to which the limit counts as kept
   };
   const Limits& limits = problem_.limits;
-  const double share = use_ == WorldUse::kSearch ? kSearchLimitShare : 1;
+  const bool search = use_ == WorldUse::kSearch;
+  const double share = search ? kSearchLimitShare : 1;
   for (const Held& held :
-       {Held{Rejection::kSlope, patch.tilt_rad(), limits.slope_max_rad},
-        Held{Rejection::kSinkage, strain.sinkage_m, limits.sinkage_max_m},
-        Held{Rejection::kSlip, strain.slip, limits.slip_max},
-        Held{Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad}}) {
+       {Held{Rejection::kSlope, patch.tilt_rad(), limits.slope_max_rad, steepest_held_rad(limits)},
+        Held{Rejection::kSinkage, strain.sinkage_m, limits.sinkage_max_m, limits.sinkage_max_m},
+        Held{Rejection::kSlip, strain.slip, limits.slip_max, limits.slip_max},
+        Held{Rejection::kSlipAngle, strain.slip_angle_rad, limits.slip_angle_max_rad,
+             limits.slip_angle_max_rad}}) {
     const double allowed = share * held.limit;
-    if (std::abs(held.found) > allowed) {
+    if (std::abs(held.found) > (search ? allowed : held.held)) {
       return because(held.reason, Exceeded{.found = held.found, .limit = allowed});
     }
   }

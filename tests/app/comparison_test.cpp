@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/compare/comparison_report.h"
+#include "tests/app/browser_page.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
@@ -149,6 +150,16 @@ TEST(Comparison, HoldsEntriesOfOneNameAgainstEachOther) {
   EXPECT_EQ(comparison.pairs[2].a, nullptr);
   EXPECT_NE(comparison_headline(a, b, comparison).find("Of 1 in both, B is worse for 1 (margin"),
             std::string::npos);
+}
+
+using ComparisonPage = InTheBrowser;
+
+TEST_F(ComparisonPage, NamesOfFilesStandAsTheyAre) {
+  const ComparedResult a = plan({entry("path.csv", 0.2, 40)}), b = plan({});
+  const std::string page = drawn(comparison_report(a, b, compared(a, b)));
+  expect_drawn_without_error(page);
+  EXPECT_NE(page.find(">path.csv<"), std::string::npos);
+  EXPECT_EQ(page.find("Path.csv"), std::string::npos);
 }
 
 TEST(Comparison, ToldIsEveryNumberThatWasSetOtherwise) {

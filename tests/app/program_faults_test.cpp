@@ -51,6 +51,7 @@ TEST_F(Faults, AnEmptyNameOfAFileOrFolderIsTold) {
   for (const auto& [arguments, error] : {
            std::pair{"wheel c.csv --model m.yaml --out ''", "--out: empty, names no file"},
            std::pair{"compare a b --out ''", "--out: empty, names no folder"},
+           std::pair{"compare a ''", "B: empty, names no folder"},
            std::pair{"evaluate s.yaml p.csv --out ''", "--out: empty, names no folder"},
            std::pair{"benchmark suite.yaml --out ''", "--out: empty, names no folder"},
            std::pair{"export plan --nav2 ''", "--nav2: empty, names no folder"},

@@ -226,6 +226,17 @@ TEST_F(Program, WheelLeavesNoTableWhereARowIsBad) {
   EXPECT_EQ(folder_.count(), 3);
 }
 
+TEST_F(Program, FiguresOfTheWheelAreNoTable) {
+  for (const std::string option : {"--json", "--out o.csv"}) {
+    const ProgramRun told = run("wheel --figures" + quoted("figures") + option);
+    EXPECT_EQ(told.status, 1) << option;
+    EXPECT_NE(told.errors.find(option.substr(0, option.find(' ')) + " excludes --figures"),
+              std::string::npos)
+        << told.errors;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("figures")));
+}
+
 TEST_F(Program, WheelNeverOverwritesItsInput) {
   folder_.write("m.yaml", kSimulantModel);
   folder_.write("c.csv", "load_n,slip_ratio,slip_angle_deg\n64.7,0.3,12\n");

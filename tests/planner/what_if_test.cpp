@@ -51,6 +51,18 @@ TEST_F(WhatIfInATurn, WhereNoSpeedIsSlowEnoughHalfOfItIsTold) {
   EXPECT_EQ(slower.question, "the same path at 0.5 of its speeds");
 }
 
+TEST_F(WhatIfInATurn, TwiceTheSpeedIsAskedWithoutHarderBraking) {
+  // Braking four times as hard, as half the time would take, is more than the soil can give.
+  const std::vector<ControlSegment> braked{
+      {.duration_s = 4, .speed_target_mps = 1, .curvature_target_1pm = 0},
+      {.duration_s = 6, .speed_target_mps = 0, .curvature_target_1pm = 0}};
+  const Replay driven = replay(world_, braked, verification_steps(world_));
+  const WhatIf faster = what_if(Circumstance::kTwiceTheSpeed, world_, driven, braked);
+  EXPECT_TRUE(faster.feasible);
+  EXPECT_NE(faster.question.find("braking as hard as it does"), std::string::npos)
+      << faster.question;
+}
+
 TEST_F(WhatIfInATurn, TheSameControlsOnWeakerSoilLeadAsFarAwayAsIsSaid) {
   const WhatIf weaker =
       what_if(Circumstance::kSameControlsOnWeakerSoil, world_, driven_, controls_);

@@ -57,6 +57,25 @@ TEST(World, EachLimitIsTheReasonWhenItAloneIsBroken) {
   EXPECT_EQ(reason(world.rejected(at_the_edge, {})), Rejection::kUnknownTerrain);
 }
 
+TEST(World, GroundOfJustTheSteepestSlopeThatIsAllowedIsHeld) {
+  // Heights are single precision: planes come out steeper than they were meant by a hair.
+  for (const double slope_deg : {5.0, 7.5, 10.0, 15.0, 20.0}) {
+    const double rise = std::tan(slope_deg * kTestDegree);
+    PlanningProblem problem = lrv_problem(
+        one_soil_map(50, firm_regolith(), [&](double, double y_m) { return rise * y_m; }));
+    for (const double share : {1.0, 0.999}) {
+      problem.limits.slope_max_rad = share * slope_deg * kTestDegree;
+      const World world(problem, WorldUse::kVerdict, 1);
+      for (const double x_m : {10.0, 20.3, 31.7}) {
+        const VehicleState state = world.dynamics().rolling_state(x_m, 25.1, 0, 1, 0);
+        EXPECT_EQ(reason(world.rejected(state, {}, {})),
+                  share < 1 ? std::optional(Rejection::kSlope) : std::nullopt)
+            << slope_deg << " deg at x = " << x_m;
+      }
+    }
+  }
+}
+
 TEST(RejectedBy, EachMarginIsHeldAgainstTheLeastThatIsAllowed) {
   constexpr double kLeast = 0.05, kEnough = 0.06, kShort = 0.04;
   const auto margins = [](double traction, double tip_over, double cornering) {

@@ -31,7 +31,7 @@ function entryTables(host) {
     host.append(element(
         'div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': entry.name},
         table(
-            capital(entry.name),
+            entry.name,
             [
               {text: ''}, {text: 'A', number: true}, {text: 'B', number: true},
               {text: 'B less A', number: true}
