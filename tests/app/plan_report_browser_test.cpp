@@ -1,6 +1,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 
 #include "app/plan/plan_report.h"
 #include "tests/app/browser_page.h"
@@ -40,6 +41,21 @@ TEST_F(PlanReportInTheBrowser, DrawsEveryCandidateAndSectionWithoutAnError) {
   for (const char* title : {"Along the path", "What carries the answer"}) {
     EXPECT_NE(std::ranges::find(sections, title), sections.end()) << title;
   }
+}
+
+TEST_F(PlanReportInTheBrowser, LabelsOfPathsThatLieTogetherStandOneBelowTheOther) {
+  for (Candidate& candidate : result_.candidates) {
+    for (TrajectoryPoint& point : candidate.points) point.x_m = point.y_m = 50;
+  }
+  const std::string page = drawn(result_);
+  static const std::regex label(
+      R"-(<text class="label" text-anchor="start" x="([-0-9.]+)" y="([-0-9.]+)">[123]<)-");
+  std::set<std::pair<std::string, std::string>> places;
+  int labels = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), label), end; at != end; ++at, ++labels)
+    places.insert({at->str(1), at->str(2)});
+  EXPECT_EQ(labels, 3);
+  EXPECT_EQ(places.size(), 3u);
 }
 
 TEST_F(PlanReportInTheBrowser, DrawsWhatIsNotKnownAsNothing) {

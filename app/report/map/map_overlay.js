@@ -101,13 +101,14 @@ function mapOverlay(svg, frame) {
     label('Start', sx, sy + 20);
     label(goal.label || 'Goal', gx, gy + 16);
     drawNamed();
+    const labelled = [];
     for (const path of view.paths.filter(p => p.visible && p.length)) {
       const share = path.verified_path ? 0.35 + 0.3 * ((path.rank * 0.382) % 1) : 0.5,
             i = Math.round(share * (path.length - 1));
       if (isKnown(path.points.x_m[i]) && isKnown(path.points.y_m[i]))
-        label(
+        labelPath(
             path.verified_path ? path.label : path.label.replace('overturned ', '\u2715'),
-            ...frame.screen(path.points.x_m[i], path.points.y_m[i]), 9, -7);
+            ...frame.screen(path.points.x_m[i], path.points.y_m[i]), labelled);
     }
     for (const w of PLAN.what_ifs) {
       if (!w.driven || !w.driven.length) continue;
@@ -164,6 +165,16 @@ function mapOverlay(svg, frame) {
       named.push([x, y]);
       label(text, x, y, 12, 14);
     }
+  }
+
+  /// Beside a path; on narrow screens below the labels that stand there already.
+  function labelPath(text, x, y, labelled) {
+    const width = 9 * text.length;
+    const covers = other => Math.abs(other.y - y) < 14 && x < other.x + other.width &&
+        other.x < x + width;
+    while (labelled.some(covers)) y += 14;
+    labelled.push({x, y, width});
+    label(text, x, y, 9, -7);
   }
 
   function label(text, x, y, dx = 0, dy = 0) {
