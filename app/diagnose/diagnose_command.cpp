@@ -104,6 +104,12 @@ ExitStatus run_diagnosis(const Options& options) {
   Recording& recording = run.recording.recording;
   for (const std::string& reference : options.references) {
     run.references.push_back(read_recording(reference));
+    for (const RecordingFile& before : run.references) {
+      if (&before == &run.references.back() || before.cells != run.references.back().cells)
+        continue;
+      throw InputError(
+          fmt::format("{}: the same runs as {}: each counts once", reference, before.file));
+    }
     for (const std::string& warning : checked(run.references.back(), run.setup.setup)) {
       recording.warnings.push_back(fmt::format("{}: {}", reference, warning));
     }

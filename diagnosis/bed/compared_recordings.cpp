@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "terramech/basics/input_error.h"
@@ -60,15 +61,58 @@ int leave_foreign_passes_out(const std::vector<Reference>& references, Recording
   return static_cast<int>(foreign);
 }
 
-/// One run scatters alike on both: who has no replicates learns it from the other, as it is at the
-/// lender's usual signal where it grows with that.
-void lend_noise(const CondensedRecording& from, DiagnosisSetup& to) {
-  for (std::size_t c = 0; c < from.noise.size(); ++c) {
-    const ChannelNoise& noise = from.noise[c];
-    if (noise.source == NoiseSource::kNeighbours) continue;
-    to.noise_standard_deviation.try_emplace(noise.channel,
-                                            usual_deviation(noise, from.adjusted[c]));
+bool lacks_replicates(const ChannelNoise& noise) {
+  return noise.source == NoiseSource::kNeighbours;
+}
+
+/// One run scatters alike on all: who has no replicates learns it from the others, as it is at
+/// their usual signal where it grows with that, and as all of them together tell it.
+/// \param borrower which of them borrows; none where it is not among them
+void lend_noise(const std::vector<CondensedRecording>& from, std::optional<std::size_t> borrower,
+                DiagnosisSetup& to) {
+  struct Told {
+    double weight = 0, variance = 0;
+  };
+  std::map<Channel, Told> told;
+  for (std::size_t r = 0; r < from.size(); ++r) {
+    if (r == borrower) continue;
+    for (std::size_t c = 0; c < from[r].noise.size(); ++c) {
+      const ChannelNoise& noise = from[r].noise[c];
+      if (lacks_replicates(noise)) continue;
+      const double weight = std::max(1, noise.degrees_of_freedom);
+      told[noise.channel].weight += weight;
+      told[noise.channel].variance +=
+          weight * std::pow(usual_deviation(noise, from[r].adjusted[c]), 2);
+    }
   }
+  for (const auto& [channel, by] : told) {
+    to.noise_standard_deviation.try_emplace(channel, std::sqrt(by.variance / by.weight));
+  }
+}
+
+/// References condensed, each with the scatter of the others where it has no replicates.
+std::vector<CondensedRecording> condensed(const std::vector<Reference>& references,
+                                          const std::vector<Channel>& channels,
+                                          const std::stop_token& stop) {
+  const auto condensed_with = [&](const Reference& reference, const DiagnosisSetup& setup) {
+    try {
+      return condense(restricted(reference.recording, channels), setup, kFewestToCompare, stop);
+    } catch (const InputError& bad) {
+      throw InputError(fmt::format("reference {}: {}", reference.name, bad.what()));
+    }
+  };
+  std::vector<CondensedRecording> alone;
+  for (const Reference& reference : references) {
+    alone.push_back(condensed_with(reference, reference.setup));
+  }
+  std::vector<CondensedRecording> all = alone;
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    if (references.size() == 1 || std::ranges::none_of(alone[r].noise, lacks_replicates)) continue;
+    DiagnosisSetup setup = references[r].setup;
+    lend_noise(alone, r, setup);
+    all[r] = condensed_with(references[r], setup);
+  }
+  return all;
 }
 
 /// The scatter of both together, where one of them by chance shows less.
@@ -126,17 +170,8 @@ ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup
   ComparedRecordings compared{.recording = restricted(test, channels)};
   const int foreign = leave_foreign_passes_out(references, compared.recording);
   DiagnosisSetup test_setup = setup;
-  for (const Reference& reference : references) {
-    DiagnosisSetup own_setup = reference.setup;
-    for (const CondensedRecording& before : compared.references) lend_noise(before, own_setup);
-    try {
-      compared.references.push_back(
-          condense(restricted(reference.recording, channels), own_setup, kFewestToCompare, stop));
-    } catch (const InputError& bad) {
-      throw InputError(fmt::format("reference {}: {}", reference.name, bad.what()));
-    }
-    lend_noise(compared.references.back(), test_setup);
-  }
+  compared.references = condensed(references, channels, stop);
+  lend_noise(compared.references, std::nullopt, test_setup);
   compared.test = condense(compared.recording, test_setup, kFewestToCompare, stop);
   std::vector<CondensedRecording*> all{&compared.test};
   for (CondensedRecording& reference : compared.references) all.push_back(&reference);

@@ -128,13 +128,55 @@ ConditionsAt conditions_of(const TestBed& bed) {
   return all;
 }
 
-/// The soil that fits all references together: each in turn tells the next what it knows. On the
-/// way back to the prior means where the test has no forces on it.
+bool same_wheel(const DiagnosisSetup& a, const DiagnosisSetup& b) {
+  return a.wheel.radius_m == b.wheel.radius_m && a.wheel.width_m == b.wheel.width_m;
+}
+
+/// Adds what was measured on another bed of the same wheel.
+void join(const TestBed& other, TestBed& bed) {
+  const std::size_t first = bed.conditions.size();
+  bed.conditions.insert(bed.conditions.end(), other.conditions.begin(), other.conditions.end());
+  if (other.accuracy == WheelAccuracy::kExact) bed.accuracy = other.accuracy;
+  for (const ChannelData& more : other.channels) {
+    std::size_t c = bed.channels.size();
+    if (channel_of(bed, more.channel, &c) == nullptr) {
+      bed.channels.push_back({.channel = more.channel, .mean = {}, .noise = {}});
+    }
+    ChannelData& data = bed.channels[c];
+    for (const std::size_t k : more.conditions) data.conditions.push_back(first + k);
+    const Eigen::Index from = data.mean.size(), n = more.mean.size();
+    data.mean.conservativeResize(from + n);
+    data.mean.tail(n) = more.mean;
+    Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(from + n, from + n);
+    noise.topLeftCorner(from, from) = data.noise;
+    noise.bottomRightCorner(n, n) = more.noise;
+    data.noise = std::move(noise);
+    data.scale = std::max(data.scale, more.scale);
+  }
+}
+
+/// What was measured on all references, a bed for each wheel: in whatever order they are given,
+/// what is known of the soil after one wheel is the same.
+std::vector<TestBed> beds_by_wheel(const std::vector<CondensedRecording>& references) {
+  std::vector<TestBed> beds;
+  for (const CondensedRecording& reference : references) {
+    const auto same = std::ranges::find_if(
+        beds, [&](const TestBed& bed) { return same_wheel(bed.setup, reference.bed.setup); });
+    if (same == beds.end()) {
+      beds.push_back(reference.bed);
+    } else {
+      join(reference.bed, *same);
+    }
+  }
+  return beds;
+}
+
+/// The soil that fits all references together: each wheel in turn tells the next what it knows. On
+/// the way back to the prior means where the test has no forces on it.
 Soil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& references) {
   UncertainSoil soil = references.front().bed.setup.soil;
-  for (const CondensedRecording& reference : references) {
+  for (TestBed& bed : beds_by_wheel(references)) {
     const std::vector<SoilCoordinate> coordinates = soil_coordinates(soil);
-    TestBed bed = reference.bed;
     bed.setup.soil = soil;
     const Calibration calibration = calibrate(bed, coordinates);
     soil.mean = soil_at(soil, coordinates, calibration.x);

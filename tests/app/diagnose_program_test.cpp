@@ -163,6 +163,12 @@ TEST_F(Diagnose, AnOptionThatDoesNotGoWithDrivesIsRefusedBeforeAnythingIsRead) {
   expect_refused(run, {"--reference", "--scenario"});
 }
 
+TEST_F(Diagnose, AReferenceThatIsGivenTwiceIsRefused) {
+  const std::string recording = kScenario + "recording.csv", reference = "--reference " + recording;
+  expect_refused(diagnose(recording, kScenario + "setup.yaml", reference + " " + reference),
+                 {"the same runs as", "each counts once"});
+}
+
 TEST_F(Diagnose, ReplicatesThatAreAllTheSameAreNoNoise) {
   std::string text = "run_id,load_n,slip_ratio,slip_angle_deg,fx_n\n";
   for (const char* replicate : {"a", "b", "c"}) {

@@ -48,6 +48,24 @@ TEST(ReadAlike, WhoHasNoReplicatesTakesTheScatterOfThoseThatHaveThem) {
   }
 }
 
+TEST(ReadAlike, ReferencesAreTheSameInWhateverOrderTheyAreGiven) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording test = sound(1, 1);
+  const Reference few{"few", sound(2, 1), setup}, some{"some", sound(3, 2, 0.7), setup},
+      many{"many", sound(4, 4), setup};
+  const ComparedRecordings forth = read_alike(test, setup, {few, some, many}, {});
+  const ComparedRecordings back = read_alike(test, setup, {many, some, few}, {});
+  const auto expect_alike = [](const CondensedRecording& a, const CondensedRecording& b) {
+    ASSERT_EQ(a.noise.size(), b.noise.size());
+    for (std::size_t c = 0; c < a.noise.size(); ++c) {
+      EXPECT_EQ(a.noise[c].source, b.noise[c].source);
+      EXPECT_NEAR(a.noise[c].constant, b.noise[c].constant, 1e-9 * b.noise[c].constant);
+    }
+  };
+  expect_alike(forth.test, back.test);
+  for (const std::size_t r : {0, 1, 2}) expect_alike(forth.references[r], back.references[2 - r]);
+}
+
 TEST(ReadAlike, OnlyChannelsThatBothMeasuredAreCompared) {
   Recording without_torque = sound(2, 3);
   std::erase(without_torque.channels, Channel::kTorque);

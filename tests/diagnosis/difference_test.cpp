@@ -179,6 +179,25 @@ TEST(Difference, AFurtherPassOfOneSeriesAloneIsNoDifferenceBetweenTwo) {
   EXPECT_NE(all.verdict, Verdict::kConsistent) << all.sentence;
 }
 
+TEST(Difference, IsTheSameInWhateverOrderReferencesAreGiven) {
+  const DiagnosisSetup setup = simulant_setup();
+  const TrueWheel wheel = shared_shortcoming();
+  const auto with = [&](std::uint64_t seed, int replicates) {
+    const BedPlan plan{.slips = {-0.3, 0, 0.2, 0.4, 0.7},
+                       .angles_deg = {0, 8, 16},
+                       .loads_n = {45, 64.7},
+                       .conditions = 20,
+                       .replicates = replicates};
+    return record(wheel, setup, setup.soil.mean, plan, seed);
+  };
+  const Recording test = with(1, 2);
+  const Reference once{"once", with(2, 1), setup}, twice{"twice", with(3, 2), setup};
+  const Diagnosis forth = diagnose_difference(test, setup, {once, twice});
+  const Diagnosis back = diagnose_difference(test, setup, {twice, once});
+  EXPECT_EQ(forth.verdict, back.verdict);
+  EXPECT_NEAR(forth.before.f, back.before.f, 1e-3 * back.before.f);
+}
+
 TEST(Difference, NeedsAChannelThatBothMeasured) {
   const DiagnosisSetup setup = simulant_setup();
   std::mt19937_64 random(1);
