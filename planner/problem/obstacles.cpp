@@ -79,13 +79,15 @@ struct Obstacles::Shapes {
   const Vehicle& vehicle;
   Part body;
   std::vector<Part> wheels;  // straight ahead, in the order of the vehicle's
-  double reach_m = 0;        // of any part, however steered, from the vehicle's origin
+  double reach_m = 0;  // of any part, however steered, from the vehicle's origin, on the level
+  double top_m = 0;    // of the highest part
 
   Shapes(const TerrainMap& map_, const Vehicle& vehicle_, double clearance)
       : map(map_), vehicle(vehicle_), body(body_of(vehicle_, clearance)) {
     const auto consider = [&](const Part& p) {
       const double from_centre = std::hypot(p.box->side.x(), p.box->side.y()) / 2;
       reach_m = std::max(reach_m, std::hypot(p.centre.x(), p.centre.y()) + from_centre);
+      top_m = std::max(top_m, p.centre.z() + p.box->side.z() / 2);
     };
     consider(body);
     for (const WheelMount& mount : vehicle.wheels) {
@@ -118,6 +120,14 @@ struct Obstacles::Shapes {
     return at;
   }
 
+  /// Ground that is unknown is where the plane of the contacts runs, so that what is known about it
+  /// is met all the same.
+  static double ground_m(double known_m, double x_m, double y_m, const Transform& stand) {
+    if (!std::isnan(known_m)) return known_m;
+    const Eigen::Vector3d up = stand.linear().col(2), origin = stand.translation();
+    return origin.z() - (up.x() * (x_m - origin.x()) + up.y() * (y_m - origin.y())) / up.z();
+  }
+
   /// A rock in the world. It stands in the ground as deep as it rises, so that no slope shows a gap
   /// beneath it.
   struct Standing {
@@ -144,11 +154,13 @@ struct Obstacles::Shapes {
   };
 
   bool hits_rock(const Transform& stand, const VehicleState& state) const {
+    const Eigen::Vector3d up = stand.linear().col(2);
+    const double reach = reach_m + top_m * std::hypot(up.x(), up.y());  // what is high leans out
     return map.any_rock(
-        state.x_m - reach_m, state.x_m + reach_m, state.y_m - reach_m, state.y_m + reach_m,
+        state.x_m - reach, state.x_m + reach, state.y_m - reach, state.y_m + reach,
         [&](const Rock& rock) {
-          const double ground = map.height_m(rock.x_m, rock.y_m);
-          if (std::isnan(ground)) return false;
+          const double ground =
+              ground_m(map.height_m(rock.x_m, rock.y_m), rock.x_m, rock.y_m, stand);
           const Standing standing{rock.x_m, rock.y_m, ground, rock.radius_m, rock.height_m};
           return body_touches(standing, stand) ||
                  (rock.height_m > vehicle.step_max_m && wheel_touches(standing, stand, state));
@@ -173,21 +185,24 @@ struct Obstacles::Shapes {
   }
 
   bool hits_ground(const Transform& stand) const {
-    // Corners of the body's underside bound its footprint and its lowest point.
+    // Corners of the body bound its footprint, which on a slope reaches farther at the top, and its
+    // lowest point.
     const Eigen::Vector3d half = body.box->side / 2;
     Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = -low;
     for (const double sx : {-1.0, 1.0}) {
       for (const double sy : {-1.0, 1.0}) {
-        const Eigen::Vector3d corner =
-            stand * (body.centre + Eigen::Vector3d{sx * half.x(), sy * half.y(), -half.z()});
-        low = low.cwiseMin(corner);
-        high = high.cwiseMax(corner);
+        for (const double sz : {-1.0, 1.0}) {
+          const Eigen::Vector3d corner =
+              stand * (body.centre + half.cwiseProduct(Eigen::Vector3d{sx, sy, sz}));
+          low = low.cwiseMin(corner);
+          high = high.cwiseMax(corner);
+        }
       }
     }
     if (map.max_height_m(low.x(), high.x(), low.y(), high.y()) < low.z()) return false;
     const CellRange cells = cells_below(low, high);
     return reaches_underside(stand, cells) &&
-           touch(body, place_of(body, stand), mesh_over(cells), Transform::Identity());
+           touch(body, place_of(body, stand), mesh_over(cells, stand), Transform::Identity());
   }
 
   /// Elevation cells whose centres span a rectangle.
@@ -230,13 +245,18 @@ struct Obstacles::Shapes {
     return false;
   }
 
-  Mesh mesh_over(const CellRange& cells) const {
+  Mesh mesh_over(const CellRange& cells, const Transform& stand) const {
+    const auto corner = [&](int row, int column) {
+      Eigen::Vector3d at = vertex(row, column);
+      at.z() = ground_m(at.z(), at.x(), at.y(), stand);
+      return at;
+    };
     Mesh mesh;
     mesh.beginModel();
     for (int r = cells.row_first; r < cells.row_last; ++r) {
       for (int c = cells.column_first; c < cells.column_last; ++c) {
-        mesh.addTriangle(vertex(r, c), vertex(r + 1, c), vertex(r, c + 1));
-        mesh.addTriangle(vertex(r, c + 1), vertex(r + 1, c), vertex(r + 1, c + 1));
+        mesh.addTriangle(corner(r, c), corner(r + 1, c), corner(r, c + 1));
+        mesh.addTriangle(corner(r, c + 1), corner(r + 1, c), corner(r + 1, c + 1));
       }
     }
     mesh.endModel();

@@ -10,8 +10,9 @@
 namespace regoplan {
 
 /// Collision of a vehicle with the rocks and the terrain of a map, by FCL. Rocks are vertical
-/// cylinders on the ground; terrain is the triangle mesh of the elevation cells. Safe from many
-/// threads.
+/// cylinders on the ground; terrain is the triangle mesh of the elevation cells. Ground that is
+/// unknown is where the plane of the contacts runs, for rocks on it and for the mesh about it. Safe
+/// from many threads.
 ///
 /// The body's box clears the ground and every rock, low as it may be. Each wheel is a box, turned
 /// as its steering is set, that begins `step_max_m` above the plane of the contacts; rocks up to

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "maps/ground_finder.h"
 #include "terramech/vehicle/steered_wheel.h"
 #include "tests/planner/flat_problem.h"
@@ -108,6 +110,59 @@ TEST(Obstacles, TheBodyClearsEveryRockByItsHeightAboveTheWheelsPlaneAlone) {
     };
     EXPECT_FALSE(hits(with_top_at(clearance_m - 0.01), 25, 25)) << ground_m;
     EXPECT_TRUE(hits(with_top_at(clearance_m + 0.01), 25, 25)) << ground_m;
+  }
+}
+
+TEST(Obstacles, WhatIsHighOnTheBodyLeansOutOnASlope) {
+  // Down a slope of 22 deg the front of the body's top is farther ahead than any corner is from the
+  // vehicle's origin on the level: it meets boulders, and walls, that its underside is not near.
+  const Vehicle lrv = preset_vehicle("lrv");
+  const double tilt = 22 * kTestDegree, top_m = lrv.body.clearance_m + lrv.body.height_m;
+  const double front_m = lrv.body.x_max_m * std::cos(tilt) + top_m * std::sin(tilt);
+  const auto down = [&](double x, double /*y*/) { return -std::tan(tilt) * x; };
+  constexpr double kRadius_m = 0.5;
+  const auto with_face_at = [&](double ahead_m) {
+    return one_soil_map(50, firm_regolith(), down, {{25 + ahead_m + kRadius_m, 25, kRadius_m, 3}});
+  };
+  EXPECT_TRUE(hits(with_face_at(front_m - 0.05), 25, 25));
+  EXPECT_FALSE(hits(with_face_at(front_m + 0.05), 25, 25));
+  const auto with_wall_at = [&](double ahead_m) {
+    constexpr double kCell_m = 0.1;
+    return one_soil_map(
+        50, firm_regolith(),
+        [&](double x, double y) { return down(x, y) + (x > 25 + ahead_m ? 4 : 0); }, {}, kCell_m);
+  };
+  EXPECT_TRUE(hits(with_wall_at(front_m - 0.25), 25, 25));
+  EXPECT_FALSE(hits(with_wall_at(front_m + 0.25), 25, 25));
+}
+
+TEST(Obstacles, GroundThatIsNotKnownHidesNeitherARockOnItNorASpikeBesideIt) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const double clearance_m = preset_vehicle("lrv").body.clearance_m;
+  const auto hole = [](double x, double y) {
+    return std::hypot(x - 25, y - 25) < 0.5 ? kUnknown : 0.0;
+  };
+  EXPECT_FALSE(hits(one_soil_map(50, firm_regolith(), hole), 25, 25));
+  const auto rock_in_hole = [&](double height_m) {
+    return one_soil_map(50, firm_regolith(), hole, {{25, 25, 0.2, height_m}});
+  };
+  EXPECT_TRUE(hits(rock_in_hole(clearance_m + 0.02), 25, 25));
+  EXPECT_FALSE(hits(rock_in_hole(clearance_m - 0.02), 25, 25));
+  // One cell rises into the body; a neighbour of it is known or not.
+  for (const double dx : {-0.5, 0.0, 0.5}) {
+    for (const double dy : {-0.5, 0.0, 0.5}) {
+      for (const double spike_m : {0.3, 0.5}) {
+        const auto ground = [&](double x, double y) {
+          const auto is_at = [&](double at_x, double at_y) {
+            return std::hypot(x - at_x, y - at_y) < 0.1;
+          };
+          if (is_at(25.25, 25.25)) return spike_m;
+          return is_at(25.25 + dx, 25.25 + dy) ? kUnknown : 0.0;
+        };
+        EXPECT_EQ(hits(one_soil_map(50, firm_regolith(), ground), 25, 25), spike_m > clearance_m)
+            << spike_m << " with unknown ground " << dx << ", " << dy << " beside it";
+      }
+    }
   }
 }
 
