@@ -24,7 +24,9 @@ std::string from_here(const std::filesystem::path& folder, const std::string& na
 std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& shown) {
   if (shown.generic_string().starts_with("${")) return shown.generic_string();
   std::error_code none;
-  const std::filesystem::path near = std::filesystem::proximate(shown, folder, none);
+  // A relative folder that is yet to be made is taken for no place on its own.
+  const std::filesystem::path near =
+      std::filesystem::proximate(shown, std::filesystem::absolute(folder), none);
   return (none ? shown : near).generic_string();
 }
 

@@ -52,6 +52,15 @@ TEST_F(PlanAgain, RepeatsItToTheBit) {
   EXPECT_EQ(json("first")["again"], nullptr);
 }
 
+TEST_F(PlanAgain, FilesAreToldAsSeenFromAFolderThatIsYetToBeMade) {
+  const ProgramRun run = run_program(folder_, "plan --again first/plan.json --out yet/to/be/made",
+                                     "cd" + quoted("") + "&& ");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  const Json found = json("yet/to/be/made");
+  EXPECT_EQ(found["inputs"][0]["file"], "../../../../scenario.yaml");
+  EXPECT_EQ(found["again"]["file"], "../../../../first/plan.json");
+}
+
 TEST_F(PlanAgain, NamesEachInputWithADigest) {
   const Json inputs = json("first")["inputs"];
   ASSERT_EQ(inputs.size(), 2U);
