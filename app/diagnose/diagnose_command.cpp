@@ -89,6 +89,14 @@ ExitStatus run_drives(const Options& options) {
   return run_drive_diagnosis(command);
 }
 
+/// \throws InputError where it is one of those before it: each counts once
+RecordingFile another_reference(const std::string& file, const std::vector<RecordingFile>& before) {
+  RecordingFile reference = read_recording(file);
+  const auto same = std::ranges::find(before, reference.cells, &RecordingFile::cells);
+  if (same == before.end()) return reference;
+  throw InputError(fmt::format("{}: the same runs as {}: each counts once", file, same->file));
+}
+
 ExitStatus run_diagnosis(const Options& options) {
   if (!options.scenario.empty()) return run_drives(options);
   if (options.setup.empty()) throw InputError("--setup is required for a single wheel's recording");
@@ -103,13 +111,7 @@ ExitStatus run_diagnosis(const Options& options) {
   run.recording = read_recording(options.recording);
   Recording& recording = run.recording.recording;
   for (const std::string& reference : options.references) {
-    run.references.push_back(read_recording(reference));
-    for (const RecordingFile& before : run.references) {
-      if (&before == &run.references.back() || before.cells != run.references.back().cells)
-        continue;
-      throw InputError(
-          fmt::format("{}: the same runs as {}: each counts once", reference, before.file));
-    }
+    run.references.push_back(another_reference(reference, run.references));
     for (const std::string& warning : checked(run.references.back(), run.setup.setup)) {
       recording.warnings.push_back(fmt::format("{}: {}", reference, warning));
     }

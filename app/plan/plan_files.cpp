@@ -143,11 +143,7 @@ Json crs_json(const std::string& wkt) {
 Json again_json(const PlanOrigin& origin, const Json& candidates,
                 const std::filesystem::path& folder) {
   if (!origin.again) return nullptr;
-  std::error_code none;
-  // A relative folder that is yet to be made is taken for no place on its own.
-  const std::filesystem::path near =
-      std::filesystem::proximate(origin.again->file, std::filesystem::absolute(folder), none);
-  return {{"file", (none ? origin.again->file : near).generic_string()},
+  return {{"file", seen_from(folder, origin.again->file)},
           {"changed", changes_since(*origin.again, origin.inputs)},
           {"same_candidates", candidates.dump() == origin.again->candidates}};
 }

@@ -20,16 +20,6 @@ std::string from_here(const std::filesystem::path& folder, const std::string& na
   return (folder / name).lexically_normal().string();
 }
 
-/// `shown` as it is found from `folder`; what begins with a variable lies where that says.
-std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& shown) {
-  if (shown.generic_string().starts_with("${")) return shown.generic_string();
-  std::error_code none;
-  // A relative folder that is yet to be made is taken for no place on its own.
-  const std::filesystem::path near =
-      std::filesystem::proximate(shown, std::filesystem::absolute(folder), none);
-  return (none ? shown : near).generic_string();
-}
-
 ScenarioOverrides overrides_of(const Json& planner) {
   ScenarioOverrides overrides{.planner = planner.at("name").get<std::string>(),
                               .seed = planner.at("seed").get<std::uint64_t>(),
@@ -63,6 +53,15 @@ EarlierPlan earlier_plan_of(const Json& json, const std::filesystem::path& file)
 }
 
 }  // namespace
+
+std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& shown) {
+  if (shown.generic_string().starts_with("${")) return shown.generic_string();
+  std::error_code none;
+  // A relative folder that is yet to be made is taken for no place on its own.
+  const std::filesystem::path near =
+      std::filesystem::proximate(shown, std::filesystem::absolute(folder), none);
+  return (none ? shown : near).generic_string();
+}
 
 EarlierPlan read_earlier_plan(const std::string& file) {
   if (!std::filesystem::exists(file)) throw InputError(file + ": no such file");

@@ -27,6 +27,10 @@ EarlierPlan read_earlier_plan(const std::string& file);
 std::vector<std::string> changes_since(const EarlierPlan& earlier,
                                        const std::vector<InputDigest>& inputs);
 
+/// `shown` as it is found from `folder`, which may be yet to be made; what begins with a variable
+/// lies where that says.
+std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& shown);
+
 /// The inputs as plan.json states them, files relative to the folder that it lies in.
 nlohmann::ordered_json inputs_json(const std::vector<InputDigest>& inputs,
                                    const std::filesystem::path& folder);

@@ -24,7 +24,7 @@ struct Scene {
   const BodyMotion* long_before = nullptr;  ///< before that; null at the first two
   double step_s = 0;                        ///< from place to place
   double slow_mps = 0;  ///< steps of the search for a motion are no shorter at less speed
-  double tow_drag_n = 0;
+  double tow_drag_n = 0;  ///< along the vehicle, against its way
   PatchAxes axes;
   double hollow_1pm = 0;
   std::array<const WheelModel*, kMaxWheels> models{};
@@ -198,10 +198,15 @@ BodyMotion moved_as(const BodyMotion& motion, const MotionStart& taken, const Mo
   return motion_of(vector_of(motion) + vector_of(found.motion) - vector_of(taken.motion));
 }
 
+double sign_of(double way) {
+  return way == 0 ? 0 : std::copysign(1, way);
+}
+
 /// Adds a place to what is said of its window, by its shares.
-void add_place(const WindowPart& part, const WindowMotions::Place& found, double window_yaw_rad,
-               const VehicleDeviation& deviation, std::size_t wheels,
+void add_place(const WindowInput::Place& place, const WindowMotions::Place& found,
+               double window_yaw_rad, const VehicleDeviation& deviation, std::size_t wheels,
                WindowPrediction& prediction) {
+  const WindowPart& part = place.part;
   const BodyMotion& motion = found.found.motion;
   // Told at the point that is taken to be below the centre of gravity.
   const double vx = motion.vx_mps + motion.yaw_rate_rad_s * deviation.cg_left_m;
@@ -218,9 +223,9 @@ void add_place(const WindowPart& part, const WindowMotions::Place& found, double
   prediction.roll_rad +=
       part.mean_share * std::atan(found.slope_left / std::hypot(1, found.slope_forward));
   for (std::size_t i = 0; i < wheels; ++i) {
-    prediction.torque_nm.at(i) += part.mean_share *
-                                  (found.torque_nm.at(i) + deviation.wheel_drag_nm.at(i)) *
-                                  (1 + deviation.motor_share.at(i));
+    const double drag_nm = sign_of(place.rim_rad_s.at(i)) * deviation.wheel_drag_nm.at(i);
+    prediction.torque_nm.at(i) +=
+        part.mean_share * (found.torque_nm.at(i) + drag_nm) * (1 + deviation.motor_share.at(i));
   }
 }
 
@@ -360,7 +365,7 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
                 .long_before = j > 1 ? &places[j - 2].found.motion : nullptr,
                 .step_s = place.part.end_s - place.part.start_s,
                 .slow_mps = kSlow_mps * input.pace,
-                .tow_drag_n = deviation.tow_drag_n,
+                .tow_drag_n = sign_of(input.forward_mps) * deviation.tow_drag_n,
                 .axes = PatchAxes(patch, gravity_mps2_),
                 .hollow_1pm = patch.curvature_1pm};
     for (std::size_t i = 0; i < changed.wheels.size(); ++i) {
@@ -400,7 +405,7 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
                               .roll_rad = deviation.mounting_roll_rad};
   for (std::size_t j = 0; j < input.places.size(); ++j) {
     const WindowMotions::Place& place = (*known->places)[j];
-    add_place(input.places[j].part, place, input.yaw_rad, deviation, vehicle_.wheels.size(),
+    add_place(input.places[j], place, input.yaw_rad, deviation, vehicle_.wheels.size(),
               prediction);
     prediction.found.push_back(place.found);
   }

@@ -56,13 +56,13 @@ struct WindowPrediction {
 
 /// What may be otherwise with the vehicle or the ground than it is said to be; all 0 is as said.
 struct VehicleDeviation {
-  std::array<double, kMaxWheels> wheel_drag_nm{};
+  std::array<double, kMaxWheels> wheel_drag_nm{};  ///< against the way that each wheel turns
   std::array<double, kMaxWheels> steering_offset_rad{};
   std::array<double, kMaxWheels> motor_share{};  ///< of the torque told
   double radius_share = 0;                       ///< of the wheels' radius
   double payload_share = 0;                      ///< of the mass
   double cg_forward_m = 0, cg_left_m = 0, cg_up_m = 0;
-  double tow_drag_n = 0;                     ///< pulls back at the centre of gravity
+  double tow_drag_n = 0;                     ///< at the centre of gravity, against the way
   double map_east_m = 0, map_north_m = 0;    ///< by which the map lies off
   double soil_east_m = 0, soil_north_m = 0;  ///< by which its soils lie off besides
   double mounting_pitch_rad = 0, mounting_roll_rad = 0, mounting_yaw_rad = 0;  ///< of the sensors

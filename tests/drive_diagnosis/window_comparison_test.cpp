@@ -376,6 +376,29 @@ TEST(WindowModel, MotionsAreSoughtAgainWhereTheVehicleMovesOtherwiseAndNowhereEl
   EXPECT_GT(sought, 10);
 }
 
+TEST(WindowModel, WhatDragsHoldsBackWhicheverWayTheVehicleRolls) {
+  const Compared compared({.seed = 3});
+  const WindowModel model(compared.map, compared.vehicle, 1.62);
+  const WindowInput ahead = compared.comparison->input(20);
+  WindowInput back = ahead;
+  back.forward_mps = -ahead.forward_mps;
+  for (WindowInput::Place& place : back.places) {
+    for (double& rim : place.rim_rad_s) rim = -rim;
+    for (MotionStart* start : {&place.start, &place.near}) {
+      start->motion = {.vx_mps = -start->motion.vx_mps};
+      start->response.setZero();
+    }
+  }
+  const VehicleDeviation drags{.wheel_drag_nm = {0, 5}}, is_towing{.tow_drag_n = 30};
+  for (const auto& [input, way] : {std::pair{ahead, 1.0}, {back, -1.0}}) {
+    const auto sound = model.predict(input, {}), dragging = model.predict(input, drags),
+               towing = model.predict(input, is_towing);
+    ASSERT_TRUE(sound && dragging && towing) << way;
+    EXPECT_NEAR(dragging->torque_nm[1] - sound->torque_nm[1], way * 5, 1e-9);
+    EXPECT_LT(way * towing->forward_mps, way * sound->forward_mps);
+  }
+}
+
 TEST(SoilStretch, AWheelToTheLeftComesLaterOntoABorderThatLiesFartherThere) {
   const SoilStretch straight{.starts_s = 10, .ends_s = 20};
   const SoilStretch oblique{.starts_s = 10, .ends_s = 20, .starts_slant = 1, .ends_slant = -0.5};
