@@ -43,6 +43,23 @@ double SpeedProfile::speed_max_mps() const {
       ->speed_mps;
 }
 
+std::array<double, 2> SpeedProfile::hardest_m(double from_m, double to_m) const {
+  constexpr double kWithin = 1e-3;  // of the piece: at its ends the next one begins
+  struct Place {
+    double s_m, acceleration_mps2;
+  };
+  std::vector<Place> places;
+  for (std::size_t i = interval(from_m); i + 1 < nodes_.size() && nodes_[i].s_m < to_m; ++i) {
+    const double begin_m = std::max(from_m, nodes_[i].s_m);
+    const double end_m = std::min(to_m, nodes_[i + 1].s_m);
+    const bool gathers = nodes_[i + 1].speed_mps > nodes_[i].speed_mps;
+    const double s_m = begin_m + (gathers ? 1 - kWithin : kWithin) * (end_m - begin_m);
+    places.push_back({s_m, at(s_m).acceleration_mps2});
+  }
+  const auto [least, most] = std::ranges::minmax_element(places, {}, &Place::acceleration_mps2);
+  return {least->s_m, most->s_m};
+}
+
 SpeedProfile limited_by_acceleration(const std::vector<SpeedProfile::Node>& most,
                                      double start_speed_mps, double end_speed_mps,
                                      double acceleration_max_mps2) {

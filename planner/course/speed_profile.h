@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 namespace regoplan {
@@ -24,6 +25,9 @@ class SpeedProfile {
   Value at(double s_m) const;
   double duration_s(double s_m) const;  ///< from the start to s_m
   double speed_max_mps() const;
+  /// Where within a stretch speed is lost and where it is gathered hardest, each at the fastest
+  /// place of that piece. \pre 0 <= from_m < to_m <= the end
+  std::array<double, 2> hardest_m(double from_m, double to_m) const;
   const std::vector<Node>& nodes() const { return nodes_; }
 
  private:

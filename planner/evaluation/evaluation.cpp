@@ -14,32 +14,41 @@
 namespace regoplan {
 namespace {
 
-/// Along a leg without a record: at most half a metre apart, as well as wherever the curve between
-/// two stations is sharper than at both. So no sharp place is passed over, wherever it lies.
+/// Between two places of a leg, where the curve is sharper, or speed lost or gathered harder, than
+/// at both: so no sharp place and no short braking is passed over, wherever it lies.
+std::vector<double> harder_between_m(const PathLeg& leg, double from_m, double to_m) {
+  std::vector<double> places_m;
+  const auto consider = [&](double s_m, const auto& asked_at) {
+    constexpr double kRounding = 1e-9;
+    if (asked_at(s_m) > std::max(asked_at(from_m), asked_at(to_m)) + kRounding) {
+      places_m.push_back(s_m);
+    }
+  };
+  consider(leg.curve.sharpest_m(from_m, to_m),
+           [&leg](double s_m) { return std::abs(leg.curvature_1pm(s_m)); });
+  const auto [braking_m, gathering_m] = leg.speed.hardest_m(from_m, to_m);
+  consider(braking_m, [&leg](double s_m) { return -leg.speed.at(s_m).acceleration_mps2; });
+  consider(gathering_m, [&leg](double s_m) { return leg.speed.at(s_m).acceleration_mps2; });
+  std::ranges::sort(places_m);
+  return places_m;
+}
+
+/// Along a leg without a record: at most half a metre apart, and where more is asked between.
 void add_stations(std::vector<Station>& stations, const ReferencePath::Place& start, double way_m,
                   const Vehicle& vehicle) {
   const PathLeg& leg = start.leg;
-  const auto station_at = [&](double s_m) -> Station {
+  const auto add = [&](double s_m) {
     const ReferencePath::Place place{.leg = leg, .leg_start_s = start.leg_start_s, .s_m = s_m};
-    return {way_m + s_m, place.time_s(), leg.state_at(vehicle, s_m)};
+    stations.push_back({way_m + s_m, place.time_s(), leg.state_at(vehicle, s_m)});
   };
-  const auto bend_1pm = [](const Station& station) {
-    return std::abs(station.state.curvature_1pm);
-  };
-  constexpr double kApart_m = 0.5, kRounding_1pm = 1e-9;
+  constexpr double kApart_m = 0.5;
   const double length_m = leg.length_m();
   const int pieces = std::max(4, static_cast<int>(std::ceil(length_m / kApart_m)));
-  Station before = station_at(0);
-  stations.push_back(before);
+  add(0);
   for (int k = 1; k <= pieces; ++k) {
     const double from_m = length_m * (k - 1) / pieces, to_m = length_m * k / pieces;
-    const Station next = station_at(to_m),
-                  sharpest = station_at(leg.curve.sharpest_m(from_m, to_m));
-    if (bend_1pm(sharpest) > std::max(bend_1pm(before), bend_1pm(next)) + kRounding_1pm) {
-      stations.push_back(sharpest);
-    }
-    stations.push_back(next);
-    before = next;
+    for (const double s_m : harder_between_m(leg, from_m, to_m)) add(s_m);
+    add(to_m);
   }
 }
 

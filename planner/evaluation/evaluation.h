@@ -91,9 +91,9 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
                       const EvaluationSettings& settings);
 
 /// Judges a path twice: as the sequence of steady manoeuvres that it commands, at stations at most
-/// half a metre apart as well as at the sharpest place between two (at the moments of its record,
-/// where it has one), and by driving it in closed loop. Feasible where both hold, and the vehicle
-/// can then stop. \param verdict a world for verdicts
+/// half a metre apart as well as where, between two, the curve is sharper or speed lost or gathered
+/// harder (at the moments of its record, where it has one), and by driving it in closed loop.
+/// Feasible where both hold, and the vehicle can then stop. \param verdict a world for verdicts
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings);
 

@@ -28,6 +28,17 @@ TEST(SpeedProfile, NeverAboveWhatIsAskedNorBeyondTheAcceleration) {
   }
 }
 
+TEST(SpeedProfile, SpeedIsLostAndGatheredNowhereHarderThanWhereItIsSaid) {
+  const SpeedProfile profile({{0, 1}, {1, 1}, {1.1, 0.9}, {1.4, 0.8}, {1.5, 0.9}, {3, 1}});
+  const auto [braking_m, gathering_m] = profile.hardest_m(0.5, 2);
+  EXPECT_NEAR(braking_m, 1, 1e-3) << "where it is fastest there";
+  EXPECT_NEAR(gathering_m, 1.5, 1e-3);
+  for (double s = 0.5; s <= 2; s += 0.01) {
+    EXPECT_GE(profile.at(s).acceleration_mps2, profile.at(braking_m).acceleration_mps2) << s;
+    EXPECT_LE(profile.at(s).acceleration_mps2, profile.at(gathering_m).acceleration_mps2) << s;
+  }
+}
+
 TEST(SpeedProfile, AVeryShortWayIsDriven) {
   const SpeedProfile profile = limited_by_acceleration({{0, 2}, {0.15, 2}}, 0, 0, 0.5);
   EXPECT_GT(profile.speed_max_mps(), 0);

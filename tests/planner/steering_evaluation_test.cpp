@@ -1,4 +1,5 @@
-// Paths that are sharper than the vehicle steers, and such as only seem to be.
+// Paths that ask for more at a place between stations: bends, also such as the vehicle cannot
+// steer, and short braking.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -65,6 +66,21 @@ TEST(Evaluation, TheMarginOfATurnIsThatOfItsSharpestPlace) {
   }
   for (const double margin : margins) EXPECT_NEAR(margin, margins[0], 0.005);
   EXPECT_GT(margins[0], 0);
+}
+
+TEST(Evaluation, TheMarginOfAShortBrakingIsToldWhereverItLies) {
+  std::vector<double> margins;
+  for (const double at_m : {20.0, 20.1, 20.2, 20.3, 20.4}) {
+    ReferencePath path = reference({{10, 25}, {20, 25}, {30, 25}, {40, 25}}, 0.6);
+    path.legs[0].speed = SpeedProfile({{0, 0.6},
+                                       {at_m, 0.6},
+                                       {at_m + 0.1, 0.52},
+                                       {at_m + 0.2, 0.52},
+                                       {at_m + 0.3, 0.6},
+                                       {path.legs[0].length_m(), 0.6}});
+    margins.push_back(evaluated(flat_problem(), path).margin_min);
+  }
+  for (const double margin : margins) EXPECT_NEAR(margin, margins[0], 1e-3);
 }
 
 TEST(Evaluation, DensePointsRoundedToAMillimetreAreNotRefused) {
