@@ -23,7 +23,7 @@ struct Scene {
   const BodyMotion* before = nullptr;       ///< at the place before; null at the first
   const BodyMotion* long_before = nullptr;  ///< before that; null at the first two
   double step_s = 0;                        ///< from place to place
-  double slow_mps = 0;  ///< steps of the search for a motion are no shorter at less speed
+  double slow_mps = 0;    ///< steps of the search for a motion are no shorter at less speed
   double tow_drag_n = 0;  ///< along the vehicle, against its way
   PatchAxes axes;
   double hollow_1pm = 0;
@@ -405,8 +405,7 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
                               .roll_rad = deviation.mounting_roll_rad};
   for (std::size_t j = 0; j < input.places.size(); ++j) {
     const WindowMotions::Place& place = (*known->places)[j];
-    add_place(input.places[j], place, input.yaw_rad, deviation, vehicle_.wheels.size(),
-              prediction);
+    add_place(input.places[j], place, input.yaw_rad, deviation, vehicle_.wheels.size(), prediction);
     prediction.found.push_back(place.found);
   }
   return told_by_sensors(prediction, deviation);
