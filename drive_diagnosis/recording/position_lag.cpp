@@ -86,7 +86,8 @@ struct Leg {
 /// Legs of a second and little more, one behind the other, as far as the wheels tell of all the
 /// time around them.
 std::vector<Leg> legs_of(const DriveRecording& drive, const RolledWay& rolled) {
-  constexpr double kShortest_s = 1, kLongest_s = 2.5;
+  // Between the rates that logs have: which legs there are hangs on no scatter of a stamp.
+  constexpr double kShortest_s = 0.95, kLongest_s = 2.75;
   std::vector<Leg> legs;
   std::optional<std::size_t> from;
   for (std::size_t i = 0; i < drive.size(); ++i) {

@@ -65,7 +65,7 @@ struct FixStep {
 };
 
 std::vector<FixStep> steps_of(const DriveRecording& drive) {
-  constexpr double kLongest_s = 2;
+  constexpr double kLongest_s = 2.5;  // fixes at half a hertz, however their stamps scatter
   constexpr std::size_t kAround = 3;
   std::vector<FixStep> moves;
   std::optional<std::size_t> last;

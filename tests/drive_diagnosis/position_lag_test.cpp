@@ -71,6 +71,16 @@ TEST(PositionLag, OfFixesASecondApartIsFoundToo) {
   EXPECT_NEAR(*found, 1.2, 0.2);
 }
 
+TEST(PositionLag, OfFixesWhoseStampsScatterByMillisecondsIsThatOfSteadyOnes) {
+  DriveRecording steady = recorded(way_of(0.6), 1.2);
+  for (std::size_t i = 0; i < steady.size(); ++i) {
+    if (i % 10 != 0) steady.x_m[i] = steady.y_m[i] = NAN;
+  }
+  DriveRecording scattered = steady;
+  for (std::size_t i = 0; i < steady.size(); i += 20) scattered.time_s[i] += 0.002;
+  EXPECT_EQ(position_lag_s(scattered), position_lag_s(steady));
+}
+
 TEST(PositionLag, LatePositionsAreTakenBackToTheirTimeAndThatIsTold) {
   const Way way = way_of(0.6);
   DriveRecording drive = recorded(way, 1.2);

@@ -109,6 +109,21 @@ TEST(MendPositions, AStepOfTheDatumIsTakenBackAndToldAndSoIsTheOneThatEndsIt) {
   }
 }
 
+TEST(MendPositions, AStepBetweenFixesTwoSecondsApartIsTakenBackHoweverTheirStampsScatter) {
+  for (const double scatter_s : {0.0, 0.002}) {
+    DriveRecording drive = straight(3);
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+      drive.time_s[i] = 2 * static_cast<double>(i) + (i % 2 == 0 ? 0 : scatter_s);
+      drive.x_m[i] = 3 * drive.time_s[i];
+      if (i >= 25) drive.y_m[i] += 15;
+    }
+    mend_positions(drive, 3);
+    ASSERT_TRUE(told(drive, "position_step")) << scatter_s;
+    EXPECT_NEAR(*told(drive, "position_step"), 15, 0.1);
+    EXPECT_NEAR(drive.y_m[59], 0, 0.2);
+  }
+}
+
 TEST(MendPositions, FixesThatScatterByMetresDoNotStep) {
   DriveRecording drive = straight(3);
   std::mt19937_64 random(1);
