@@ -99,8 +99,8 @@ function claimList(host) {
     const parameters = Object.entries(claim.parameters)
                            .map(([key, {value, std}]) => {
                              const {name, unit} = nameAndUnit(key);
-                             return `${name} = ${significant(value, 3)} \u00b1 ${
-                                 significant(std, 2)}${unit ? '\u00a0' + unit : ''}`;
+                             return `${name} = ${withSpread(value, std)}${
+                                 unit ? '\u00a0' + unit : ''}`;
                            })
                            .join('; ');
     host.append(element(
@@ -168,8 +168,7 @@ function soilTable(host) {
     return;
   }
   const PULL_LIMIT = 4.5;
-  const number = ({mean, std}) =>
-      significant(mean, 3) + (std ? `\u00a0\u00b1\u00a0${significant(std, 2)}` : '');
+  const number = ({mean, std}) => withSpread(mean, std);
   const pull = value => element(
       'span', {class: Math.abs(value) > PULL_LIMIT ? 'alarm together' : 'together'},
       intervalMark(value, null, null, -6, 6, [-PULL_LIMIT, PULL_LIMIT]),

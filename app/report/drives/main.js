@@ -85,7 +85,7 @@ if (REPORT.where.length)
       'p: how often chance alone would show as much anywhere on such drives, by all that is compared together. ' +
           'The number told is one of several that may differ there, and may be uncertain by itself.'));
 const parameterText = ([key, {value, std}]) =>
-    `${withUnit(key)} ${number(value)} \u00b1 ${number(std)}`;
+    `${withUnit(key)} ${withSpread(value, std)}`;
 byId('claims').append(
     REPORT.mechanisms.length ?
         wideTable(
@@ -97,7 +97,7 @@ byId('claims').append(
                           Object.entries(claim.parameters).map(parameterText).join('; ')])) :
         'Nothing is claimed.');
 /// A number of a soil; one that is exact on the map has no spread.
-const spreadText = ({mean, std}) => std ? `${number(mean)} \u00b1 ${number(std)}` : number(mean);
+const spreadText = ({mean, std}) => withSpread(mean, std);
 const differs = (a, b) => a.mean !== b.mean || a.std !== b.std;
 /// Numbers of a zone's soil that the drives tell otherwise than the map.
 const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) => {

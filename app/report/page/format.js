@@ -25,6 +25,16 @@ function significant(value, digits = 4) {
   return String(Number(value.toPrecision(digits))).replace('-', '\u2212');
 }
 
+/// A number and its standard deviation, to two digits of the latter: 0.0201 \u00b1 0.0017.
+function withSpread(mean, std) {
+  if (!isKnown(mean) || !isKnown(std) || std <= 0) return significant(mean, 3);
+  const last = Math.floor(Math.log10(std)) - 1;
+  if (last < -6) return `${significant(mean, 3)}\u00a0\u00b1\u00a0${significant(std, 2)}`;
+  const text = value => d3.format(`${Math.abs(value) >= 1e4 ? ',' : ''}.${Math.max(0, -last)}f`)(
+      last > 0 ? Math.round(value / 10 ** last) * 10 ** last : value);
+  return `${text(mean)}\u00a0\u00b1\u00a0${text(std)}`;
+}
+
 const SECONDS = value_s =>
     (isKnown(value_s) && value_s >= 120 ?
          `${Math.floor(value_s / 60)}\u00a0min ${fixed(value_s % 60, 0, 's')}` :
