@@ -202,7 +202,13 @@ std::string named_words(const Diagnosis& diagnosis) {
     what += fmt::format("{}{}, {}{}", what.empty() ? "" : "; and ", list_of(names_of(claim)),
                         probability_words(claim.probability), number_words(claim));
   }
-  std::string text = "the data say " + what + ".";
+  const bool is_rough = std::ranges::all_of(diagnosis.claims, [](const Claim& claim) {
+    return claim.probability <= Thresholds::kRoughName;
+  });
+  std::string text =
+      is_rough
+          ? what + " fits best, and leaves so much that something on no list may do it instead."
+          : "the data say " + what + ".";
   if (diagnosis.correction_refused) {
     return text + " Named, but the corrected model leaves it out (see the notes).";
   }

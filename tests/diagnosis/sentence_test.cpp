@@ -83,6 +83,14 @@ TEST(Sentence, IsNeverQuiteCertain) {
   expect_says(sentence_of(diagnosis), {"slip_sinkage, over 99 %"});
 }
 
+TEST(Sentence, OfANameThatMayStandInForSomethingElseTheDataDoNotSayThatItIsThere) {
+  Diagnosis diagnosis = named();
+  diagnosis.claims.front().probability = 0.49;
+  const std::string said = sentence_of(diagnosis);
+  expect_says(said, {"slip_sinkage, 49 %", "fits best", "something on no list may do it instead"});
+  EXPECT_EQ(said.find("the data say"), std::string::npos) << said;
+}
+
 TEST(Sentence, SaysWhatANameLeavesUnexplained) {
   expect_says(sentence_of(named()), {"leaves 30 % of the excess misfit on held-out conditions"});
 }
