@@ -21,6 +21,15 @@
 namespace regoplan {
 namespace {
 
+/// Of points, and of candidates as `plan` writes them.
+const std::vector<std::string>& known_columns() {
+  static const std::vector<std::string> names{
+      "x_m",      "y_m",       "speed_mps",      "time_s",        "z_m",
+      "yaw_deg",  "steer_deg", "yaw_rate_rad_s", "curvature_1pm", "acceleration_mps2",
+      "demand_n", "margin"};
+  return names;
+}
+
 /// A CSV table of numbers under a header; cells are read when asked for.
 class PathTable {
  public:
@@ -31,6 +40,7 @@ class PathTable {
     CsvTable table(stream, file, EmptyLines::kAnywhere);
     columns_ = table.columns();
     header_line_ = table.line();
+    for (const char* column : {"x_m", "y_m"}) table.required_column(column, known_columns());
     while (auto cells = table.next()) rows_.push_back({table.line(), std::move(*cells)});
   }
 

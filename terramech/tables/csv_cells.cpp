@@ -8,6 +8,15 @@
 
 namespace regoplan {
 
+namespace {
+
+bool any_holds(const std::vector<std::string>& cells, char letter) {
+  return std::ranges::any_of(
+      cells, [&](const std::string& cell) { return cell.find(letter) != std::string::npos; });
+}
+
+}  // namespace
+
 std::string number_cell(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : std::string();
 }
@@ -28,10 +37,18 @@ std::string own_text_cell(std::string_view text) {
   return text_cell(formula ? fmt::format("'{}", text) : std::string(text));
 }
 
+bool holds_zero_byte(const std::vector<std::string>& cells) {
+  return any_holds(cells, '\0');
+}
+
 std::optional<std::string> why_no_table(const std::vector<std::string>& columns) {
   const std::string& first = columns.front();
   if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF")) {
     return "the file is UTF-16 (allowed: UTF-8)";
+  }
+  if (holds_zero_byte(columns)) return "zero bytes, as of UTF-16 (allowed: UTF-8)";
+  if (any_holds(columns, '\r')) {
+    return "a carriage return within the line (allowed: lines that end in a line feed)";
   }
   if (columns.size() > 1) return {};
   for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {

@@ -17,8 +17,11 @@ std::string text_cell(std::string_view text);
 /// where a spreadsheet would take it for a formula, an apostrophe stands in front.
 std::string own_text_cell(std::string_view text);
 
-/// What a header of one column shows of a table that other programs wrote, in words: separated by
-/// something else than commas, or UTF-16. Nothing where it is a column.
+/// Whether a cell holds a byte that no text has, and at which a message that quotes it would end.
+bool holds_zero_byte(const std::vector<std::string>& cells);
+
+/// What a header shows of a table that other programs wrote, in words: separated by something else
+/// than commas, UTF-16, or lines that end in a carriage return alone. Nothing where it is a header.
 std::optional<std::string> why_no_table(const std::vector<std::string>& columns);
 
 /// What a table's columns are called where columns `added` are written beside them: one of the same

@@ -92,6 +92,33 @@ TEST(PathFiles, AFileOfAnotherProgramSaysWhatIsWrongWithIt) {
                   .ends_with("path.csv:1: cells are separated by semicolons (allowed: commas)"));
   EXPECT_TRUE(refusal("x_m\ty_m\n1050\t5100\n").ends_with("by tabs (allowed: commas)"));
   EXPECT_TRUE(refusal("\xFF\xFEx").ends_with("path.csv:1: the file is UTF-16 (allowed: UTF-8)"));
+  EXPECT_TRUE(refusal("x_m,y_m\r1050,5100\r1060,5100\r")
+                  .ends_with("path.csv:1: a carriage return within the line (allowed: lines that "
+                             "end in a line feed)"));
+  const std::string two_bytes_a_letter("x\0,\0y\0\n\0", 8);
+  EXPECT_TRUE(refusal(two_bytes_a_letter)
+                  .ends_with("path.csv:1: zero bytes, as of UTF-16 (allowed: UTF-8)"));
+}
+
+TEST(PathFiles, AZeroByteIsToldAndDoesNotCutTheMessage) {
+  const ScratchFolder folder;
+  const PlanningProblem problem = report_test_problem(report_test_map(40));
+  folder.write("path.csv", std::string("x_m,y_m\n1050,5100\0\n1060,5100\n", 31));
+  EXPECT_TRUE(error_text([&] {
+                read_path(folder.path("path.csv"), problem, 3);
+              }).ends_with("path.csv:2: a zero byte (allowed: text in UTF-8)"));
+}
+
+TEST(PathFiles, AMissingColumnIsToldWithTheOneThatMayBeMeant) {
+  const ScratchFolder folder;
+  const PlanningProblem problem = report_test_problem(report_test_map(40));
+  const auto refusal = [&](const std::string& header) {
+    folder.write("path.csv", header + "\n1050,5100\n1060,5100\n");
+    return error_text([&] { read_path(folder.path("path.csv"), problem, 3); });
+  };
+  EXPECT_TRUE(refusal("X_M,Y_M").ends_with(":1: column x_m is missing (the header has X_M)"));
+  EXPECT_TRUE(refusal("# x_m,y_m").ends_with(":1: column x_m is missing (the header has # x_m)"));
+  EXPECT_TRUE(refusal("x_m,z_m").ends_with(":1: column y_m is missing"));
 }
 
 }  // namespace
