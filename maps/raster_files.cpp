@@ -7,6 +7,7 @@
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -86,7 +87,14 @@ GridFrame read_frame(GDALDataset& dataset, const std::string& file, const char* 
         "says nowhere where its cells lie (no georeference); remedy: gdal_translate -a_ullr "
         "WEST NORTH EAST SOUTH in.tif out.tif");
   }
+  if (!std::ranges::all_of(transform, [](double number) { return std::isfinite(number); })) {
+    fail_raster(file, "says nowhere where its cells lie (its geotransform is not finite)");
+  }
   const OGRSpatialReference* crs = dataset.GetSpatialRef();
+  if (crs != nullptr && crs->IsGeocentric()) {
+    fail_raster(
+        file, fmt::format("its CRS \"{}\" is geocentric, a planar one is needed", crs->GetName()));
+  }
   if (crs != nullptr && crs->IsGeographic()) {
     fail_raster(
         file, fmt::format("its CRS \"{}\" is geographic (degrees), metres are needed; remedy: {}",

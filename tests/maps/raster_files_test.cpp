@@ -187,6 +187,16 @@ TEST(RasterFiles, RotatedAndSouthUpRastersAreRefusedWithTheRemedy) {
   }
 }
 
+TEST(RasterFiles, ARasterThatLiesNowhereOnAPlaneIsRefused) {
+  const ScratchFolder folder;
+  for (const double west_m : {std::nan(""), HUGE_VAL}) {
+    const std::string file = write(folder, {.transform = {west_m, 0.5, 0, 5060, 0, -0.5}});
+    EXPECT_TRUE(refuses([&] { read_elevation(file); }, {"in.tif", "geotransform is not finite"}));
+  }
+  const std::string geocentric = write(folder, {.crs = "EPSG:4978"});
+  EXPECT_TRUE(refuses([&] { read_elevation(geocentric); }, {"in.tif", "geocentric", "planar"}));
+}
+
 TEST(RasterFiles, WhatIsNoRasterIsRefusedByName) {
   const ScratchFolder folder;
   EXPECT_TRUE(
