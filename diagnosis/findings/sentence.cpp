@@ -82,8 +82,16 @@ std::string range_words(const std::string& column, double from, double to) {
   if (quantity.unit == "s") {
     quantity = time_in_its_unit(quantity, std::max(std::abs(from), std::abs(to)));
   }
-  std::string text = fmt::format("{} {:.3g}", quantity.words, quantity.per_file_unit * from);
-  if (to != from) text += fmt::format(" to {:.3g}", quantity.per_file_unit * to);
+  const auto number = [&](double value, int digits) {
+    return fmt::format("{:.{}g}", quantity.per_file_unit * value, digits);
+  };
+  int digits = 3;
+  if (column == "time_s" || column == "position_m") {
+    // Clocks and beds may begin far from zero, where three digits do not tell two edges apart.
+    while (to != from && digits < 17 && number(from, digits) == number(to, digits)) ++digits;
+  }
+  std::string text = fmt::format("{} {}", quantity.words, number(from, digits));
+  if (to != from) text += fmt::format(" to {}", number(to, digits));
   return quantity.unit.empty() ? text : fmt::format("{} {}", text, quantity.unit);
 }
 

@@ -75,6 +75,7 @@ std::map<std::string, double> window(const Span& time_s) {
 struct Columns {
   bool pass = false, speed = false, position = false, time = false, skid = false, driving = false,
        angle = false, lugs = true, part = false, difference = false, times_apart = false;
+  double first_time_s = 0;
 };
 
 bool can_bear(const MechanismForm& form, const Columns& columns) {
@@ -148,10 +149,12 @@ class EffectList {
       }
     } else if (form.id == "cohesion_drift") {
       const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
+      const double lasts_s = time.high - columns_.first_time_s;
       effect.coordinates = form.form == "linear"
-                               ? std::vector{Coordinate{.name = "per_s", .spread = 0.5 / time.high}}
+                               ? std::vector{Coordinate{.name = "per_s", .spread = 0.5 / lasts_s}}
                                : std::vector{effect.coordinates.front(),
-                                             positive("tau_s", 0.1 * time.high, 2 * time.high)};
+                                             positive("tau_s", 0.1 * lasts_s, 2 * lasts_s)};
+      effect.fixed["first_time_s"] = columns_.first_time_s;
       push(effect);
     } else if (form.id == "flexible_wheel") {
       effect.coordinates = {positive("per_n", 0.02 / largest_load_n(), 0.3 / largest_load_n())};
@@ -303,6 +306,14 @@ class EffectList {
   std::vector<Effect> effects_;
 };
 
+/// When a course of time begins: at the first run, wherever the clock stood then. Conditions stand
+/// at the mean of their replicates' times, and those of a reference may be earlier.
+double first_time_s(const TestBed& bed, const Recording& recording) {
+  double first = span_of(bed, [](const auto& at) { return at.conditions.time_s; }).low;
+  for (const WheelRun& run : recording.runs) first = std::min(first, run.conditions.time_s);
+  return first;
+}
+
 }  // namespace
 
 std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, EffectsOf of) {
@@ -321,7 +332,8 @@ std::vector<Effect> effects_for(const TestBed& bed, const Recording& recording, 
       .lugs = bed.setup.lug_height_m.value_or(1) > 0,
       .part = of != EffectsOf::kRecording,
       .difference = of == EffectsOf::kDifference,
-      .times_apart = !bed.times_apart_s.empty()};
+      .times_apart = !bed.times_apart_s.empty(),
+      .first_time_s = first_time_s(bed, recording)};
   EffectList list(bed, columns);
   for (const MechanismForm& form : mechanism_forms()) {
     if (form.form == "carried_soil" && !columns.part) continue;

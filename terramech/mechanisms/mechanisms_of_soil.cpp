@@ -5,6 +5,14 @@
 #include "terramech/mechanisms/mechanism_catalogue.h"
 
 namespace regoplan::mechanism_catalogue {
+namespace {
+
+/// Before a course of time begins, the soil is as its numbers say.
+double time_since(double first_time_s, const WheelState& at) {
+  return std::max(0.0, at.conditions.time_s - first_time_s);
+}
+
+}  // namespace
 
 // NOLINTBEGIN(bugprone-easily-swappable-parameters, readability-function-size)
 std::vector<Definition> of_soil() {
@@ -125,20 +133,22 @@ std::vector<Definition> of_soil() {
        }},
       {{"cohesion_drift",
         "linear",
-        "c = c0 max(0, 1 + a t)",
+        "c = c0 max(0, 1 + a (t - t0)+)",
         "moisture over time (proxy)",
-        {{"per_s", -1e-4, 1e-4, -2e-5, -10, 10}}},
+        {{"per_s", -1e-4, 1e-4, -2e-5, -10, 10}, {"first_time_s", 0, 1e6, 0, -1e12, 1e12}}},
        [](E e, P p, S at) {
-         e.soil.cohesion_pa *= std::max(0.0, 1 + p[0] * at.conditions.time_s);
+         e.soil.cohesion_pa *= std::max(0.0, 1 + p[0] * time_since(p[1], at));
          return e;
        }},
       {{"cohesion_drift",
         "drying",
-        "c = c0 (f + (1 - f) exp(-t/tau))",
+        "c = c0 (f + (1 - f) exp(-(t - t0)+/tau))",
         "moisture over time (proxy)",
-        {{"dry_share", 0, .8, .4, 0, 100}, {"tau_s", 1e3, 1e6, 3e4, 1e-3, 1e12}}},
+        {{"dry_share", 0, .8, .4, 0, 100},
+         {"tau_s", 1e3, 1e6, 3e4, 1e-3, 1e12},
+         {"first_time_s", 0, 1e6, 0, -1e12, 1e12}}},
        [](E e, P p, S at) {
-         e.soil.cohesion_pa *= p[0] + (1 - p[0]) * std::exp(-at.conditions.time_s / p[1]);
+         e.soil.cohesion_pa *= p[0] + (1 - p[0]) * std::exp(-time_since(p[2], at) / p[1]);
          return e;
        }},
       {{"cohesion_drift",

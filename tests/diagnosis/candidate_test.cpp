@@ -182,6 +182,28 @@ TEST(Hypothesis, NoFaultChangesInTimeWhereTheRecordingTellsNone) {
       std::ranges::none_of(effects_for(condense(recording, setup).bed, recording), changes));
 }
 
+/// A clock may tell seconds since the series began or since 1970: soil that dries dries alike.
+TEST(Hypothesis, ACourseOfCohesionIsTheSameWhereverTheClockStands) {
+  constexpr double kEpoch_s = 1.7e9;
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = timed(setup);
+  Recording later = recording;
+  for (WheelRun& run : later.runs) run.conditions.time_s += kEpoch_s;
+  const TestBed bed = condense(recording, setup).bed, later_bed = condense(later, setup).bed;
+  const std::vector<Effect> effects = effects_for(bed, recording),
+                            later_effects = effects_for(later_bed, later);
+  const Eigen::VectorXd before = *predict(bed, {}, {}, Eigen::VectorXd(0));
+  for (const char* form : {"linear", "drying"}) {
+    const Effect& drift = fault(effects, "cohesion_drift", form);
+    const Eigen::VectorXd x = Eigen::VectorXd::Constant(std::ssize(drift.coordinates), -1);
+    const Eigen::VectorXd after = *predict(bed, {}, {{drift}}, x);
+    const Eigen::VectorXd after_later =
+        *predict(later_bed, {}, {{fault(later_effects, "cohesion_drift", form)}}, x);
+    EXPECT_GT((after - before).cwiseAbs().maxCoeff(), 0.5) << form;
+    EXPECT_LT((after - after_later).cwiseAbs().maxCoeff(), 1e-3) << form;
+  }
+}
+
 /// The faults that a recording of one day may have.
 class ChangingFault : public testing::Test {
  protected:

@@ -77,6 +77,12 @@ TEST(Sentence, CountsALongTimeInMinutesHoursOrDays) {
   expect_says(sentence_of(diagnosis), {"at time 0 to 100 s;"});
 }
 
+TEST(Sentence, TellsTheEdgesOfATimeApartWhereverTheClockStands) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.front().region = {{"time_s", {1.700081e9, 1.7001014e9}}};
+  expect_says(sentence_of(diagnosis), {"at time 19676.9 to 19677.1 days;"});
+}
+
 TEST(Sentence, IsNeverQuiteCertain) {
   Diagnosis diagnosis = named();
   diagnosis.claims.front().probability = 0.9999;
