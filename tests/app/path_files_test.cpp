@@ -13,6 +13,8 @@
 namespace regoplan {
 namespace {
 
+using namespace std::string_literals;
+
 /// Rows of a candidate that goes 8 m ahead, stands, and goes 6 m back, on a line along x.
 std::string there_and_back() {
   std::string text = "time_s,x_m,y_m,yaw_deg,speed_mps,steer_deg,demand_n,margin,curvature_1pm\n";
@@ -95,7 +97,7 @@ TEST(PathFiles, AFileOfAnotherProgramSaysWhatIsWrongWithIt) {
   EXPECT_TRUE(refusal("x_m,y_m\r1050,5100\r1060,5100\r")
                   .ends_with("path.csv:1: a carriage return within the line (allowed: lines that "
                              "end in a line feed)"));
-  const std::string two_bytes_a_letter("x\0,\0y\0\n\0", 8);
+  const std::string two_bytes_a_letter = "x\0,\0y\0\n\0"s;
   EXPECT_TRUE(refusal(two_bytes_a_letter)
                   .ends_with("path.csv:1: zero bytes, as of UTF-16 (allowed: UTF-8)"));
 }
@@ -103,7 +105,7 @@ TEST(PathFiles, AFileOfAnotherProgramSaysWhatIsWrongWithIt) {
 TEST(PathFiles, AZeroByteIsToldAndDoesNotCutTheMessage) {
   const ScratchFolder folder;
   const PlanningProblem problem = report_test_problem(report_test_map(40));
-  folder.write("path.csv", std::string("x_m,y_m\n1050,5100\0\n1060,5100\n", 31));
+  folder.write("path.csv", "x_m,y_m\n1050,5100\0\n1060,5100\n"s);
   EXPECT_TRUE(error_text([&] {
                 read_path(folder.path("path.csv"), problem, 3);
               }).ends_with("path.csv:2: a zero byte (allowed: text in UTF-8)"));
