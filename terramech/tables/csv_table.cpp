@@ -84,9 +84,9 @@ std::size_t CsvTable::required_column(std::string_view sought,
 std::optional<CsvTable::Cells> CsvTable::next() {
   const std::optional<Cells> cells = next_line();
   if (!cells) return {};
-  if (holds_zero_byte(*cells)) throw error("a zero byte (allowed: text in UTF-8)");
+  if (holds_zero_byte(*cells)) throw TornRowError(error("a zero byte (allowed: text in UTF-8)"));
   if (cells->size() != width_) {
-    throw error(fmt::format("{} cells (the header has {})", cells->size(), width_));
+    throw TornRowError(error(fmt::format("{} cells (the header has {})", cells->size(), width_)));
   }
   return named(*cells);
 }

@@ -31,6 +31,13 @@ class OutOfRangeError : public InputError {
   CellOutOfRange cell_;
 };
 
+/// A line that is no row of its table, as a log ends in where the power failed: another number of
+/// cells than the header, or zero bytes.
+class TornRowError : public InputError {
+ public:
+  explicit TornRowError(const InputError& error) : InputError(error) {}
+};
+
 /// The known name that a column of another writing (`Load_N`, `load_n [N]`) most likely stands for:
 /// none that the table has.
 std::optional<std::string> meant_column(std::string_view written,
@@ -63,8 +70,8 @@ class CsvTable {
   std::size_t required_column(std::string_view sought, const std::vector<std::string>& known) const;
 
   /// The next row, as wide as `columns`; nothing at the end.
-  /// \throws InputError for a row of another width than the header, and for a value in a column
-  ///   without a name: of what it is nobody knows
+  /// \throws TornRowError for a row of another width than the header or with zero bytes, InputError
+  ///   for a value in a column without a name: of what it is nobody knows
   std::optional<Cells> next();
   /// Where the row stands that `next` gave last.
   std::int64_t line() const { return line_; }

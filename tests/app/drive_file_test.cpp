@@ -4,12 +4,15 @@
 
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "terramech/basics/input_error.h"
 #include "tests/error_text.h"
 
 namespace regoplan {
 namespace {
+
+using namespace std::string_literals;
 
 DriveRecording read(const std::string& text, const DriveColumnMap& map = {}) {
   std::istringstream stream(text);
@@ -89,6 +92,18 @@ TEST(DriveFile, WordsAmongNumbersAreToldWithTheirFirstLine) {
   EXPECT_NE(finding(drive, "no_number")->text.find("2024-05-06_a.csv:9: x_m: nan"),
             std::string::npos);
   EXPECT_EQ(drive.size(), 30U);
+}
+
+TEST(DriveFile, WhereThePowerFailedTheTornRowIsLeftOutAndTold) {
+  const std::string sound = "time_s,x_m,y_m\n0,1,1\n1,2,1\n2,3,1\n";
+  for (const std::string& torn : {"3,4"s, "\0\0\0\0"s, "3,\0,1\n"s}) {
+    const DriveRecording drive = read(sound + torn);
+    EXPECT_EQ(drive.size(), 3U);
+    const DriveFinding* found = finding(drive, "torn_row");
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->value, 1);
+    EXPECT_NE(found->text.find("a.csv:5: "), std::string::npos) << found->text;
+  }
 }
 
 TEST(DriveFile, AMissingColumnNamesTheWayOut) {
