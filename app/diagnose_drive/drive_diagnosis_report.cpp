@@ -10,7 +10,6 @@
 #include "app/page/report_assets.h"
 #include "app/page/report_map.h"
 #include "app/page/report_page.h"
-#include "drive_diagnosis/corrected_world.h"
 #include "drive_diagnosis/drive_claims.h"
 
 namespace regoplan {
@@ -56,18 +55,18 @@ namespace {
 constexpr ReportMapDetail kSmall{.cells_a_side = 400, .rocks = 4000};
 constexpr std::size_t kPlacesDrawn = 4000;
 
-/// The smoothed track through a window, or its middle alone where too few fixes were smoothed.
-std::vector<MapPlace> places_of(const DriveWindow& window, std::size_t count) {
-  std::vector<MapPlace> places;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-    const double off_s = (share - 0.5) * window.duration_s();
-    places.push_back({window.track.x0_m + window.track.x.at(off_s),
-                      window.track.y0_m + window.track.y.at(off_s)});
+/// Goes on with the smoothed track through a window; by its middle alone where too few fixes were
+/// smoothed.
+void go_through(const DriveWindow& window, std::size_t places, nlohmann::json& points) {
+  if (!std::isfinite(window.x_at_m(0) + window.y_at_m(0))) {
+    points.push_back({window.x_m, window.y_m});
+    return;
   }
-  const auto is_known = [](const MapPlace& place) { return std::isfinite(place.x_m + place.y_m); };
-  if (!std::ranges::all_of(places, is_known)) return {{window.x_m, window.y_m}};
-  return places;
+  for (std::size_t k = 0; k < places; ++k) {
+    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(places);
+    const double off_s = (share - 0.5) * window.duration_s();
+    points.push_back({window.x_at_m(off_s), window.y_at_m(off_s)});
+  }
 }
 
 /// Where was driven, as finely as a bend is seen; a stretch each time nothing was sampled for long.
@@ -87,9 +86,7 @@ nlohmann::json tracks_json(const std::vector<DriveWindow>& windows) {
     if (!goes_on) {
       tracks.push_back({{"drive", window.drive}, {"points", nlohmann::json::array()}});
     }
-    for (const MapPlace& place : places_of(window, places_of_window)) {
-      tracks.back()["points"].push_back({place.x_m, place.y_m});
-    }
+    go_through(window, places_of_window, tracks.back()["points"]);
     last = &window;
   }
   return tracks;

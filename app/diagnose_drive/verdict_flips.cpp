@@ -34,8 +34,8 @@ PlanningProblem problem_of(const TerrainMap& map, const Vehicle& vehicle, const 
 VehicleState state_at(const DriveWindow& window, const Vehicle& vehicle, double off_s) {
   const double curvature = std::clamp(window.yaw_rate_rad_s / window.forward_mps,
                                       -vehicle.curvature_max_1pm, vehicle.curvature_max_1pm);
-  VehicleState state{.x_m = window.track.x0_m + window.track.x.at(off_s),
-                     .y_m = window.track.y0_m + window.track.y.at(off_s),
+  VehicleState state{.x_m = window.x_at_m(off_s),
+                     .y_m = window.y_at_m(off_s),
                      .yaw_rad = window.yaw.at(off_s),
                      .motion = {.vx_mps = window.forward_mps,
                                 .vy_mps = 0,

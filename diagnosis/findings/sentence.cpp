@@ -85,13 +85,16 @@ std::string range_words(const std::string& column, double from, double to) {
   const auto number = [&](double value, int digits) {
     return fmt::format("{:.{}g}", quantity.per_file_unit * value, digits);
   };
+  // Clocks and beds may begin far from zero, where three digits do not tell two edges apart.
+  const bool begins_anywhere = column == "time_s" || column == "position_m";
   int digits = 3;
-  if (column == "time_s" || column == "position_m") {
-    // Clocks and beds may begin far from zero, where three digits do not tell two edges apart.
-    while (to != from && digits < 17 && number(from, digits) == number(to, digits)) ++digits;
+  while (begins_anywhere && to != from && digits < 17 &&
+         number(from, digits) == number(to, digits)) {
+    ++digits;
   }
-  std::string text = fmt::format("{} {}", quantity.words, number(from, digits));
-  if (to != from) text += fmt::format(" to {}", number(to, digits));
+  const std::string first = number(from, digits), last = number(to, digits);
+  std::string text = fmt::format("{} {}", quantity.words, first);
+  if (last != first) text += fmt::format(" to {}", last);
   return quantity.unit.empty() ? text : fmt::format("{} {}", text, quantity.unit);
 }
 

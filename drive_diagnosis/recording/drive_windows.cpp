@@ -165,8 +165,8 @@ std::vector<WindowPart> DriveWindow::divided(std::size_t count) const {
     part.mean_share = std::max(0.0, within_s) / duration_s();
     const double from_s = part.start_s - middle_s(), to_s = part.end_s - middle_s();
     const double t_s = (from_s + to_s) / 2;
-    part.x_m = track.x0_m + track.x.at(t_s);
-    part.y_m = track.y0_m + track.y.at(t_s);
+    part.x_m = x_at_m(t_s);
+    part.y_m = y_at_m(t_s);
     part.track_share = track.x.share(from_s, to_s);
     part.yaw_rad = yaw.at(t_s);
     part.turn_share = yaw.share(from_s, to_s);

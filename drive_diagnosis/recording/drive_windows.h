@@ -60,6 +60,9 @@ struct DriveWindow {
 
   double duration_s() const { return end_s - start_s; }
   double middle_s() const { return (start_s + end_s) / 2; }
+  /// Where the smoothed track is at a time off the middle; NaN where too few fixes were smoothed.
+  double x_at_m(double off_s) const { return track.x0_m + track.x.at(off_s); }
+  double y_at_m(double off_s) const { return track.y0_m + track.y.at(off_s); }
   /// So many parts of equal length of what is smoothed; their shares sum to 1.
   std::vector<WindowPart> divided(std::size_t count) const;
 };

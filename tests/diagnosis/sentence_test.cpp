@@ -83,6 +83,12 @@ TEST(Sentence, TellsTheEdgesOfATimeApartWhereverTheClockStands) {
   expect_says(sentence_of(diagnosis), {"at time 19676.9 to 19677.1 days;"});
 }
 
+TEST(Sentence, TellsARangeThatLooksLikeOneNumberAsThatNumber) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.front().region = {{"load_n", {13.58, 13.62}}};
+  expect_says(sentence_of(diagnosis), {"at load 13.6 N;"});
+}
+
 TEST(Sentence, IsNeverQuiteCertain) {
   Diagnosis diagnosis = named();
   diagnosis.claims.front().probability = 0.9999;

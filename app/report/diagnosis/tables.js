@@ -99,7 +99,7 @@ function claimList(host) {
     const parameters = Object.entries(claim.parameters)
                            .map(([key, {value, std}]) => {
                              const {name, unit} = nameAndUnit(key);
-                             return `${name} = ${withSpread(value, std)}${
+                             return `${name} = ${withSpread({mean: value, std})}${
                                  unit ? '\u00a0' + unit : ''}`;
                            })
                            .join('; ');
@@ -168,7 +168,6 @@ function soilTable(host) {
     return;
   }
   const PULL_LIMIT = 4.5;
-  const number = ({mean, std}) => withSpread(mean, std);
   const pull = value => element(
       'span', {class: Math.abs(value) > PULL_LIMIT ? 'alarm together' : 'together'},
       intervalMark(value, null, null, -6, 6, [-PULL_LIMIT, PULL_LIMIT]),
@@ -176,8 +175,8 @@ function soilTable(host) {
   const rows = entries.map(([key, s]) => {
     const {name, unit} = nameAndUnit(key);
     const row =
-        [name + (unit ? ` (${unit})` : ''), number(s.prior), number(s.calibrated), pull(s.pull)];
-    return HAS_CORRECTION ? [...row, number(s.corrected), pull(s.corrected_pull)] : row;
+        [name + (unit ? ` (${unit})` : ''), withSpread(s.prior), withSpread(s.calibrated), pull(s.pull)];
+    return HAS_CORRECTION ? [...row, withSpread(s.corrected), pull(s.corrected_pull)] : row;
   });
   const columns = [
     {text: 'Number'}, {text: 'Prior', number: true}, {text: 'Calibrated', number: true},

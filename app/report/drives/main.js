@@ -85,7 +85,7 @@ if (REPORT.where.length)
       'p: how often chance alone would show as much anywhere on such drives, by all that is compared together. ' +
           'The number told is one of several that may differ there, and may be uncertain by itself.'));
 const parameterText = ([key, {value, std}]) =>
-    `${withUnit(key)} ${withSpread(value, std)}`;
+    `${withUnit(key)} ${withSpread({mean: value, std})}`;
 byId('claims').append(
     REPORT.mechanisms.length ?
         wideTable(
@@ -96,8 +96,6 @@ byId('claims').append(
                               UNKNOWN,
                           Object.entries(claim.parameters).map(parameterText).join('; ')])) :
         'Nothing is claimed.');
-/// A number of a soil; one that is exact on the map has no spread.
-const spreadText = ({mean, std}) => withSpread(mean, std);
 const differs = (a, b) => a.mean !== b.mean || a.std !== b.std;
 /// Numbers of a zone's soil that the drives tell otherwise than the map.
 const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) => {
@@ -109,7 +107,7 @@ const zoneTable = ({drive, map_soil, starts_s, ends_s, soil, soil_of_map}) => {
           columns('number', `the map's ${words(map_soil)}`, 'the drives'),
           Object.keys(soil)
               .filter(key => differs(soil[key], soil_of_map[key]))
-              .map(key => [withUnit(key), spreadText(soil_of_map[key]), spreadText(soil[key])])));
+              .map(key => [withUnit(key), withSpread(soil_of_map[key]), withSpread(soil[key])])));
 };
 /// Numbers of a soil of the map that the drives tell otherwise, all along.
 const soilTable = ([name, {map, drives, withheld}]) => element(
@@ -120,7 +118,7 @@ const soilTable = ([name, {map, drives, withheld}]) => element(
         columns('number', 'the map', 'the drives'),
         Object.keys(map)
             .filter(key => differs(map[key], drives[key]))
-            .map(key => [withUnit(key), spreadText(map[key]), spreadText(drives[key])])));
+            .map(key => [withUnit(key), withSpread(map[key]), withSpread(drives[key])])));
 const soilsTold = Object.entries(REPORT.soils || {});
 if (soilsTold.length) {
   byId('soils-section').hidden = false;

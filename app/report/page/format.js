@@ -25,8 +25,9 @@ function significant(value, digits = 4) {
   return String(Number(value.toPrecision(digits))).replace('-', '\u2212');
 }
 
-/// A number and its standard deviation, to two digits of the latter: 0.0201 \u00b1 0.0017.
-function withSpread(mean, std) {
+/// A number and its standard deviation, to two digits of the latter: 0.0201 \u00b1 0.0017. One that
+/// is exact has none.
+function withSpread({mean, std}) {
   if (!isKnown(mean) || !isKnown(std) || std <= 0) return significant(mean, 3);
   const last = Math.floor(Math.log10(std)) - 1;
   if (last < -6) return `${significant(mean, 3)}\u00a0\u00b1\u00a0${significant(std, 2)}`;
