@@ -9,13 +9,6 @@
 namespace regoplan {
 namespace {
 
-/// Where the middle of a window's track is taken to lie at a time within it.
-MapPlace place_at(const DriveWindow& window, double time_s) {
-  const double way_m = window.speed_mps * (time_s - (window.start_s + window.end_s) / 2);
-  return {window.x_m + way_m * std::cos(window.course_rad),
-          window.y_m + way_m * std::sin(window.course_rad)};
-}
-
 double length_m(const std::vector<MapPlace>& track) {
   double length = 0;
   for (std::size_t i = 1; i < track.size(); ++i) {
@@ -125,12 +118,18 @@ void move(GridFrame& frame, const MapPlace& by) {
 
 std::vector<MapPlace> zone_track(const SoilZoneFound& zone,
                                  const std::vector<DriveWindow>& windows) {
+  constexpr int kPlacesOfWindow = 5;
+  const auto place_at = [](const DriveWindow& window, double time_s) {
+    return window.place_at(time_s - window.middle_s());
+  };
   std::vector<MapPlace> track{place_at(windows[zone.first], zone.starts_s)};
   for (std::size_t i = zone.first; i <= zone.last; ++i) {
-    const DriveWindow& window = windows[i];
-    const double middle_s = (window.start_s + window.end_s) / 2;
-    if (middle_s > zone.starts_s && middle_s < zone.ends_s) {
-      track.push_back({window.x_m, window.y_m});
+    for (int k = 0; k < kPlacesOfWindow; ++k) {
+      const double time_s =
+          windows[i].start_s + (k + 0.5) / kPlacesOfWindow * windows[i].duration_s();
+      if (time_s > zone.starts_s && time_s < zone.ends_s) {
+        track.push_back(place_at(windows[i], time_s));
+      }
     }
   }
   track.push_back(place_at(windows[zone.last], zone.ends_s));

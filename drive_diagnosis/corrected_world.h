@@ -9,11 +9,6 @@
 
 namespace regoplan {
 
-/// A place on the map, m.
-struct MapPlace {
-  double x_m = 0, y_m = 0;
-};
-
 /// Where a drive went through a zone: from where it begins to where it ends.
 std::vector<MapPlace> zone_track(const SoilZoneFound& zone,
                                  const std::vector<DriveWindow>& windows);

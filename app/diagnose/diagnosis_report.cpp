@@ -134,7 +134,7 @@ std::string verdict_sentence(Verdict verdict, bool has_reference) {
       return "Parameters: with soil numbers fitted within their priors the model says what was "
              "measured; no physics is missing that these data show.";
     case Verdict::kNamed:
-      return "Named: one explanation of each effect stands out.";
+      return "Named: one explanation of each effect fits best.";
     case Verdict::kClass:
       return "Class: the effect is real, and these data cannot tell some explanations apart.";
     case Verdict::kUnexplained:

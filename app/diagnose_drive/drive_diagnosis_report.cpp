@@ -55,25 +55,12 @@ namespace {
 constexpr ReportMapDetail kSmall{.cells_a_side = 400, .rocks = 4000};
 constexpr std::size_t kPlacesDrawn = 4000;
 
-/// Goes on with the smoothed track through a window; by its middle alone where too few fixes were
-/// smoothed.
-void go_through(const DriveWindow& window, std::size_t places, nlohmann::json& points) {
-  if (!std::isfinite(window.x_at_m(0) + window.y_at_m(0))) {
-    points.push_back({window.x_m, window.y_m});
-    return;
-  }
-  for (std::size_t k = 0; k < places; ++k) {
-    const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(places);
-    const double off_s = (share - 0.5) * window.duration_s();
-    points.push_back({window.x_at_m(off_s), window.y_at_m(off_s)});
-  }
-}
-
 /// Where was driven, as finely as a bend is seen; a stretch each time nothing was sampled for long.
 nlohmann::json tracks_json(const std::vector<DriveWindow>& windows) {
-  constexpr std::size_t kMostOfAWindow = 5;
-  const std::size_t places_of_window = std::clamp<std::size_t>(
-      kPlacesDrawn / std::max<std::size_t>(1, windows.size()), 1, kMostOfAWindow);
+  constexpr int kMostOfAWindow = 5;
+  const std::size_t count = std::max<std::size_t>(1, windows.size());
+  const int places_of_window =
+      std::clamp(static_cast<int>(kPlacesDrawn / count), 1, kMostOfAWindow);
   const std::size_t step = std::max<std::size_t>(1, windows.size() / kPlacesDrawn);
   nlohmann::json tracks = nlohmann::json::array();
   const DriveWindow* last = nullptr;
@@ -86,7 +73,11 @@ nlohmann::json tracks_json(const std::vector<DriveWindow>& windows) {
     if (!goes_on) {
       tracks.push_back({{"drive", window.drive}, {"points", nlohmann::json::array()}});
     }
-    go_through(window, places_of_window, tracks.back()["points"]);
+    for (int k = 0; k < places_of_window; ++k) {
+      const double share = (k + 0.5) / places_of_window - 0.5;
+      const MapPlace place = window.place_at(share * window.duration_s());
+      tracks.back()["points"].push_back({place.x_m, place.y_m});
+    }
     last = &window;
   }
   return tracks;

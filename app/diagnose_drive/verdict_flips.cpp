@@ -34,20 +34,16 @@ PlanningProblem problem_of(const TerrainMap& map, const Vehicle& vehicle, const 
 VehicleState state_at(const DriveWindow& window, const Vehicle& vehicle, double off_s) {
   const double curvature = std::clamp(window.yaw_rate_rad_s / window.forward_mps,
                                       -vehicle.curvature_max_1pm, vehicle.curvature_max_1pm);
-  VehicleState state{.x_m = window.x_at_m(off_s),
-                     .y_m = window.y_at_m(off_s),
-                     .yaw_rad = window.yaw.at(off_s),
-                     .motion = {.vx_mps = window.forward_mps,
-                                .vy_mps = 0,
-                                .yaw_rate_rad_s = curvature * window.forward_mps},
-                     .curvature_1pm = curvature,
-                     .rim_speed_mps = window.forward_mps};
-  if (std::isfinite(state.x_m + state.y_m + state.yaw_rad)) return state;
-  // Too few fixes to be smoothed: straight on from the middle.
-  state.yaw_rad = window.yaw_rad;
-  state.x_m = window.x_m + off_s * window.forward_mps * std::cos(window.yaw_rad);
-  state.y_m = window.y_m + off_s * window.forward_mps * std::sin(window.yaw_rad);
-  return state;
+  const MapPlace place = window.place_at(off_s);
+  const double yaw_rad = window.yaw.at(off_s);
+  return {.x_m = place.x_m,
+          .y_m = place.y_m,
+          .yaw_rad = std::isfinite(yaw_rad) ? yaw_rad : window.yaw_rad,
+          .motion = {.vx_mps = window.forward_mps,
+                     .vy_mps = 0,
+                     .yaw_rate_rad_s = curvature * window.forward_mps},
+          .curvature_1pm = curvature,
+          .rim_speed_mps = window.forward_mps};
 }
 
 /// What was driven in a window, at stations as far apart as `evaluate` judges a path at: what

@@ -154,6 +154,13 @@ DriveWindow window_of(const DriveRecording& drive, std::size_t index, const Rows
 
 }  // namespace
 
+MapPlace DriveWindow::place_at(double off_s) const {
+  const MapPlace smoothed = track.at(off_s);
+  if (std::isfinite(smoothed.x_m + smoothed.y_m)) return smoothed;
+  const double way_m = speed_mps * off_s;
+  return {x_m + way_m * std::cos(course_rad), y_m + way_m * std::sin(course_rad)};
+}
+
 std::vector<WindowPart> DriveWindow::divided(std::size_t count) const {
   const double part_s = (smoothed_to_s - smoothed_from_s) / static_cast<double>(count);
   std::vector<WindowPart> parts(count);
@@ -165,8 +172,9 @@ std::vector<WindowPart> DriveWindow::divided(std::size_t count) const {
     part.mean_share = std::max(0.0, within_s) / duration_s();
     const double from_s = part.start_s - middle_s(), to_s = part.end_s - middle_s();
     const double t_s = (from_s + to_s) / 2;
-    part.x_m = x_at_m(t_s);
-    part.y_m = y_at_m(t_s);
+    const MapPlace place = track.at(t_s);
+    part.x_m = place.x_m;
+    part.y_m = place.y_m;
     part.track_share = track.x.share(from_s, to_s);
     part.yaw_rad = yaw.at(t_s);
     part.turn_share = yaw.share(from_s, to_s);

@@ -12,6 +12,11 @@ namespace regoplan {
 /// speeds scatter by as much. Speeds and rates of slower drives go by their `pace`.
 inline constexpr double kMoving_mps = 0.1;
 
+/// A place on the map, m.
+struct MapPlace {
+  double x_m = 0, y_m = 0;
+};
+
 /// A part of the time that a window is smoothed over. What is smoothed is a linear functional of
 /// what happened: the shares say how much of it is the mean of each part, so that a prediction can
 /// be made the same functional as the measurement.
@@ -35,6 +40,8 @@ struct DriveWindow {
   struct Track {
     double x0_m = 0, y0_m = 0;
     SampleSmoothing x = {}, y = {};
+
+    MapPlace at(double off_s) const { return {x0_m + x.at(off_s), y0_m + y.at(off_s)}; }
   } track = {};
   SampleSmoothing yaw = {};
   double x_m = 0, y_m = 0;  ///< in the middle
@@ -60,9 +67,8 @@ struct DriveWindow {
 
   double duration_s() const { return end_s - start_s; }
   double middle_s() const { return (start_s + end_s) / 2; }
-  /// Where the smoothed track is at a time off the middle; NaN where too few fixes were smoothed.
-  double x_at_m(double off_s) const { return track.x0_m + track.x.at(off_s); }
-  double y_at_m(double off_s) const { return track.y0_m + track.y.at(off_s); }
+  /// Where it was at a time off the middle: smoothed, or straight on where too few fixes were.
+  MapPlace place_at(double off_s) const;
   /// So many parts of equal length of what is smoothed; their shares sum to 1.
   std::vector<WindowPart> divided(std::size_t count) const;
 };

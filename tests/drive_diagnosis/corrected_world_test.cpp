@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace regoplan {
 namespace {
 
@@ -86,6 +88,22 @@ TEST(CorrectedMap, AZoneLiesBesideItsTrackAndNowhereElse) {
   EXPECT_EQ(soil(32.4, 15.6), 1);
   EXPECT_EQ(soil(32.4, 45.6), 0);
   EXPECT_EQ(soil(32.4, 14.4), 0);
+}
+
+TEST(ZoneTrack, FollowsTheSmoothedTrackThroughABendToItsEnds) {
+  DriveWindow window{.start_s = 0, .end_s = 10, .x_m = 20, .y_m = 30};
+  window.track = {.x0_m = 20,
+                  .y0_m = 30,
+                  .x = {.value = 0, .slope = 1},
+                  .y = {.value = 0, .slope = 0, .bend = 0.1}};
+  const std::vector<MapPlace> track =
+      zone_track({.first = 0, .last = 0, .starts_s = 1, .ends_s = 8.5}, {window});
+  EXPECT_GE(track.size(), 5u);
+  EXPECT_EQ(track.front().x_m, 16);
+  EXPECT_EQ(track.back().x_m, 23.5);
+  for (const MapPlace& place : track) {
+    EXPECT_NEAR(place.y_m, 30 + 0.1 / 2 * std::pow(place.x_m - 20, 2), 1e-9);
+  }
 }
 
 TEST(CorrectedMap, AZoneLikeASoilOfTheMapTakesItsClass) {

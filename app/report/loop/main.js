@@ -155,7 +155,7 @@ byId('soil').append(wideTable(
     'The hidden soil', columns('number', 'as the map says', 'hidden', 'as the drive tells it'),
     REPORT.hidden_patch.soil.map(({number, hidden, map, found}) => [
       withUnit(number), told(map), told(hidden),
-      found ? `${told(found.mean)} \u00b1 ${told(found.std)}` : 'not found'
+      found ? withSpread(found) : 'not found'
     ])));
 
 for (const [href, text] of [
