@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -17,6 +18,10 @@ namespace regoplan {
 namespace {
 
 constexpr int kFewest = 4;  // degrees of freedom to trust replicates
+
+/// Contrasts that it takes to tell whether scatter grows with the signal: fewer, chosen, would take
+/// a run near zero that happens to agree for all of them.
+constexpr Eigen::Index kTellsGrowth = 12;
 
 /// Shares of the constant part that the other parts are tried at. Nothing and even factors: weighed
 /// alike, nearly a half-Cauchy prior about a run's scatter (Gelman 2006, Bayesian Analysis 1, 515).
@@ -92,15 +97,19 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
                                     contrasts.transpose();
   double best = -INFINITY;
   const std::vector<double> grid(kSteps.begin(), kSteps.end());
-  const std::vector<double> day_grid = by.days ? grid : std::vector<double>{0};
+  const std::vector<double> none{0};
+  const bool may_grow = e.size() >= kTellsGrowth;
+  const std::vector<double>& proportional_grid = may_grow ? grid : none;
+  const std::vector<double>& day_grid = by.days ? grid : none;
+  const std::vector<double>& day_gain_grid = by.days && may_grow ? grid : none;
   noise.day_log_likelihood.assign(by.days ? kSteps.size() : 0, -INFINITY);
-  for (const double p : grid) {
+  for (const double p : proportional_grid) {
     const Eigen::VectorXd variance =
         (inverse_weight.array() * (1 + p * p * signal.array().square())).matrix();
     const Eigen::MatrixXd own = contrasts * variance.asDiagonal() * contrasts.transpose();
     for (std::size_t k = 0; k < day_grid.size(); ++k) {
       const double d = day_grid[k];
-      for (const double g : day_grid) {
+      for (const double g : day_gain_grid) {
         throw_if_stopped(by.stop);
         const Eigen::LLT<Eigen::MatrixXd> factor(own + d * d * offset_part + g * g * gain_part);
         const Eigen::VectorXd solved = factor.solve(column);
@@ -123,6 +132,11 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
         noise.proportional = p * noise.constant / rms;
         noise.day_offset = d * noise.constant;
         noise.day_gain = g * noise.constant / rms;
+        // What days and the other parts that were fitted take of the contrasts tells nothing of a
+        // run's own scatter.
+        const double own_share = factor.solve(own).trace();
+        noise.degrees_of_freedom =
+            std::max(1, static_cast<int>(std::lround(own_share)) - (p > 0) - (weight > 0));
       }
     }
   }
@@ -189,10 +203,8 @@ ChannelNoise told_by_neighbours(Channel channel, const NeighbourScatter& scatter
 
 /// The least share of its true variance that so few replicates show but once in a thousand.
 double variance_share_of_few(int degrees_of_freedom) {
-  // Wilson & Hilferty 1931: the cube root of chi squared over its degrees is nearly normal.
-  constexpr double kOneInThousand = -3.09;
-  const double spread = 2.0 / (9.0 * degrees_of_freedom);
-  return std::pow(std::max(1 - spread + kOneInThousand * std::sqrt(spread), 0.2), 3);
+  const boost::math::chi_squared chi_squared(degrees_of_freedom);
+  return boost::math::quantile(chi_squared, 1e-3) / degrees_of_freedom;
 }
 
 /// Whether neighbouring conditions scatter more than few replicates, and no more than these may by
@@ -200,9 +212,21 @@ double variance_share_of_few(int degrees_of_freedom) {
 bool is_uncontradicted(const NeighbourScatter& scatter, const ChannelNoise& by_replicates,
                        const std::vector<double>& value) {
   const double told = usual_deviation(by_replicates, value);
+  if (by_replicates.degrees_of_freedom < kFewest) return told < scatter.deviation;
   const double least =
       scatter.deviation * std::sqrt(variance_share_of_few(by_replicates.degrees_of_freedom));
   return told < scatter.deviation && told > least;
+}
+
+/// Contrasts of replicates that outliers leave.
+int contrasts_without(const std::vector<std::size_t>& outliers, const Replicates& replicates) {
+  int contrasts = 0;
+  for (const auto& group : replicates.groups) {
+    const auto good = std::ranges::count_if(
+        group, [&](std::size_t run) { return std::ranges::find(outliers, run) == outliers.end(); });
+    contrasts += static_cast<int>(std::max<std::ptrdiff_t>(good - 1, 0));
+  }
+  return contrasts;
 }
 
 int runs_on_two_days(const Recording& recording, const Replicates& replicates) {
@@ -261,6 +285,28 @@ double day_ratio_squared(const std::vector<ChannelNoise>& noise, std::size_t cha
   return square / whole;
 }
 
+/// The setup's number, or else what neighbouring conditions tell.
+/// \throws InputError where neither tells any
+ChannelNoise without_replicates(const std::vector<Condition>& conditions, const ChannelRuns& runs,
+                                const DiagnosisSetup& setup) {
+  const std::size_t count = runs.adjusted.size();
+  const auto given = setup.noise_standard_deviation.find(runs.channel);
+  ChannelNoise noise =
+      given != setup.noise_standard_deviation.end()
+          ? ChannelNoise{.channel = runs.channel,
+                         .source = NoiseSource::kSetup,
+                         .constant = given->second,
+                         .weight = std::vector<double>(count, 1.0)}
+          : told_by_neighbours(runs.channel,
+                               neighbour_scatter(conditions, runs.adjusted, runs.modelled), count);
+  assume_a_day(noise);
+  if (noise.constant > 0) return noise;
+  throw InputError(
+      fmt::format("{}: neither replicates nor setup tell its noise, and neighbouring conditions "
+                  "do not scatter",
+                  name(runs.channel)));
+}
+
 }  // namespace
 
 double run_deviation(const ChannelNoise& noise, double y) {
@@ -286,26 +332,7 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   const std::vector<double>&adjusted = runs.adjusted, &model = runs.modelled;
   ChannelNoise noise{.channel = channel, .weight = std::vector<double>(adjusted.size(), 1.0)};
   const Replicates replicates = replicates_of(conditions, adjusted);
-  noise.degrees_of_freedom = replicates.contrasts;
-  if (replicates.contrasts < kFewest) {
-    noise.degrees_of_freedom = 0;
-    const auto given = setup.noise_standard_deviation.find(channel);
-    if (given != setup.noise_standard_deviation.end()) {
-      noise.source = NoiseSource::kSetup;
-      noise.constant = given->second;
-    } else {
-      noise = told_by_neighbours(channel, neighbour_scatter(conditions, adjusted, model),
-                                 adjusted.size());
-    }
-    assume_a_day(noise);
-    if (!(noise.constant > 0)) {
-      throw InputError(
-          fmt::format("{}: neither replicates nor setup tell its noise, and "
-                      "neighbouring conditions do not scatter",
-                      name(channel)));
-    }
-    return noise;
-  }
+  if (replicates.contrasts < kFewest) return without_replicates(conditions, runs, setup);
   const bool identical = std::ranges::all_of(replicates.groups, [&](const auto& group) {
     return std::ranges::all_of(group, [&](std::size_t run) {
       return recording.runs[run].value(channel) == recording.runs[group.front()].value(channel);
@@ -340,8 +367,15 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   };
   weigh_outliers(replicates, beside, whole_deviation, noise.weight);
   fit();
-  const bool told_by_setup = setup.noise_standard_deviation.contains(channel);
-  if (replicates.contrasts < kEnoughReplicates && trend.empty() && !told_by_setup) {
+  for (std::size_t run = 0; run < noise.weight.size(); ++run) {
+    if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
+  }
+  noise.degrees_of_freedom = std::max(1, noise.degrees_of_freedom - replicates.contrasts +
+                                             contrasts_without(noise.outliers, replicates));
+  const bool few = noise.degrees_of_freedom < kEnoughReplicates && trend.empty();
+  if (few && setup.noise_standard_deviation.contains(channel)) {
+    if (noise.degrees_of_freedom < kFewest) return without_replicates(conditions, runs, setup);
+  } else if (few) {
     const NeighbourScatter scatter = neighbour_scatter(conditions, adjusted, model);
     if (is_uncontradicted(scatter, noise, adjusted)) {
       noise = told_by_neighbours(channel, scatter, adjusted.size());
@@ -352,9 +386,6 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   if (!days_seen) {
     assume_a_day(noise);
     seek_untold_days(recording, conditions, adjusted, stop, noise);
-  }
-  for (std::size_t run = 0; run < noise.weight.size(); ++run) {
-    if (noise.weight[run] < 0.5) noise.outliers.push_back(run);
   }
   return noise;
 }

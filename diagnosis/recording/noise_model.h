@@ -11,8 +11,9 @@
 namespace regoplan {
 
 /// Degrees of freedom from which on replicates tell the noise, whatever neighbouring conditions
-/// scatter.
-inline constexpr int kEnoughReplicates = 6;
+/// scatter: chosen on nulls of a few replicates, of which 5 of 50 were accused where contrasts were
+/// counted to 6, and 0 now.
+inline constexpr int kEnoughReplicates = 8;
 
 enum class NoiseSource { kReplicates, kSetup, kNeighbours };
 
@@ -34,7 +35,9 @@ struct ChannelNoise {
   std::vector<double> day_log_likelihood = {};
   /// Restricted log likelihood of the replicates, less half a nat for each part but the constant.
   double log_likelihood = 0;
-  int degrees_of_freedom = 0;  ///< of replicates
+  /// Of replicates, for a run's own scatter: without what days and other parts take of them, and
+  /// without outliers.
+  int degrees_of_freedom = 0;
   /// By as many its scatter is known, where neighbouring conditions tell it; 0 elsewhere.
   int neighbour_degrees_of_freedom = 0;
   std::vector<double> weight;         ///< per run, in [0, 1]: below 1 for outliers
@@ -53,7 +56,7 @@ struct ChannelRuns {
 /// outliers (3.5 standard deviations from their fellows) weighted down. Without replicates (fewer
 /// than 4 degrees of freedom) the setup's number; without that the scatter between neighbouring
 /// conditions, which counts some of the signal as noise and so errs on the cautious side. So does
-/// that scatter where few replicates (fewer than 6) tell less and do not contradict it.
+/// that scatter where few replicates (fewer than 8 degrees) tell less and do not contradict it.
 /// \param trend per run: a column that explains part of what replicates differ by, its factor
 /// fitted along; empty: none
 /// \throws InputError where all replicates of the channel are identical; Interrupted

@@ -52,7 +52,7 @@ ChannelNoise noise_of(const Bed& made, const DiagnosisSetup& setup = {}) {
 TEST(NoiseModel, FindsTheScatterOfReplicates) {
   const ChannelNoise noise = noise_of(bed(50, 3, 0.8, 0, 0, 1));
   EXPECT_EQ(noise.source, NoiseSource::kReplicates);
-  EXPECT_EQ(noise.degrees_of_freedom, 100);
+  EXPECT_NEAR(noise.degrees_of_freedom, 100, 2);
   EXPECT_NEAR(run_deviation(noise, 5), 0.8, 0.15);
   EXPECT_LT(noise.day_offset, 0.3);
 }
@@ -66,6 +66,19 @@ TEST(NoiseModel, TellsDaysFromScatter) {
   const ChannelNoise noise = noise_of(bed(40, 6, 0.5, 0, 1.5, 3));
   EXPECT_NEAR(noise.constant, 0.5, 0.1);
   EXPECT_GT(noise.day_offset, 0.5);
+}
+
+TEST(NoiseModel, DaysAndOutliersLeaveFewerDegreesOfFreedomToTheScatterOfARun) {
+  const int without = noise_of(bed(40, 2, 0.5, 0, 0, 3)).degrees_of_freedom;
+  EXPECT_GE(without, 38);
+  EXPECT_LE(without, 40);
+  // of 40 differences between two days one tells what these differ by
+  const int of_two_days = noise_of(bed(40, 2, 0.5, 0, 1.5, 3)).degrees_of_freedom;
+  EXPECT_LE(of_two_days, 39);
+  Bed with_outlier = bed(40, 3, 0.5, 0, 0, 4);
+  const int without_outlier = noise_of(with_outlier).degrees_of_freedom;
+  with_outlier.value[31] += 8;
+  EXPECT_LT(noise_of(with_outlier).degrees_of_freedom, without_outlier);
 }
 
 TEST(NoiseModel, WhatDaysDoToOtherChannelsIsHeldPossibleForAChannelThatDoesNotShowIt) {
@@ -219,8 +232,29 @@ TEST(NoiseModel, FewReplicatesThatHappenToAgreeDoNotSetTheNoise) {
   DiagnosisSetup told;
   told.noise_standard_deviation[Channel::kFx] = 0.3;
   EXPECT_EQ(noise_of(made, told).source, NoiseSource::kReplicates);  // neighbours do not overrule
-  for (const std::size_t condition : {8, 25, 40}) run_again(condition);
+  for (const std::size_t condition : {8, 25, 40, 52, 55}) run_again(condition);
   EXPECT_EQ(noise_of(made).source, NoiseSource::kReplicates);
+}
+
+/// Few conditions run on two days that are an offset apart: of as many differences as days take
+/// little is left that tells a run's own scatter.
+TEST(NoiseModel, FewReplicatesOfDifferentDaysSeldomTellTooLittle) {
+  constexpr int kBeds = 1000;
+  int too_small = 0;
+  for (int seed = 0; seed < kBeds; ++seed) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+    std::normal_distribution<double> normal;
+    Bed made = side_by_side(24, [&] { return normal(random); });
+    const double between = 0.4 * normal(random);
+    for (const std::size_t condition : {2, 5, 8, 11, 14, 17, 20}) {
+      made.conditions[condition].runs.push_back(made.value.size());
+      made.value.push_back(between + normal(random));
+      made.recording.runs.push_back({.load_n = 60, .day = 1});
+      made.recording.runs.back().measured[0] = made.value.back();
+    }
+    too_small += usual_deviation(noise_of(made), made.value) < 0.5 ? 1 : 0;
+  }
+  EXPECT_LE(too_small, kBeds / 200);
 }
 
 TEST(NoiseModel, IdenticalReplicatesAreAnError) {
