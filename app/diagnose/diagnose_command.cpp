@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "app/command/command.h"
 #include "app/command/plan_options.h"
@@ -49,7 +50,8 @@ void notify_of_left_out(const std::vector<LeftOutRow>& rows, bool quiet) {
 
 /// What is odd about a recording, which is left without channels whose unit is in question.
 std::vector<std::string> checked(RecordingFile& file, const DiagnosisSetup& setup) {
-  std::vector<std::string> told = doubtful_values(file, setup);
+  std::vector<std::string> told = std::exchange(file.recording.warnings, {});
+  std::ranges::copy(doubtful_values(file, setup), std::back_inserter(told));
   if (const auto left_out = leave_out_kilograms(file, setup)) told.push_back(*left_out);
   return told;
 }

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 
+#include "app/diagnose/copied_runs.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/mechanisms/mechanism.h"
@@ -284,6 +285,7 @@ RecordingFile read_recording(std::istream& stream, const std::string& file) {
                        [](const std::string& column) {
                          return std::ranges::find(known_columns(), column) == known_columns().end();
                        });
+  if (auto copies = leave_out_copies(read)) recording.warnings.push_back(std::move(*copies));
   return read;
 }
 

@@ -42,7 +42,8 @@ struct RecordingFile {
 /// (`wheel_radius_m, wheel_width_m, lug_height_m, lug_count`, one value each). An empty cell
 /// of a channel is not measured; a column of empty cells counts as not given. Other columns are
 /// kept and listed as ignored. A row with a number outside its range, as sensors give one now and
-/// then, is left out; where that is more than one row in twenty, the recording is refused.
+/// then, is left out; where that is more than one row in twenty, the recording is refused. Runs
+/// that repeat others are left out with a warning (`copied_runs.h`).
 /// \throws InputError naming file, line, column, value, range and, where the value hints at one,
 /// the unit that may be meant
 RecordingFile read_recording(const std::string& file);
