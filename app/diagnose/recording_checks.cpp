@@ -94,7 +94,9 @@ class Checks {
     std::vector<std::pair<Channel, double>> found;
     constexpr double kAlike = 0.8;
     constexpr int kFewest = 4;
-    const double near = std::log(1.15);
+    // Missing physics changes a channel beside its unit: of 450 channels of challenges, right in
+    // their units, the factors are 0.36 to 2.2, and all but 18 lie within 1.6 of 1.
+    const double near = std::log(1.6);
     for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
       double with_model = 0, own = 0, model = 0;
       int measured = 0;

@@ -119,7 +119,14 @@ TEST(RecordingChecks, ForcesInKilogramsAreSuspectedByTheFactor) {
     ASSERT_EQ(small.size(), 1u) << name(channel);
     const char* unit = channel == Channel::kTorque ? "kgf m for N m" : "kgf for N";
     expect_words(small[0], {std::string(name(channel)) + " is 0.1 times", unit});
+    // Physics is missing as well: the channel in N would be 1.5 times the model's, or two thirds.
+    for (const double beside : {1.5, 1 / 1.5}) {
+      const std::vector<std::string> both = found_with(channel, beside / 9.80665);
+      ASSERT_EQ(both.size(), 1u) << name(channel);
+      expect_words(both[0], {unit});
+    }
     EXPECT_TRUE(found_with(channel, 0.2).empty()) << "no unit does that";
+    EXPECT_TRUE(found_with(channel, 0.4).empty()) << "physics does that";
   }
 }
 
