@@ -48,9 +48,11 @@ void notify_of_left_out(const std::vector<LeftOutRow>& rows, bool quiet) {
       quiet);
 }
 
-/// What is odd about a recording, which is left without channels whose unit is in question.
+/// What is odd about a recording, which is left without channels that tell next to nothing or whose
+/// unit is in question.
 std::vector<std::string> checked(RecordingFile& file, const DiagnosisSetup& setup) {
   std::vector<std::string> told = std::exchange(file.recording.warnings, {});
+  std::ranges::copy(leave_out_nearly_empty(file, setup), std::back_inserter(told));
   std::ranges::copy(doubtful_values(file, setup), std::back_inserter(told));
   if (const auto left_out = leave_out_kilograms(file, setup)) told.push_back(*left_out);
   return told;

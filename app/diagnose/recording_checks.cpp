@@ -296,6 +296,39 @@ std::vector<std::string> doubtful_values(const RecordingFile& recording,
   return Checks(recording, setup).run_all();
 }
 
+namespace {
+
+void leave_out(Channel channel, Recording& recording) {
+  std::erase(recording.channels, channel);
+  for (WheelRun& run : recording.runs) {
+    run.measured[static_cast<std::size_t>(channel)] = WheelRun::kNotMeasured;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> leave_out_nearly_empty(RecordingFile& file, const DiagnosisSetup& setup) {
+  constexpr std::ptrdiff_t kFewest = 4;
+  Recording& recording = file.recording;
+  std::vector<std::string> told;
+  for (const Channel channel : std::vector(recording.channels)) {
+    const auto values = std::ranges::count_if(
+        recording.runs, [channel](const WheelRun& run) { return !std::isnan(run.value(channel)); });
+    const bool is_nearly_empty = values < kFewest && values < std::ssize(recording.runs);
+    if (!is_nearly_empty || setup.noise_standard_deviation.contains(channel)) continue;
+    leave_out(channel, recording);
+    told.push_back(
+        fmt::format("{0}: {1} is left out: values in {2} of {3} rows tell neither its noise nor "
+                    "where it is off "
+                    "(allowed: in {4} and more, or noise: {{{1}: ...}} in the setup)",
+                    file.file, name(channel), values, recording.runs.size(), kFewest));
+    if (recording.channels.empty()) {
+      throw InputError(told.back() + "; no other channel is measured");
+    }
+  }
+  return told;
+}
+
 std::optional<std::string> leave_out_kilograms(RecordingFile& recording,
                                                const DiagnosisSetup& setup) {
   constexpr std::size_t kNoChance = 2;
@@ -305,10 +338,7 @@ std::optional<std::string> leave_out_kilograms(RecordingFile& recording,
   if (in_question.size() < kNoChance) return std::nullopt;
   for (const auto& [channel, factor] : in_question) {
     columns.push_back(name(channel));
-    std::erase(channels, channel);
-    for (WheelRun& run : recording.recording.runs) {
-      run.measured[static_cast<std::size_t>(channel)] = WheelRun::kNotMeasured;
-    }
+    leave_out(channel, recording.recording);
   }
   std::string left_out = fmt::format(
       "{}: {} are left out: as kgf (kgf m) they say nothing of the physics; remedy: 9.80665 times "

@@ -20,6 +20,12 @@ namespace regoplan {
 std::vector<std::string> doubtful_values(const RecordingFile& recording,
                                          const DiagnosisSetup& setup);
 
+/// Leaves out channels with fewer than four values, the rest empty, whose noise the setup does not
+/// tell: the recording is judged by the others. \returns what is told of each
+/// \throws InputError where no channel is left
+std::vector<std::string> leave_out_nearly_empty(RecordingFile& recording,
+                                                const DiagnosisSetup& setup);
+
 /// Leaves out forces and torque where two of them and more follow the model divided by what a
 /// kilogram weighs: whatever physics would be said to be missing would be that of a unit. One alone
 /// stays, as an amplifier on another range would do that. \returns what is told of it

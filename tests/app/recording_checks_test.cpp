@@ -160,6 +160,36 @@ TEST(RecordingChecks, SeveralForcesInKilogramsAreLeftOutAndOneAloneStays) {
             std::string::npos);
 }
 
+TEST(RecordingChecks, AChannelOfAHandfulOfValuesIsLeftOutUnlessTheSetupTellsItsNoise) {
+  const auto with_values = [](int values, std::vector<Channel> channels) {
+    RecordingFile file = changed([left = values](WheelRun& run) mutable {
+      if (left-- <= 0) {
+        run.measured[static_cast<std::size_t>(Channel::kSinkage)] = WheelRun::kNotMeasured;
+      }
+    });
+    file.recording.channels = std::move(channels);
+    return file;
+  };
+  const std::vector<Channel> all{Channel::kFx, Channel::kFy, Channel::kTorque, Channel::kSinkage};
+  RecordingFile three = with_values(3, all);
+  const std::vector<std::string> told = leave_out_nearly_empty(three, simulant());
+  ASSERT_EQ(told.size(), 1u);
+  expect_words(told[0], {"r.csv: sinkage_m is left out: values in 3 of 12 rows tell",
+                         "in 4 and more, or noise: {sinkage_m: ...} in the setup"});
+  EXPECT_EQ(three.recording.channels, (std::vector{Channel::kFx, Channel::kFy, Channel::kTorque}));
+  EXPECT_TRUE(std::isnan(three.recording.runs[0].value(Channel::kSinkage)));
+
+  RecordingFile four = with_values(4, all);
+  EXPECT_TRUE(leave_out_nearly_empty(four, simulant()).empty());
+  DiagnosisSetup with_noise = simulant();
+  with_noise.noise_standard_deviation[Channel::kSinkage] = 5e-4;
+  EXPECT_TRUE(leave_out_nearly_empty(three = with_values(3, all), with_noise).empty());
+
+  RecordingFile alone = with_values(3, {Channel::kSinkage});
+  expect_words(error_text([&] { leave_out_nearly_empty(alone, simulant()); }),
+               {"no other channel is measured"});
+}
+
 TEST(RecordingChecks, ASideForceThatOpposesTheConventionIsReported) {
   const auto warnings =
       doubtful_values(changed([](WheelRun& run) { scale(run, Channel::kFy, -1); }), simulant());
