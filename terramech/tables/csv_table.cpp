@@ -26,6 +26,12 @@ bool is_row_index(std::size_t column, std::string_view cell) {
   return column == 0 && cell.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
+/// For an error in a line that was meant as a comment.
+std::string_view comment_hint(const std::vector<std::string>& cells) {
+  if (!trimmed(cells.front()).starts_with('#')) return "";
+  return "; comments (lines that begin with #) are not read";
+}
+
 }  // namespace
 
 std::optional<std::string> meant_column(std::string_view written,
@@ -66,7 +72,7 @@ std::optional<std::size_t> CsvTable::find_column(std::string_view sought) const 
 
 std::size_t CsvTable::column(std::string_view sought) const {
   const auto found = find_column(sought);
-  if (!found) throw error(fmt::format("column {} is missing", sought));
+  if (!found) throw error(fmt::format("column {} is missing{}", sought, comment_hint(columns_)));
   return *found;
 }
 
@@ -86,7 +92,8 @@ std::optional<CsvTable::Cells> CsvTable::next() {
   if (!cells) return {};
   if (holds_zero_byte(*cells)) throw TornRowError(error("a zero byte (allowed: text in UTF-8)"));
   if (cells->size() != width_) {
-    throw TornRowError(error(fmt::format("{} cells (the header has {})", cells->size(), width_)));
+    throw TornRowError(error(fmt::format("{} cells (the header has {}){}", cells->size(), width_,
+                                         comment_hint(*cells))));
   }
   return named(*cells);
 }
@@ -114,9 +121,10 @@ double CsvTable::number(const Cells& cells, std::size_t index, const ValueRange&
   const std::string& cell = cells[index];
   const std::optional<double> value = parse_number(cell);
   if (value && allowed.contains(*value)) return *value;
-  const std::string what = fmt::format("{}: {} is not valid (allowed: {}){}{}", columns_[index],
-                                       cell.empty() ? "an empty cell" : cell, allowed.text(),
-                                       hint.empty() ? "" : "; ", hint);
+  const std::string what =
+      fmt::format("{}: {} is not valid (allowed: {}){}{}{}", columns_[index],
+                  cell.empty() ? "an empty cell" : cell, allowed.text(), hint.empty() ? "" : "; ",
+                  hint, value ? "" : comment_hint(cells));
   if (!value) throw error(what);
   throw OutOfRangeError(
       error(what),

@@ -195,6 +195,18 @@ TEST(RecordingFile, AnIgnoredColumnIsHeldAgainstTheKnownOnesThatAreNotGiven) {
             (std::vector<std::string>{"Fy [N] (did you mean fy_n?)", "fx_n [N]", "oven"}));
 }
 
+TEST(RecordingFile, AMeantCommentIsToldThatCommentsAreNotRead) {
+  const std::string unread = "; comments (lines that begin with #) are not read";
+  EXPECT_EQ(error_text([] { read(std::string("# bed 3, loose\n") + kRecording); }),
+            "r.csv:1: column run_id is missing" + unread);
+  EXPECT_EQ(recording_error("r2,", "# pause\nr2,"),
+            "r.csv:3: 1 cells (the header has 12)" + unread);
+  EXPECT_EQ(recording_error("r2,2020-11-17,,65.1", "# r2,2020-11-17,,off"),
+            "r.csv:3: load_n: off is not valid (allowed: above 0 to 1000000000)" + unread);
+  // A run may be called so.
+  EXPECT_EQ(read(replaced(kRecording, "r2,", "#2,")).recording.runs[1].run_id, "#2");
+}
+
 TEST(RecordingFile, MissingColumnsAreNamed) {
   for (const char* column : {"run_id", "load_n", "slip_ratio", "slip_angle_deg"}) {
     EXPECT_EQ(recording_error(column, "other"),
