@@ -91,11 +91,27 @@ std::vector<std::int16_t> soil_of_cells(const ClassRaster& classes, const SoilCa
                   fmt::join(found, ", "), fmt::join(listed, ", ")));
 }
 
+struct Interval_m {
+  double from, to;
+};
+
+/// The widest interval of whole millimetres that lies within another.
+Interval_m within(double from_m, double to_m) {
+  constexpr double kPerMetre = 1000;
+  const auto to_millimetres = [](double value_m, double (*inwards)(double)) {
+    const double nearest_m = std::round(value_m * kPerMetre) / kPerMetre;
+    // A bound that is told in millimetres stays what it is, whatever 1000 times it is rounded to.
+    return nearest_m == value_m ? value_m : inwards(value_m * kPerMetre) / kPerMetre + 0.0;
+  };
+  return {to_millimetres(from_m, std::ceil), to_millimetres(to_m, std::floor)};
+}
+
 }  // namespace
 
 std::string extent_text(const GridFrame& frame) {
-  return fmt::format("x {} to {} m, y {} to {} m", frame.west_m, frame.east_m(), frame.south_m(),
-                     frame.north_m);
+  const Interval_m x = within(frame.west_m, frame.east_m());
+  const Interval_m y = within(frame.south_m(), frame.north_m);
+  return fmt::format("x {} to {} m, y {} to {} m", x.from, x.to, y.from, y.to);
 }
 
 bool overlap(const GridFrame& a, const GridFrame& b) {

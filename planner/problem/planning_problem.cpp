@@ -22,11 +22,9 @@ void require(const char* field, double value, bool valid, const char* allowed) {
 }
 
 void validate_place(const TerrainMap& map, const char* what, double x_m, double y_m) {
-  const GridFrame& frame = map.elevation().frame;
   if (!map.inside(x_m, y_m)) {
-    throw InputError(
-        fmt::format("{}: ({}, {}) lies outside the map (allowed: x_m {} to {}, y_m {} to {})", what,
-                    x_m, y_m, frame.west_m, frame.east_m(), frame.south_m(), frame.north_m));
+    throw InputError(fmt::format("{}: ({}, {}) lies outside the map (allowed: {})", what, x_m, y_m,
+                                 extent_text(map.elevation().frame)));
   }
   if (std::isnan(map.height_m(x_m, y_m))) {
     throw InputError(
