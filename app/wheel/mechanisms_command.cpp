@@ -239,7 +239,10 @@ std::string ids_of_others() {
 [[noreturn]] void refuse(const std::string& id) {
   if (id.empty()) throw InputError("ID: empty, names no mechanism");
   std::vector<std::string> ids = mechanism_ids();
-  for (const OtherName& other : other_names()) ids.emplace_back(other.id);
+  for (const OtherName& other : other_names()) {
+    // Whoever misspells a mechanism does not mean that nothing is missing.
+    if (other.id != "none") ids.emplace_back(other.id);
+  }
   throw InputError(fmt::format("mechanism id: {} is not known ({})", id, name_hint(id, ids)));
 }
 

@@ -375,6 +375,8 @@ TEST_F(Program, AMisspeltMechanismIsToldTheLikeliest) {
                    {misspelt + " is not known (did you mean slip_sinkage?)"});
   }
   expect_refusal(run("mechanisms sensor_gainn"), {"did you mean sensor_gain?"});
+  // "none" is a word of rankings and no mechanism that anybody looks for.
+  expect_refusal(run("mechanisms nope"), {"nope is not known (known: ", "grousers"});
 }
 
 TEST_F(Program, AMechanismWithoutANameIsRefused) {
