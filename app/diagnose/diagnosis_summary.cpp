@@ -38,6 +38,16 @@ std::string names_text(const Claim& claim) {
   return text;
 }
 
+/// Why shares may be more than the whole, where they are.
+std::string above_all_text(const Diagnosis& diagnosis) {
+  double sum = 0;
+  for (const Claim& claim : diagnosis.claims) sum += claim.share ? claim.share->explained : 0;
+  constexpr double kMoreThanAll = 1.0005;  // what is told as 100.1 % and more
+  if (sum < kMoreThanAll) return "";
+  return "         above 100 %: on held-out runs the rest is less than the noise leads one to "
+         "expect\n";
+}
+
 /// The probability of each claim, alone or beside others, and its share where that was measured.
 std::string claims_text(const Diagnosis& diagnosis) {
   std::string text;
@@ -50,7 +60,7 @@ std::string claims_text(const Diagnosis& diagnosis) {
     }
     text += "\n";
   }
-  return text;
+  return text + above_all_text(diagnosis);
 }
 
 /// The candidates that compete, each the whole of what is missing; they sum to 1, and a claim's

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/diagnose/diagnosis_summary.h"
 #include "app/settings/model_settings.h"
 #include "tests/app/diagnosis_fixture.h"
 #include "tests/scratch_folder.h"
@@ -16,6 +17,17 @@ using Json = nlohmann::json;
 
 Json parsed(const DiagnosisRun& run) {
   return Json::parse(diagnosis_json(run));
+}
+
+TEST(DiagnosisSummary, SaysWhySharesAreMoreThanTheWhole) {
+  DiagnosisRun run = claimed_diagnosis();
+  const std::string why = "above 100 %: on held-out runs the rest is less than the noise";
+  run.diagnosis.claims[0].share = Share{.explained = 1.007, .low = 1.0, .high = 1.01};
+  const std::string above = diagnosis_summary(run);
+  EXPECT_NE(above.find("share 100.7 % (100.0 to 101.0)"), std::string::npos) << above;
+  EXPECT_NE(above.find(why), std::string::npos) << above;
+  run.diagnosis.claims[0].share = Share{.explained = 1.0, .low = 0.99, .high = 1.01};
+  EXPECT_EQ(diagnosis_summary(run).find(why), std::string::npos);
 }
 
 TEST(DiagnosisJson, HoldsTheVerdictAndItsClaims) {
