@@ -27,11 +27,11 @@ int significant_digits(std::string_view cell) {
   return static_cast<int>(digits.find_last_not_of('0') - first) + 1;
 }
 
-/// Where runs have to be alike for one to be a replicate of the other; day, time and place may be
-/// others.
-using Place = std::tuple<double, double, double, int, double, double, std::string>;
+/// What two runs have to share for one to be a replicate of the other; day, time and position may
+/// be others.
+using Commanded = std::tuple<double, double, double, int, double, double, std::string>;
 
-Place place_of(const WheelRun& run) {
+Commanded commanded(const WheelRun& run) {
   const WheelConditions& at = run.conditions;
   return {run.load_n,   run.slip_ratio,     run.slip_angle_rad, at.pass,
           at.speed_mps, at.wheel_angle_rad, run.wheel};
@@ -41,14 +41,14 @@ double pairs_among(std::size_t runs) {
   return static_cast<double>(runs) * (static_cast<double>(runs) - 1) / 2;
 }
 
-/// What runs at one place have in common, to the last digit.
+/// What runs at the same conditions have in common, to the last digit.
 class Repeats {
  public:
   explicit Repeats(const RecordingFile& file) : file_(file) {
-    std::map<Place, std::vector<std::size_t>> runs_at;
+    std::map<Commanded, std::vector<std::size_t>> alike;
     const std::vector<WheelRun>& runs = file.recording.runs;
-    for (std::size_t i = 0; i < runs.size(); ++i) runs_at[place_of(runs[i])].push_back(i);
-    for (const auto& [place, at] : runs_at) compare(at);
+    for (std::size_t i = 0; i < runs.size(); ++i) alike[commanded(runs[i])].push_back(i);
+    for (const auto& [conditions, same] : alike) compare(same);
   }
 
   /// Runs whose values are those of an earlier run, each with the first such.
@@ -132,9 +132,8 @@ std::optional<std::string> leave_out_copies(RecordingFile& file) {
   const auto [copy, original] = *copies.begin();
   const std::string told = fmt::format(
       "{}: {} of {} rows have load, slip, slip angle and every measured value of an earlier row, "
-      "to "
-      "the last digit (run_id {} in line {} those of {} in line {}); they are left out: a copy is "
-      "no replicate",
+      "to the last digit (run_id {} in line {} those of {} in line {}); they are left out: a copy "
+      "is no replicate",
       file.file, copies.size(), file.recording.runs.size(), file.recording.runs[copy].run_id,
       file.lines[copy], file.recording.runs[original].run_id, file.lines[original]);
   erase_at(file.recording.runs, copies);
