@@ -92,6 +92,11 @@ for (const kind of KINDS)
     test('a figure saves as SVG, PNG and CSV', async () => {
       const figure = page.locator('figure.chart').first();
       await figure.locator('summary').click();
+      // Chromium makes a picture between two frames: a second later where the page stands still.
+      await page.evaluate(() => {
+        const again = () => requestAnimationFrame(again);
+        again();
+      });
       const saved = {};
       for (const type of ['SVG', 'PNG', 'CSV']) {
         const [file] = await Promise.all(
