@@ -165,6 +165,7 @@ bool is_good(const Scored& s) {
   switch (s.truth->stratum) {
     case Stratum::kNulls:
     case Stratum::kNullsByRun:
+    case Stratum::kNullsOfFew:
       return s.score.silent;
     case Stratum::kParameters:
       return s.score.is_parameters;
@@ -242,10 +243,7 @@ std::string signal_table(const std::vector<Scored>& all) {
       "\n## As asked, by signal after calibration (the weakest cause)\n\n"
       "| stratum | 5-8 sigma | 8-15 | 15-40 | above |\n|---|---|---|---|---|\n";
   for (const Stratum stratum : strata()) {
-    if (stratum == Stratum::kNulls || stratum == Stratum::kNullsByRun ||
-        stratum == Stratum::kParameters) {
-      continue;
-    }
+    if (is_null(stratum) || stratum == Stratum::kParameters) continue;
     text += fmt::format("| {} |", name(stratum));
     for (std::size_t i = 0; i + 1 < kSignalBins.size(); ++i) {
       int good = 0, cases = 0;
@@ -326,7 +324,7 @@ std::vector<Measure> measures(const std::vector<CaseResult>& results, const std:
   const auto right = [](const Scored& s) { return s.score.right; };
   const auto exact = [](const Scored& s) { return s.score.exact; };
   using enum Stratum;
-  for (const Stratum nulls : {kNulls, kNullsByRun}) {
+  for (const Stratum nulls : {kNulls, kNullsByRun, kNullsOfFew}) {
     count(nulls, "false missing physics", true, 0.02,
           [](const Scored& s) { return !s.score.silent; });
   }

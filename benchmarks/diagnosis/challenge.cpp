@@ -12,13 +12,14 @@ namespace regoplan::challenge {
 namespace {
 
 constexpr double kOneEffectSigma = 5, kClearSigma = 8, kWrongSoilSigma = 10;
+constexpr std::size_t kFewestRunsKept = 20;
 constexpr int kTriesOfOneEffect = 25;  // then the next of the list has its turn
 
 struct NamedStratum {
   Stratum stratum;
   std::string_view name;
 };
-constexpr std::array<NamedStratum, 12> kNames{{{Stratum::kNulls, "nulls"},
+constexpr std::array<NamedStratum, 13> kNames{{{Stratum::kNulls, "nulls"},
                                                {Stratum::kParameters, "parameters"},
                                                {Stratum::kInstruments, "instruments"},
                                                {Stratum::kOneEffect, "one_effect"},
@@ -29,7 +30,8 @@ constexpr std::array<NamedStratum, 12> kNames{{{Stratum::kNulls, "nulls"},
                                                {Stratum::kDrift, "drift"},
                                                {Stratum::kLargeFaults, "large_faults"},
                                                {Stratum::kDriftByRun, "drift_by_run"},
-                                               {Stratum::kNullsByRun, "nulls_by_run"}}};
+                                               {Stratum::kNullsByRun, "nulls_by_run"},
+                                               {Stratum::kNullsOfFew, "nulls_of_few"}}};
 
 /// Everything that makes a recording, before it is recorded.
 struct Plan {
@@ -292,6 +294,11 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
     }
     case Stratum::kNullsByRun:
       return planned_by_run(random, {});
+    case Stratum::kNullsOfFew: {
+      Plan plan = planned(random, {});
+      if (plan.rig.replicates < 2) return std::nullopt;
+      return plan;
+    }
     case Stratum::kRutHidden:
     case Stratum::kRutShown: {
       static const std::vector<TruthEffect> kRuts = rut_effects();
@@ -302,7 +309,18 @@ std::optional<Plan> attempt(Random& random, Stratum stratum, std::uint64_t turn)
   return std::nullopt;
 }
 
+/// Keeps a third to a half of the runs, so that only some conditions keep a replicate.
+void thin_out(Random& random, Recording& recording) {
+  const double kept = uniform(random, 0.33, 0.5);
+  std::erase_if(recording.runs, [&](const WheelRun&) { return !chance(random, kept); });
+}
+
 }  // namespace
+
+bool is_null(Stratum stratum) {
+  using enum Stratum;
+  return stratum == kNulls || stratum == kNullsByRun || stratum == kNullsOfFew;
+}
 
 const std::vector<Stratum>& strata() {
   static const std::vector<Stratum> all = [] {
@@ -334,6 +352,10 @@ Challenge generate(Stratum stratum, std::uint64_t seed, std::uint64_t index) {
     if (!plan) continue;
     auto recording = record(random, plan->rig, plan->noise, plan->effects, plan->faults);
     if (!recording) continue;
+    if (stratum == Stratum::kNullsOfFew) {
+      thin_out(random, *recording);
+      if (recording->runs.size() < kFewestRunsKept) continue;
+    }
     plan->truth.stratum = stratum;
     plan->truth.index = index;
     plan->truth.soil = plan->rig.soil;

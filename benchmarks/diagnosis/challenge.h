@@ -22,7 +22,11 @@ enum class Stratum {
   kLargeFaults,  ///< as kInstruments, larger than those, or a sensor that is turned
   kDriftByRun,   ///< one effect that follows time or the day, every run at a time of its own
   kNullsByRun,   ///< as kNulls, every run at a time of its own, noise with a memory in half of them
+  kNullsOfFew,   ///< as kNulls, a third to a half of the runs kept by chance: few replicates
 };
+
+/// Whether nothing is wrong in it.
+bool is_null(Stratum stratum);
 
 const std::vector<Stratum>& strata();
 std::string_view name(Stratum stratum);

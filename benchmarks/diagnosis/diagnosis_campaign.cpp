@@ -49,8 +49,7 @@ std::vector<CaseKey> keys_of(const Plan& plan) {
   std::vector<CaseKey> keys;
   for (std::uint64_t index = 0; index < std::max(plan.nulls, plan.others); ++index) {
     for (const Stratum stratum : strata()) {
-      const bool is_null = stratum == Stratum::kNulls || stratum == Stratum::kNullsByRun;
-      const std::uint64_t count = is_null ? plan.nulls : plan.others;
+      const std::uint64_t count = is_null(stratum) ? plan.nulls : plan.others;
       const bool wanted =
           plan.only.empty() || std::ranges::count(plan.only, std::string(name(stratum)));
       if (wanted && index < count) keys.push_back({stratum, index});

@@ -85,6 +85,16 @@ TEST(Challenge, RecordsFortyToAHundredAndThirtyRuns) {
   }
 }
 
+TEST(Challenge, NullsOfFewRepeatFewConditions) {
+  for (std::uint64_t index = 0; index < 4; ++index) {
+    const Challenge made = generate(Stratum::kNullsOfFew, 7, index);
+    EXPECT_TRUE(made.truth.causes.empty());
+    EXPECT_TRUE(made.setup.noise_standard_deviation.empty());
+    EXPECT_GE(made.recording.runs.size(), 20);
+    EXPECT_LE(made.recording.runs.size(), 90);
+  }
+}
+
 TEST(Challenge, StatesTheNoiseThatItMakes) {
   int stated = 0;
   for (std::uint64_t index = 0; index < 6; ++index) {
