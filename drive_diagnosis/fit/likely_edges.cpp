@@ -85,16 +85,13 @@ class EdgeSearch {
 
   LikelyEdges likeliest() const {
     const WindowZone& zone = zones_.back();
-    const auto all = static_cast<double>(windows_.comparison.size());
-    const auto about = [all](double edge) {
-      return std::array{std::max(0.0, edge - kEdgeErr), std::min(all, edge + kEdgeErr)};
-    };
+    const WindowZone widest = windows_.comparison.widened(zone, kEdgeErr);
     LikelyEdges edges{.at = {.begins = zone.begins,
                              .ends = zone.ends,
                              .begins_slant = zone.begins_slant,
                              .ends_slant = zone.ends_slant},
-                      .begins_ci95 = about(zone.begins),
-                      .ends_ci95 = about(zone.ends)};
+                      .begins_ci95 = {widest.begins, zone.begins + kEdgeErr},
+                      .ends_ci95 = {zone.ends - kEdgeErr, widest.ends}};
     const auto take = [](std::array<double, 2>& range, double value) {
       range = {std::min(range[0], value), std::max(range[1], value)};
     };

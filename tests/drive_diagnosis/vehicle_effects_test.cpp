@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "tests/drive_diagnosis/simulated_drive.h"
 
@@ -17,19 +19,49 @@ struct Diagnosed {
   std::vector<std::string> told;  ///< news and stages, in their order
 };
 
-Diagnosed diagnosed(const SimulatedDrive& drive) {
+const TerrainMap& map_of_all() {
   static const TerrainMap kMap = rolling_map();
-  Diagnosed result{.drives = {record(drive, kMap)}, .windows = {}, .effects = {}, .told = {}};
-  result.windows = drive_windows(result.drives[0], 0, 5, 0.3);
+  return kMap;
+}
+
+Diagnosed diagnosed(std::vector<DriveRecording> drives) {
+  Diagnosed result{.drives = std::move(drives), .windows = {}, .effects = {}, .told = {}};
+  for (std::size_t i = 0; i < result.drives.size(); ++i) {
+    std::ranges::copy(drive_windows(result.drives[i], i, 5, 0.3),
+                      std::back_inserter(result.windows));
+  }
   const EffectSearchSettings settings{
       .seed = 7,
       .progress = [&](std::string_view stage,
                       double) { result.told.push_back("stage: " + std::string(stage)); },
       .news = [&](const std::string& text) { result.told.push_back("news: " + text); }};
-  result.effects = find_vehicle_effects(result.drives, result.windows, kMap, preset_vehicle("lrv"),
-                                        1.62, settings)
+  result.effects = find_vehicle_effects(result.drives, result.windows, map_of_all(),
+                                        preset_vehicle("lrv"), 1.62, settings)
                        .effects;
   return result;
+}
+
+Diagnosed diagnosed(const SimulatedDrive& drive) {
+  return diagnosed(std::vector{record(drive, map_of_all())});
+}
+
+/// The rows before and from `row` on as drives of their own, the clock of the second set back to 0.
+std::vector<DriveRecording> cut(const DriveRecording& whole, std::size_t row) {
+  std::vector<DriveRecording> parts(2, whole);
+  const auto keep = [&](std::size_t part, auto& values) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(row);
+    part == 0 ? values.erase(at, values.end()) : values.erase(values.begin(), at);
+  };
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    parts[part].drive_id = part == 0 ? "before" : "after";
+    for (auto* values : {&parts[part].time_s, &parts[part].x_m, &parts[part].y_m}) {
+      keep(part, *values);
+    }
+    for (DriveChannel& channel : parts[part].channels) keep(part, channel.values);
+  }
+  const double from_s = parts[1].time_s.front();
+  for (double& time_s : parts[1].time_s) time_s -= from_s;
+  return parts;
 }
 
 std::string said(const VehicleEffects& effects) {
@@ -101,6 +133,25 @@ TEST(VehicleEffects, AWeakZoneOfThirtyMetresIsFoundWhereItLiesAndToldBeforeItIsF
     EXPECT_NEAR(weak.windows[zone.last].x_m, 170, window_m) << said(*weak.effects);
     EXPECT_GT(zone.resistance.value, 0);
     expect_told_before_it_is_fitted(weak.told);
+  }
+}
+
+TEST(VehicleEffects, AZoneThatIsCutInTwoFilesBeginsAndEndsInTheTimesOfEach) {
+  const DriveRecording whole = record(
+      {.weakness = [](double x_m) { return x_m > 140 && x_m < 190 ? 4.0 : 0.0; }, .seed = 11},
+      map_of_all());
+  const auto middle = std::ranges::find_if(whole.x_m, [](double x_m) { return x_m > 165; });
+  const Diagnosed parts =
+      diagnosed(cut(whole, static_cast<std::size_t>(middle - whole.x_m.begin())));
+  ASSERT_TRUE(parts.effects);
+  ASSERT_FALSE(parts.effects->found.empty());
+  for (const VehicleFinding& found : parts.effects->found) {
+    ASSERT_TRUE(found.zone) << said(*parts.effects);
+    const std::vector<double>& time_s = parts.drives[found.zone->drive].time_s;
+    EXPECT_LE(found.zone->start_s[0], found.zone->start_s[1]);
+    EXPECT_LE(found.zone->end_s[0], found.zone->end_s[1]);
+    EXPECT_GE(found.zone->start_s[0], time_s.front());
+    EXPECT_LE(found.zone->end_s[1], time_s.back());
   }
 }
 
