@@ -131,7 +131,8 @@ std::optional<std::string> leave_out_copies(RecordingFile& file) {
   if (copies.empty() || count <= kBeyondChance * repeats.pairs_by_chance()) return std::nullopt;
   const auto [copy, original] = *copies.begin();
   const std::string told = fmt::format(
-      "{}: {} of {} rows have load, slip, slip angle and every measured value of an earlier row, "
+      "{}: load, slip, slip angle and every measured value of {} of {} rows are those of an "
+      "earlier row, "
       "to the last digit (run_id {} in line {} those of {} in line {}); they are left out: a copy "
       "is no replicate",
       file.file, copies.size(), file.recording.runs.size(), file.recording.runs[copy].run_id,

@@ -52,7 +52,7 @@ Command add_plan_command(CLI::App& program) {
       program.add_subcommand("plan",
                              "Find, verify and rank paths.\n"
                              "Writes plan.json, candidate-K.csv, candidate-K.geojson, report.html, "
-                             "and, unless infeasible, margin.tif, supply.tif and probability.tif.");
+                             "and, with paths, margin.tif, supply.tif and probability.tif.");
   parser->add_option("SCENARIO.yaml", options->scenario, "map, vehicle, start, goal, limits");
   parser
       ->add_option("--again", options->again,

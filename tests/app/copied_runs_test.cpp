@@ -35,7 +35,7 @@ TEST(CopiedRuns, AreLeftOutUnderAnotherNameAndOnAnotherDay) {
   EXPECT_EQ(
       file.recording.warnings,
       std::vector<std::string>{
-          "r.csv: 3 of 5 rows have load, slip, slip angle and every measured value of an "
+          "r.csv: load, slip, slip angle and every measured value of 3 of 5 rows are those of an "
           "earlier row, to the last digit (run_id c in line 4 those of a in line 2); they are "
           "left out: a copy is no replicate"});
 }
