@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -117,8 +116,8 @@ class Repeats {
 
 template <class Item>
 void erase_at(std::vector<Item>& items, const std::map<std::size_t, std::size_t>& at) {
-  for (const auto& [index, original] : std::ranges::reverse_view(at)) {
-    items.erase(items.begin() + static_cast<std::ptrdiff_t>(index));
+  for (auto one = at.rbegin(); one != at.rend(); ++one) {
+    items.erase(items.begin() + static_cast<std::ptrdiff_t>(one->first));
   }
 }
 
