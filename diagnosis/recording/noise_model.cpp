@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/recording/replicate_covariance.h"
 #include "diagnosis/recording/replicates.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/input_error.h"
@@ -87,18 +87,19 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
   const double rms = std::max(std::sqrt(rows.signal.squaredNorm() / n), 1e-300);
   const Eigen::VectorXd signal = rows.signal / rms;
   const Eigen::VectorXd inverse_weight = rows.of(noise.weight).cwiseInverse();
-  const Eigen::MatrixXd& contrasts = rows.contrasts;
-  const Eigen::VectorXd e = contrasts * rows.value;
-  const Eigen::VectorXd column = by.trend.empty() ? Eigen::VectorXd::Zero(e.size())
-                                                  : Eigen::VectorXd(contrasts * rows.of(by.trend));
-  const Eigen::MatrixXd offset_part = contrasts * rows.same_day * contrasts.transpose();
-  const Eigen::MatrixXd gain_part = contrasts *
-                                    (signal.asDiagonal() * rows.same_day * signal.asDiagonal()) *
-                                    contrasts.transpose();
+  const auto contrasts = static_cast<double>(rows.contrasts());
+  const bool follows = !by.trend.empty();
+  const Eigen::VectorXd trend = follows ? rows.of(by.trend) : Eigen::VectorXd();
+  // What the runs of a day share: an offset, and a share of the signal.
+  const Eigen::Index days = by.days ? rows.of_day.cols() : 0;
+  Eigen::MatrixXd shared(signal.size(), 2 * days);
+  shared.leftCols(days) = rows.of_day.leftCols(days);
+  shared.rightCols(days) = signal.asDiagonal() * rows.of_day.leftCols(days);
+  Eigen::VectorXd deviations(2 * days);
   double best = -INFINITY;
   const std::vector<double> grid(kSteps.begin(), kSteps.end());
   const std::vector<double> none{0};
-  const bool may_grow = e.size() >= kTellsGrowth;
+  const bool may_grow = rows.contrasts() >= kTellsGrowth;
   const std::vector<double>& proportional_grid = may_grow ? grid : none;
   const std::vector<double>& day_grid = by.days ? grid : none;
   const std::vector<double>& day_gain_grid = by.days && may_grow ? grid : none;
@@ -106,20 +107,21 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
   for (const double p : proportional_grid) {
     const Eigen::VectorXd variance =
         (inverse_weight.array() * (1 + p * p * signal.array().square())).matrix();
-    const Eigen::MatrixXd own = contrasts * variance.asDiagonal() * contrasts.transpose();
+    ReplicateCovariance covariance(rows, variance, shared);
     for (std::size_t k = 0; k < day_grid.size(); ++k) {
       const double d = day_grid[k];
       for (const double g : day_gain_grid) {
         throw_if_stopped(by.stop);
-        const Eigen::LLT<Eigen::MatrixXd> factor(own + d * d * offset_part + g * g * gain_part);
-        const Eigen::VectorXd solved = factor.solve(column);
-        const double weight = column.dot(solved);
-        const double factor_of_trend = weight > 0 ? e.dot(solved) / weight : 0;
-        const double s2 = (e.dot(factor.solve(e)) - factor_of_trend * e.dot(solved)) /
-                          static_cast<double>(e.size());
-        const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
+        deviations.head(days).setConstant(d);
+        deviations.tail(days).setConstant(g);
+        covariance.share(deviations);
+        const double weight = follows ? covariance.product(trend, trend) : 0;
+        const double along = weight > 0 ? covariance.product(rows.value, trend) : 0;
+        const double factor_of_trend = weight > 0 ? along / weight : 0;
+        const double s2 =
+            (covariance.product(rows.value, rows.value) - factor_of_trend * along) / contrasts;
         const double others =
-            -0.5 * (static_cast<double>(e.size()) * std::log(s2) + log_det + (p > 0) + (g > 0));
+            -0.5 * (contrasts * std::log(s2) + covariance.log_determinant() + (p > 0) + (g > 0));
         const double score = others - 0.5 * (d > 0);
         if (by.days) {
           noise.day_log_likelihood[k] = std::max(noise.day_log_likelihood[k], others);
@@ -134,9 +136,8 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
         noise.day_gain = g * noise.constant / rms;
         // What days and the other parts that were fitted take of the contrasts tells nothing of a
         // run's own scatter.
-        const double own_share = factor.solve(own).trace();
-        noise.degrees_of_freedom =
-            std::max(1, static_cast<int>(std::lround(own_share)) - (p > 0) - (weight > 0));
+        noise.degrees_of_freedom = std::max(
+            1, static_cast<int>(std::lround(covariance.own_share())) - (p > 0) - (weight > 0));
       }
     }
   }

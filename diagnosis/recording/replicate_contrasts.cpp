@@ -26,14 +26,11 @@ ReplicateContrasts::ReplicateContrasts(const Recording& recording,
                                        const ChannelNoise& plain) {
   rows_ = rows_of(recording, replicates_of(conditions, adjusted), adjusted);
   const Eigen::VectorXd& signal = rows_.signal;
-  const Eigen::MatrixXd& contrasts = rows_.contrasts;
   const Eigen::VectorXd weight = rows_.of(plain.weight);
   Eigen::VectorXd own(signal.size());
   for (Eigen::Index i = 0; i < own.size(); ++i) {
     own[i] = std::pow(run_deviation(plain, signal[i]), 2) / weight[i];
   }
-  e_ = contrasts * rows_.value;
-  const Eigen::MatrixXd within = contrasts * own.asDiagonal() * contrasts.transpose();
   // By more than days usually do they differ for a reason, which a column may tell. Of signals that
   // are much alike, an offset passes for a share of the signal.
   const double usual = usual_deviation(plain, {signal.begin(), signal.end()});
@@ -42,41 +39,37 @@ ReplicateContrasts::ReplicateContrasts(const Recording& recording,
   const double beyond = (std::pow(plain.day_gain, 2) - gain * gain) * size * size;
   const double offset = std::min(std::sqrt(std::pow(plain.day_offset, 2) + beyond),
                                  Thresholds::kUsualDay_deviations * usual);
-  const Eigen::MatrixXd of_days =
-      (offset * offset + gain * gain * (signal * signal.transpose()).array()) *
-      rows_.same_day.array();
-  const Eigen::MatrixXd days = contrasts * of_days * contrasts.transpose();
-  const bool has_days = !plain.day_assumed && plain.day_offset + plain.day_gain > 0;
-  for (const bool with_days : {true, false}) {
-    if (with_days && !has_days) continue;
-    Covariance& at = covariances_.emplace_back();
-    at.factor.compute(with_days ? Eigen::MatrixXd(within + days) : within);
-    at.score = score(at, e_.dot(at.factor.solve(e_)));
+  Eigen::MatrixXd of_days(signal.size(), 2 * rows_.of_day.cols());
+  of_days << offset * rows_.of_day, gain * (signal.asDiagonal() * rows_.of_day);
+  if (!plain.day_assumed && plain.day_offset + plain.day_gain > 0) {
+    covariances_.emplace_back(rows_, own, of_days);
   }
+  covariances_.emplace_back(rows_, own, Eigen::MatrixXd(signal.size(), 0));
 }
 
-double ReplicateContrasts::score(const Covariance& covariance, double misfit) const {
-  const auto m = static_cast<double>(e_.size());
-  const double log_det = 2 * covariance.factor.matrixLLT().diagonal().array().log().sum();
-  return -0.5 * (m * std::log(misfit / m) + log_det);
+double ReplicateContrasts::score(const ReplicateCovariance& covariance, double misfit) const {
+  const auto m = static_cast<double>(rows_.contrasts());
+  return -0.5 * (m * std::log(misfit / m) + covariance.log_determinant());
 }
 
 double ReplicateContrasts::gain(const std::vector<double>& trend) const {
   constexpr double kRounding = 1e-9;
-  const Eigen::VectorXd followed = rows_.of(trend), column = rows_.contrasts * followed;
-  if (column.norm() <= kRounding * followed.norm()) return 0;  // alike for all replicates
+  const Eigen::VectorXd followed = rows_.of(trend), &value = rows_.value;
+  const ReplicateCovariance alike(rows_, Eigen::VectorXd::Ones(value.size()),
+                                  Eigen::MatrixXd(value.size(), 0));
+  const double varies = std::sqrt(alike.product(followed, followed));
+  if (varies <= kRounding * followed.norm()) return 0;  // alike for all replicates
   double before = -INFINITY, after = -INFINITY;
-  for (const Covariance& covariance : covariances_) {
-    const Eigen::VectorXd solved = covariance.factor.solve(column);
-    const double weight = column.dot(solved);
+  for (const ReplicateCovariance& covariance : covariances_) {
+    const double weight = covariance.product(followed, followed);
     if (!(weight > 0)) continue;
-    const double misfit =
-        e_.dot(covariance.factor.solve(e_)) - std::pow(e_.dot(solved), 2) / weight;
-    before = std::max(before, covariance.score);
-    after = std::max(after, score(covariance, misfit));
+    const double plain = covariance.product(value, value);
+    const double along = covariance.product(value, followed);
+    before = std::max(before, score(covariance, plain));
+    after = std::max(after, score(covariance, plain - along * along / weight));
   }
   if (!std::isfinite(after)) return 0;
-  return worth_of_gain(static_cast<double>(e_.size())) * (after - before);
+  return worth_of_gain(static_cast<double>(rows_.contrasts())) * (after - before);
 }
 
 }  // namespace regoplan

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <vector>
 
 #include "diagnosis/recording/noise_model.h"
+#include "diagnosis/recording/replicate_covariance.h"
 #include "diagnosis/recording/replicates.h"
 
 namespace regoplan {
@@ -21,15 +22,10 @@ class ReplicateContrasts {
   double gain(const std::vector<double>& trend) const;
 
  private:
-  struct Covariance {
-    Eigen::LLT<Eigen::MatrixXd> factor;
-    double score = 0;  // without the trend's part
-  };
-  double score(const Covariance& covariance, double misfit) const;
+  double score(const ReplicateCovariance& covariance, double misfit) const;
 
   ReplicateRows rows_;
-  Eigen::VectorXd e_;  // contrasts of what was measured
-  std::vector<Covariance> covariances_;
+  std::vector<ReplicateCovariance> covariances_;  ///< with what days differ by, and without
 };
 
 }  // namespace regoplan

@@ -2,27 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace regoplan {
-
-namespace {
-
-Eigen::MatrixXd contrasts_of(const Replicates& replicates, Eigen::Index runs) {
-  Eigen::MatrixXd contrasts = Eigen::MatrixXd::Zero(replicates.contrasts, runs);
-  Eigen::Index row = 0, column = 0;
-  for (const auto& group : replicates.groups) {
-    for (std::size_t i = 1; i < group.size(); ++i, ++row) {
-      const double n = static_cast<double>(i);
-      contrasts.row(row).segment(column, static_cast<Eigen::Index>(i)).array() =
-          1 / std::sqrt(n * (n + 1));
-      contrasts(row, column + static_cast<Eigen::Index>(i)) = -n / std::sqrt(n * (n + 1));
-    }
-    column += static_cast<Eigen::Index>(group.size());
-  }
-  return contrasts;
-}
-
-}  // namespace
 
 Replicates replicates_of(const std::vector<Condition>& conditions,
                          const std::vector<double>& value) {
@@ -92,18 +74,18 @@ ReplicateRows rows_of(const Recording& recording, const Replicates& replicates,
   std::vector<double> centres(value.size());
   for (const auto& group : replicates.groups) {
     rows.runs.insert(rows.runs.end(), group.begin(), group.end());
+    rows.group.insert(rows.group.end(), group.size(), rows.groups++);
     for (const std::size_t run : group) centres[run] = centre(group, value);
   }
-  const auto n = static_cast<Eigen::Index>(rows.runs.size());
-  rows.contrasts = contrasts_of(replicates, n);
   rows.value = rows.of(value);
   rows.signal = rows.of(centres);
-  rows.same_day.resize(n, n);
-  for (Eigen::Index a = 0; a < n; ++a) {
-    for (Eigen::Index b = 0; b < n; ++b) {
-      rows.same_day(a, b) = recording.runs[rows.runs[static_cast<std::size_t>(a)]].day ==
-                            recording.runs[rows.runs[static_cast<std::size_t>(b)]].day;
-    }
+  std::map<double, Eigen::Index> days;
+  for (const std::size_t run : rows.runs) {
+    days.try_emplace(recording.runs[run].day, static_cast<Eigen::Index>(days.size()));
+  }
+  rows.of_day.setZero(rows.value.size(), static_cast<Eigen::Index>(days.size()));
+  for (Eigen::Index i = 0; i < rows.value.size(); ++i) {
+    rows.of_day(i, days.at(recording.runs[rows.runs[static_cast<std::size_t>(i)]].day)) = 1;
   }
   return rows;
 }

@@ -41,11 +41,13 @@ double centre(const std::vector<std::size_t>& group, const std::vector<double>& 
 /// Replicates of one channel in rows, a run each.
 struct ReplicateRows {
   std::vector<std::size_t> runs;
-  Eigen::MatrixXd contrasts;  ///< orthonormal, orthogonal to each group's mean (Helmert) x runs
+  std::vector<Eigen::Index> group;  ///< of each row, as they come
+  Eigen::Index groups = 0;
   Eigen::VectorXd value;
-  Eigen::VectorXd signal;    ///< where the run's group lies
-  Eigen::MatrixXd same_day;  ///< runs x runs, 1 or 0
+  Eigen::VectorXd signal;  ///< where the run's group lies
+  Eigen::MatrixXd of_day;  ///< rows x days, 1 where the run is of that day, or 0
 
+  Eigen::Index contrasts() const { return value.size() - groups; }
   /// What is known per run of the recording, in rows.
   Eigen::VectorXd of(const std::vector<double>& per_run) const;
 };
