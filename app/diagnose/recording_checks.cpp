@@ -289,15 +289,6 @@ class Checks {
   std::vector<std::string> warnings_;
 };
 
-}  // namespace
-
-std::vector<std::string> doubtful_values(const RecordingFile& recording,
-                                         const DiagnosisSetup& setup) {
-  return Checks(recording, setup).run_all();
-}
-
-namespace {
-
 void leave_out(Channel channel, Recording& recording) {
   std::erase(recording.channels, channel);
   for (WheelRun& run : recording.runs) {
@@ -306,6 +297,11 @@ void leave_out(Channel channel, Recording& recording) {
 }
 
 }  // namespace
+
+std::vector<std::string> doubtful_values(const RecordingFile& recording,
+                                         const DiagnosisSetup& setup) {
+  return Checks(recording, setup).run_all();
+}
 
 std::vector<std::string> leave_out_nearly_empty(RecordingFile& file, const DiagnosisSetup& setup) {
   constexpr std::ptrdiff_t kFewest = 4;

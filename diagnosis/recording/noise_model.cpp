@@ -78,6 +78,13 @@ struct Explained {
   const std::stop_token& stop;
 };
 
+/// A column for the offset of each day, then one for the share of the signal that it adds.
+Eigen::MatrixXd shared_by_days(const ReplicateRows& rows, const Eigen::VectorXd& signal) {
+  Eigen::MatrixXd shared(signal.size(), 2 * rows.of_day.cols());
+  shared << rows.of_day, signal.asDiagonal() * rows.of_day;
+  return shared;
+}
+
 /// Restricted maximum likelihood of the constant part, and of the others over it on a grid; beside
 /// it the likelihood of each step of what days may differ by.
 void fit_variances(const Recording& recording, const Replicates& replicates,
@@ -88,13 +95,12 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
   const Eigen::VectorXd signal = rows.signal / rms;
   const Eigen::VectorXd inverse_weight = rows.of(noise.weight).cwiseInverse();
   const auto contrasts = static_cast<double>(rows.contrasts());
-  const bool follows = !by.trend.empty();
-  const Eigen::VectorXd trend = follows ? rows.of(by.trend) : Eigen::VectorXd();
-  // What the runs of a day share: an offset, and a share of the signal.
-  const Eigen::Index days = by.days ? rows.of_day.cols() : 0;
-  Eigen::MatrixXd shared(signal.size(), 2 * days);
-  shared.leftCols(days) = rows.of_day.leftCols(days);
-  shared.rightCols(days) = signal.asDiagonal() * rows.of_day.leftCols(days);
+  Eigen::MatrixXd known = Eigen::MatrixXd::Zero(signal.size(), 2);
+  known.col(0) = rows.value;
+  if (!by.trend.empty()) known.col(1) = rows.of(by.trend);
+  const Eigen::MatrixXd shared =
+      by.days ? shared_by_days(rows, signal) : Eigen::MatrixXd(signal.size(), 0);
+  const Eigen::Index days = shared.cols() / 2;
   Eigen::VectorXd deviations(2 * days);
   double best = -INFINITY;
   const std::vector<double> grid(kSteps.begin(), kSteps.end());
@@ -108,6 +114,7 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
     const Eigen::VectorXd variance =
         (inverse_weight.array() * (1 + p * p * signal.array().square())).matrix();
     ReplicateCovariance covariance(rows, variance, shared);
+    const ReplicateCovariance::Differences differences = covariance.differences(known);
     for (std::size_t k = 0; k < day_grid.size(); ++k) {
       const double d = day_grid[k];
       for (const double g : day_gain_grid) {
@@ -115,11 +122,10 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
         deviations.head(days).setConstant(d);
         deviations.tail(days).setConstant(g);
         covariance.share(deviations);
-        const double weight = follows ? covariance.product(trend, trend) : 0;
-        const double along = weight > 0 ? covariance.product(rows.value, trend) : 0;
+        const Eigen::MatrixXd products = covariance.products(differences);
+        const double weight = products(1, 1), along = products(0, 1);
         const double factor_of_trend = weight > 0 ? along / weight : 0;
-        const double s2 =
-            (covariance.product(rows.value, rows.value) - factor_of_trend * along) / contrasts;
+        const double s2 = (products(0, 0) - factor_of_trend * along) / contrasts;
         const double others =
             -0.5 * (contrasts * std::log(s2) + covariance.log_determinant() + (p > 0) + (g > 0));
         const double score = others - 0.5 * (d > 0);

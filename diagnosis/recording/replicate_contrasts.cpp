@@ -18,6 +18,17 @@ double worth_of_gain(double count) {
   return freedom / count * std::pow((8 * freedom + 1) / (8 * freedom + 3), 2);
 }
 
+/// Whether a column says the same of all replicates of each condition, but for rounding.
+bool is_alike_in_groups(const ReplicateRows& rows, const Eigen::VectorXd& column) {
+  const double rounding = 1e-9 * column.norm();
+  for (Eigen::Index i = 1; i < column.size(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const bool together = rows.group[row] == rows.group[row - 1];
+    if (together && std::abs(column[i] - column[i - 1]) > rounding) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 ReplicateContrasts::ReplicateContrasts(const Recording& recording,
@@ -53,20 +64,16 @@ double ReplicateContrasts::score(const ReplicateCovariance& covariance, double m
 }
 
 double ReplicateContrasts::gain(const std::vector<double>& trend) const {
-  constexpr double kRounding = 1e-9;
-  const Eigen::VectorXd followed = rows_.of(trend), &value = rows_.value;
-  const ReplicateCovariance alike(rows_, Eigen::VectorXd::Ones(value.size()),
-                                  Eigen::MatrixXd(value.size(), 0));
-  const double varies = std::sqrt(alike.product(followed, followed));
-  if (varies <= kRounding * followed.norm()) return 0;  // alike for all replicates
+  Eigen::MatrixXd columns(rows_.value.size(), 2);
+  columns << rows_.value, rows_.of(trend);
+  if (is_alike_in_groups(rows_, columns.col(1))) return 0;
   double before = -INFINITY, after = -INFINITY;
   for (const ReplicateCovariance& covariance : covariances_) {
-    const double weight = covariance.product(followed, followed);
+    const Eigen::MatrixXd products = covariance.products(covariance.differences(columns));
+    const double misfit = products(0, 0), along = products(0, 1), weight = products(1, 1);
     if (!(weight > 0)) continue;
-    const double plain = covariance.product(value, value);
-    const double along = covariance.product(value, followed);
-    before = std::max(before, score(covariance, plain));
-    after = std::max(after, score(covariance, plain - along * along / weight));
+    before = std::max(before, score(covariance, misfit));
+    after = std::max(after, score(covariance, misfit - along * along / weight));
   }
   if (!std::isfinite(after)) return 0;
   return worth_of_gain(static_cast<double>(rows_.contrasts())) * (after - before);

@@ -51,11 +51,16 @@ Eigen::MatrixXd ReplicateCovariance::whitened(Eigen::MatrixXd columns) const {
   return precision_.cwiseSqrt().asDiagonal() * columns;
 }
 
-double ReplicateCovariance::product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
-  const Eigen::VectorXd own_a = whitened(a), own_b = whitened(b);
-  const Eigen::VectorXd along_a = deviations_.cwiseProduct(shared_.transpose() * own_a),
-                        along_b = deviations_.cwiseProduct(shared_.transpose() * own_b);
-  return own_a.dot(own_b) - along_a.dot(factor_.solve(along_b));
+ReplicateCovariance::Differences ReplicateCovariance::differences(
+    const Eigen::MatrixXd& columns) const {
+  Differences differences{.own = whitened(columns), .along = {}};
+  differences.along = shared_.transpose() * differences.own;
+  return differences;
+}
+
+Eigen::MatrixXd ReplicateCovariance::products(const Differences& columns) const {
+  const Eigen::MatrixXd along = deviations_.asDiagonal() * columns.along;
+  return columns.own.transpose() * columns.own - along.transpose() * factor_.solve(along);
 }
 
 }  // namespace regoplan

@@ -22,8 +22,15 @@ class ReplicateCovariance {
   /// From now on runs share so many deviations of each column.
   void share(const Eigen::VectorXd& deviations);
 
-  /// Two columns' differences, one row each, under the inverse of the covariance.
-  double product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  /// Columns' differences between replicates, as products take them, whatever runs share.
+  struct Differences {
+    Eigen::MatrixXd own;    ///< by the runs' own deviations
+    Eigen::MatrixXd along;  ///< inner products with the shared columns
+  };
+  Differences differences(const Eigen::MatrixXd& columns) const;
+
+  /// Inner products of columns' differences under the inverse of the covariance.
+  Eigen::MatrixXd products(const Differences& columns) const;
   double log_determinant() const;
   /// Trace of the runs' own part in it: the degrees of freedom that tell their own scatter.
   double own_share() const;

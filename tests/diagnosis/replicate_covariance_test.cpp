@@ -38,15 +38,19 @@ TEST(ReplicateCovariance, IsThatOfTheDifferencesWithinGroups) {
   Eigen::VectorXd own(9), trend(9);
   own << 1, 2, 0.5, 1, 4, 1, 1, 0.3, 1;
   trend << 0, 1, 2, 3, 4, 5, 6, 7, 8.5;
+  Eigen::MatrixXd columns(9, 2);
+  columns << rows.value, trend;
   ReplicateCovariance covariance(rows, own, rows.of_day);
+  const ReplicateCovariance::Differences told = covariance.differences(columns);
   for (const double deviation : {1.0, 0.7, 0.0}) {
     covariance.share(Eigen::VectorXd::Constant(2, deviation));
     const Eigen::MatrixXd within = differences() * own.asDiagonal() * differences().transpose();
     const Eigen::MatrixXd days = differences() * rows.of_day;
     const Eigen::MatrixXd whole = within + deviation * deviation * days * days.transpose();
-    const Eigen::VectorXd value = differences() * rows.value, column = differences() * trend;
+    const Eigen::MatrixXd dense = differences() * columns;
+    const Eigen::MatrixXd products = dense.transpose() * whole.inverse() * dense;
     EXPECT_NEAR(covariance.log_determinant(), std::log(whole.determinant()), 1e-12);
-    EXPECT_NEAR(covariance.product(rows.value, trend), value.dot(whole.inverse() * column), 1e-12);
+    EXPECT_TRUE(covariance.products(told).isApprox(products, 1e-12));
     EXPECT_NEAR(covariance.own_share(), (whole.inverse() * within).trace(), 1e-12);
   }
 }

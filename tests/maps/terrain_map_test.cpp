@@ -37,23 +37,22 @@ ElevationRaster flat() {
   return raster(kFrame, [](int, int) { return 0; });
 }
 
+GridFrame one_cell(double west_m, double north_m, double width_m, double height_m) {
+  return {.columns = 1,
+          .rows = 1,
+          .west_m = west_m,
+          .north_m = north_m,
+          .cell_width_m = width_m,
+          .cell_height_m = height_m};
+}
+
 TEST(Extent, IsToldInMillimetresThatLieWithinIt) {
   EXPECT_EQ(extent_text(kFrame), "x 8142406 to 8142426 m, y -276462.5 to -276455 m");
-  const GridFrame turned{.columns = 1,
-                         .rows = 1,
-                         .west_m = -282.842712474619,
-                         .north_m = 482.842712474619,
-                         .cell_width_m = 765.685424949238,
-                         .cell_height_m = 765.685424949238};
-  EXPECT_EQ(extent_text(turned), "x -282.842 to 482.842 m, y -282.842 to 482.842 m");
+  const double side_m = 765.685424949238;
+  EXPECT_EQ(extent_text(one_cell(-282.842712474619, 482.842712474619, side_m, side_m)),
+            "x -282.842 to 482.842 m, y -282.842 to 482.842 m");
   // 1000 times .57 is a little less than 570, and -0.0001 no negative zero.
-  const GridFrame tenths{.columns = 1,
-                         .rows = 1,
-                         .west_m = -0.0001,
-                         .north_m = 0.57,
-                         .cell_width_m = 2,
-                         .cell_height_m = 0.5};
-  EXPECT_EQ(extent_text(tenths), "x 0 to 1.999 m, y 0.07 to 0.57 m");
+  EXPECT_EQ(extent_text(one_cell(-0.0001, 0.57, 2, 0.5)), "x 0 to 1.999 m, y 0.07 to 0.57 m");
 }
 
 SoilCatalogue one_soil() {
