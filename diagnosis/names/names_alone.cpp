@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
 namespace {
-
-constexpr std::size_t kMostClasses = 3;
 
 std::optional<CandidateFit> fitted_to_wide_noise(const CalibratedRecording& calibrated,
                                                  const Effect& effect, const CandidateFit* beside) {
@@ -23,40 +20,9 @@ std::optional<CandidateFit> fitted_to_wide_noise(const CalibratedRecording& cali
                         start_of(problem, names, beside), kSteps);
 }
 
-/// Names beside those that are there, without their likes.
-std::vector<Effect> further_names(const std::vector<Effect>& effects,
-                                  const std::vector<Claim>& claims) {
-  std::set<std::string> taken;
-  for (const Claim& claim : claims) taken.insert(claim.id);
-  std::vector<Effect> further = effects;
-  std::erase_if(further, [&](const Effect& effect) {
-    return is_instrument(effect.id) || taken.contains(effect.id);
-  });
-  return further;
-}
-
 bool may_stand(const CalibratedRecording& calibrated, const NameAlone& name, double least) {
   return name.share.share.low > least && name.share.gain_in_errors > Thresholds::kClear_errors &&
          objection(calibrated.problem(), name.fit).empty();
-}
-
-/// Leaves the best and those that some way to hold out puts level with it, the best four.
-void keep_class(std::vector<NameAlone>& names) {
-  const double level = names.front().share.share.low;
-  std::erase_if(names, [&](const NameAlone& name) { return name.reach < level; });
-  if (names.size() > Thresholds::kLargestClass) names.resize(Thresholds::kLargestClass);
-}
-
-/// The best, and beside it what does nearly as much.
-Claim claim_of(const CalibratedRecording& calibrated, const std::vector<NameAlone>& members) {
-  const CandidateFit& fit = members.front().fit;
-  NameClass names;
-  for (const NameAlone& member : members) names.ids.push_back(member.id);
-  Claim claim = claims_of(calibrated.problem(), {}, {names}, fit).front();
-  claim.channels = channels_of(calibrated.problem(), fit, fit.candidate.effects.size() - 1);
-  claim.share = members.front().share.share;
-  for (const NameAlone& member : members) claim.member_shares[member.id] = member.share.share;
-  return claim;
 }
 
 /// The two forms of each name that explain most where they were fitted, of the twelve names that
@@ -124,35 +90,6 @@ std::vector<NameAlone> names_alone(const CalibratedRecording& calibrated,
   std::ranges::stable_sort(names, std::greater{},
                            [](const NameAlone& name) { return name.share.share.low; });
   return names;
-}
-
-std::optional<PartialClaim> claim_by_shares(const CalibratedRecording& calibrated,
-                                            const std::vector<Effect>& effects, int threads) {
-  PartialClaim result;
-  while (result.claims.size() < kMostClasses) {
-    const bool is_first = result.claims.empty();
-    std::vector<NameAlone> names =
-        names_alone(calibrated, further_names(effects, result.claims),
-                    is_first ? nullptr : &result.fit, Thresholds::kWorthAnother, threads);
-    if (names.empty()) break;
-    keep_class(names);
-    const bool is_worth_it = names.front().share.share.low >= Thresholds::kWorthANameAlone;
-    if (is_first && (names.size() == 1 || !is_worth_it)) return std::nullopt;
-    result.claims.push_back(claim_of(calibrated, names));
-    if (is_first) {
-      for (const NameAlone& name : names) result.members.push_back(name.fit);
-    }
-    result.fit = std::move(names.front().fit);
-    result.steps.push_back(result.fit);
-  }
-  // The first may move a channel the wrong way that the next puts right; all together may not.
-  while (!result.claims.empty() && name_share(calibrated, result.fit, threads).worsened) {
-    result.claims.pop_back();
-    result.steps.pop_back();
-    if (!result.steps.empty()) result.fit = result.steps.back();
-  }
-  if (result.claims.empty()) return std::nullopt;
-  return result;
 }
 
 }  // namespace regoplan

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "diagnosis/names/name_share.h"
-#include "diagnosis/names/partial_claim.h"
 
 namespace regoplan {
 
@@ -24,14 +22,5 @@ struct NameAlone {
 std::vector<NameAlone> names_alone(const CalibratedRecording& calibrated,
                                    const std::vector<Effect>& effects, const CandidateFit* beside,
                                    double least, int threads);
-
-/// A class of names for a mismatch of which the best explains a third and more however conditions
-/// are held out, but so might some name of a nameless one: no single name. In it are those
-/// of which some form reaches the share of the best in some way to hold out, the best four. Further
-/// classes follow as long as their best adds its part: at most three, the last taken back as long
-/// as all together predict a channel worse than the calibrated model. \returns nothing where none
-/// explains as much, where one stands alone, or where none is left
-std::optional<PartialClaim> claim_by_shares(const CalibratedRecording& calibrated,
-                                            const std::vector<Effect>& effects, int threads);
 
 }  // namespace regoplan

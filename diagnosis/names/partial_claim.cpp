@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/names/names_alone.h"
+#include "diagnosis/names/claim_by_shares.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {

@@ -5,26 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <set>
 
-#include "diagnosis/fit/effect_list.h"
-#include "synthetic_bed.h"
+#include "tried_names.h"
 
 namespace regoplan {
 namespace {
-
-/// A recording calibrated, and the mechanisms that are tried of it.
-struct Tried {
-  explicit Tried(const TrueWheel& truth) : setup(simulant_setup()) {
-    const Recording recording = record(truth, setup, setup.soil.mean, {.conditions = 32}, 3);
-    calibrated = std::make_unique<CalibratedRecording>(recording, setup);
-    effects = effects_for(calibrated->bed(), recording, EffectsOf::kPart);
-  }
-  DiagnosisSetup setup;
-  std::unique_ptr<CalibratedRecording> calibrated;
-  std::vector<Effect> effects;
-};
 
 /// The rut deepens with the speed at which the rim slides, whatever way; forces are off in a way of
 /// their own.
@@ -38,18 +24,8 @@ TrueWheel sliding() {
   return wheel;
 }
 
-/// Far more than noise, and like no mechanism.
-TrueWheel nameless() {
-  TrueWheel wheel;
-  wheel.fx_n = [](const WheelRun& run, double) {
-    return 6 * std::sin(9 * run.slip_ratio + 20 * run.slip_angle_rad);
-  };
-  wheel.fy_n = [](const WheelRun& run, double) { return 5 * std::cos(11 * run.slip_ratio); };
-  return wheel;
-}
-
 TEST(NamesAlone, TheNameThatIsAtWorkExplainsMostHoweverConditionsAreHeldOut) {
-  const Tried tried(sliding());
+  const TriedNames tried(sliding());
   const auto names = names_alone(*tried.calibrated, tried.effects, nullptr, 0.02, 2);
   ASSERT_FALSE(names.empty());
   EXPECT_EQ(names.front().id, "sliding_sinkage");
@@ -58,7 +34,7 @@ TEST(NamesAlone, TheNameThatIsAtWorkExplainsMostHoweverConditionsAreHeldOut) {
 }
 
 TEST(NamesAlone, EachIsToldByOneFormAndReachesWhatItsBestFormDoes) {
-  const Tried tried(sliding());
+  const TriedNames tried(sliding());
   const auto names = names_alone(*tried.calibrated, tried.effects, nullptr, 0.02, 2);
   std::set<std::string> ids;
   for (const NameAlone& name : names) {
@@ -69,7 +45,7 @@ TEST(NamesAlone, EachIsToldByOneFormAndReachesWhatItsBestFormDoes) {
 
 /// What a name does is its own, whatever remainder it was fitted beside.
 TEST(NameShare, IsThatOfTheNameFittedWithNothingBesideIt) {
-  const Tried tried(sliding());
+  const TriedNames tried(sliding());
   const CalibratedRecording& calibrated = *tried.calibrated;
   const auto sinkage = std::ranges::find(tried.effects, "sliding_sinkage", &Effect::id);
   ASSERT_NE(sinkage, tried.effects.end());
@@ -87,17 +63,11 @@ TEST(NameShare, IsThatOfTheNameFittedWithNothingBesideIt) {
   EXPECT_GT(share(none), 1.0 / 3.0);
 }
 
-TEST(NamesAlone, SayNoClassOfWhatIsLikeNoMechanism) {
-  const Tried tried(nameless());
-  EXPECT_FALSE(claim_by_shares(*tried.calibrated, tried.effects, 2));
-}
-
 TEST(NamesAlone, AreNotThereForFewThatDoNothing) {
-  const Tried tried({});
+  const TriedNames tried({});
   for (const NameAlone& name : names_alone(*tried.calibrated, tried.effects, nullptr, 0.5, 2)) {
     EXPECT_GT(name.share.gain_in_errors, 2) << name.id;
   }
-  EXPECT_FALSE(claim_by_shares(*tried.calibrated, tried.effects, 2));
 }
 
 }  // namespace
