@@ -1,6 +1,7 @@
 #include "drive_diagnosis/drive_claims.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,15 +44,6 @@ DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveR
       .p_value = chance_of(finding)};
 }
 
-/// How rare drives are in which chance alone shows as much.
-std::string chance_text(const VehicleFinding& finding) {
-  constexpr double kRarest = 1e-6;
-  const double chance = chance_of(finding);
-  if (chance < kRarest) return "fewer than one of a million drives";
-  const double digit = std::pow(10, std::floor(-std::log10(chance)));
-  return fmt::format("one of {:.0f} drives", digit * std::floor(1 / chance / digit));
-}
-
 std::string resistance_text(const VehicleFinding& finding) {
   const DriveEstimate& resistance = finding.zone->resistance;
   const double low = 100 * (resistance.value - kTwoSided95 * resistance.std);
@@ -77,7 +69,34 @@ std::string zone_text(const VehicleFinding& finding, const TerrainMap& map,
       said, where, chance_text(finding), resistance_text(finding));
 }
 
+/// Other numbers of the vehicle that these drives hardly tell from the one that is claimed.
+std::string instead_text(const VehicleFinding& finding) {
+  std::vector<std::string> numbers;
+  for (const FaultEstimate& other : finding.instead) {
+    numbers.push_back(fmt::format("{} = {:.3g} (95 %: {:.3g} to {:.3g})", other.parameter,
+                                  other.size.value, other.size.value - kTwoSided95 * other.size.std,
+                                  other.size.value + kTwoSided95 * other.size.std));
+  }
+  if (numbers.empty()) return "";
+  return fmt::format("; hardly told from {}", fmt::join(numbers, " or from "));
+}
+
 }  // namespace
+
+std::string chance_text(const VehicleFinding& finding) {
+  constexpr double kRarest = 1e-6;
+  const double chance = chance_of(finding);
+  if (chance < kRarest) return "fewer than one of a million drives";
+  const double digit = std::pow(10, std::floor(-std::log10(chance)));
+  return fmt::format("one of {:.0f} drives", digit * std::floor(1 / chance / digit));
+}
+
+std::string fault_text(const VehicleFinding& finding) {
+  return fmt::format(
+      "{} = {:.3g} (95 %: {:.3g} to {:.3g}), {:.1f} standard deviations from nothing",
+      finding.parameter, finding.size, finding.size - kTwoSided95 * finding.std,
+      finding.size + kTwoSided95 * finding.std, finding.sigmas);
+}
 
 void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
   struct Axis {
@@ -174,12 +193,10 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
     DriveClaim claim{.id = finding.id,
                      .parameters = {{finding.parameter, {finding.size, finding.std}}},
                      .equivalent = finding.equivalent,
+                     .instead = finding.instead,
                      .channels = effects.channels,
                      .sigmas = finding.sigmas};
-    claim.text =
-        fmt::format("{} = {:.3g} (95 %: {:.3g} to {:.3g}), {:.1f} standard deviations from nothing",
-                    finding.parameter, finding.size, finding.size - kTwoSided95 * finding.std,
-                    finding.size + kTwoSided95 * finding.std, finding.sigmas);
+    claim.text = fault_text(finding) + instead_text(finding);
     if (finding.zone) {
       if (finding.zone->at_border &&
           std::ranges::find(claim.equivalent, "zone_border") == claim.equivalent.end()) {

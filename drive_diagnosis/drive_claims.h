@@ -21,6 +21,12 @@ void claim_side_drag(DriveDiagnosis& result);
 void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                    DriveDiagnosis& result);
 
+/// How rare drives of a sound vehicle over the map's soils are in which chance alone shows as much.
+std::string chance_text(const VehicleFinding& finding);
+
+/// A fault's size with its interval and how far from nothing it is.
+std::string fault_text(const VehicleFinding& finding);
+
 /// Why a soil that was driven on stays as the map has it.
 std::string withheld_text(const SoilFitted& fitted, const MapSoil& said);
 

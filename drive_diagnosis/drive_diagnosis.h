@@ -37,7 +37,8 @@ struct DriveClaim {
   std::string id;
   std::map<std::string, DriveEstimate> parameters;
   std::vector<std::string>
-      equivalent;  ///< ids that these drives cannot tell apart, `id` among them
+      equivalent;                      ///< ids that these drives cannot tell apart, `id` among them
+  std::vector<FaultEstimate> instead;  ///< hardly told from it, each fitted in its place
   std::vector<std::string> channels;
   double sigmas = 0;  ///< how far it is from nothing
   std::string text;

@@ -1,12 +1,14 @@
 #include "drive_diagnosis/silent_effects.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "drive_diagnosis/comparison/window_input.h"
+#include "drive_diagnosis/drive_claims.h"
 
 namespace regoplan {
 namespace {
@@ -106,7 +108,51 @@ std::string zones_shown_text(const std::vector<ZoneShown>& zones,
   return text;
 }
 
+/// Sizes of the faults of an id from which on they are shown, the least and the greatest.
+std::string sizes_text(const std::vector<FaultShown>& faults, const std::string& id) {
+  const FaultShown* least = nullptr;
+  const FaultShown* greatest = nullptr;
+  for (const FaultShown& fault : faults) {
+    if (fault.id != id) continue;
+    if (least == nullptr || fault.least < least->least) least = &fault;
+    if (greatest == nullptr || fault.least > greatest->least) greatest = &fault;
+  }
+  std::string text = fmt::format("{} ({:.2g} of {}", id, least->least, least->parameter);
+  if (greatest != least) {
+    text += fmt::format(" to {:.2g} of {}", greatest->least, greatest->parameter);
+  }
+  return text + ")";
+}
+
+/// How large the vehicle's faults must be for these drives to show them.
+SilentEffect smaller_faults(const std::vector<FaultShown>& faults) {
+  SilentEffect silent{
+      .why = "four of five faults would stand out, if they are as large as this or larger",
+      .drive =
+          "a longer drive (four times as long shows half of each), with bends either way and "
+          "slopes along and across"};
+  for (const FaultShown& fault : faults) {
+    if (std::ranges::find(silent.ids, fault.id) != silent.ids.end()) continue;
+    silent.why += silent.ids.empty() ? ": " : ", ";
+    silent.why += sizes_text(faults, fault.id);
+    silent.ids.push_back(fault.id);
+  }
+  return silent;
+}
+
 }  // namespace
+
+std::optional<std::string> nearest_text(const DriveDiagnosis& result) {
+  if (!result.effects) return {};
+  const VehicleFinding& nearest = result.effects->strongest_left;
+  // Of the largest gains by chance, from one in a thousand to one in twenty.
+  const double asked = nearest.chance - 2 * std::log(50.0);
+  if (nearest.gain < asked) return {};
+  const std::string size = nearest.id == "soil_zone" ? "" : ": " + fault_text(nearest);
+  return fmt::format(
+      "nearest to a claim, and not enough for one, is {}{}; by chance alone {} would show as much",
+      fmt::join(nearest.equivalent, " or "), size, chance_text(nearest));
+}
 
 void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                         DriveDiagnosis& result) {
@@ -135,6 +181,9 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
              zones_shown_text(result.effects->zones_shown, setup.map.soils()),
          "torque of every wheel, and attitude by which the map's slopes are told from soil (a "
          "window's mean to 0.1 deg)"});
+  }
+  if (result.effects && !result.effects->faults_shown.empty()) {
+    result.silent.push_back(smaller_faults(result.effects->faults_shown));
   }
   if (!any_has(drives, "torque_")) {
     result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},

@@ -67,6 +67,7 @@ class EffectSearch {
       if (!strongest.stands_out || static_cast<int>(found.size()) == kEffectsMost) {
         result.strongest_left = told(strongest);
         result.zones_shown = zones_shown(strongest);
+        result.faults_shown = faults_shown(strongest);
         break;
       }
       tell(stands_out_text(strongest));
@@ -177,6 +178,16 @@ class EffectSearch {
     return shown;
   }
 
+  std::vector<FaultShown> faults_shown(const EffectFound& sought_last) const {
+    std::vector<FaultShown> shown;
+    for (const FaultAlone& fault : sought_last.faults) {
+      const VehicleTrial& trial = trials_[fault.parameter];
+      shown.push_back(
+          {.id = trial.id, .parameter = trial.parameter, .least = fault.least_shown * trial.unit});
+    }
+    return shown;
+  }
+
   VehicleFinding told(const EffectFound& effect) const {
     VehicleFinding finding{.sigmas = effect.sigmas, .gain = effect.gain, .chance = effect.chance};
     if (effect.is_zone) {
@@ -195,7 +206,14 @@ class EffectSearch {
         finding.equivalent.push_back(id);
       }
     };
-    for (const std::size_t other : effect.alike) add(trials_[other].id);
+    for (const FaultAlone& other : effect.alike) {
+      const VehicleTrial& trial = trials_[other.parameter];
+      add(trial.id);
+      if (!effect.is_zone && other.parameter == effect.parameter) continue;
+      finding.instead.push_back({.id = trial.id,
+                                 .parameter = trial.parameter,
+                                 .size = {other.size * trial.unit, other.std * trial.unit}});
+    }
     if (effect.zone_alike) add("soil_zone");
     return finding;
   }

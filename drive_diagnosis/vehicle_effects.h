@@ -33,6 +33,12 @@ struct SoilZoneFound {
   DriveEstimate resistance;
 };
 
+/// A fault by one number, fitted by itself.
+struct FaultEstimate {
+  std::string id, parameter;
+  DriveEstimate size;
+};
+
 /// A fault of the vehicle, or a zone.
 struct VehicleFinding {
   std::string id, parameter;
@@ -40,7 +46,14 @@ struct VehicleFinding {
   double sigmas = 0;
   double gain = 0, chance = 0;          ///< twice nats of evidence; what chance gives in a thousand
   std::vector<std::string> equivalent;  ///< ids that explain as much, `id` first
+  std::vector<FaultEstimate> instead;   ///< hardly told from it, each fitted in its place
   std::optional<SoilZoneFound> zone;
+};
+
+/// How large a fault must be for these drives to show four of five.
+struct FaultShown {
+  std::string id, parameter;
+  double least = 0;  ///< of the parameter, of either sign
 };
 
 /// How long a zone of another soil must be for these drives to show four of five at nine of ten
@@ -66,8 +79,9 @@ struct SoilFitted {
 /// What the vehicle's windows say.
 struct VehicleEffects {
   std::vector<VehicleFinding> found;
-  VehicleFinding strongest_left;       ///< what did not stand out
-  std::vector<ZoneShown> zones_shown;  ///< beside what was found
+  VehicleFinding strongest_left;         ///< what did not stand out
+  std::vector<FaultShown> faults_shown;  ///< beside what was found
+  std::vector<ZoneShown> zones_shown;    ///< beside what was found
   UncertainVehicle vehicle;  ///< of the numbers that nobody knew well, what the drives say
   std::vector<SoilFitted> soils_fitted;  ///< none where too few windows lie outside zones
   std::vector<MapSoil> soils;  ///< of the map, those that are handed back as they are fitted

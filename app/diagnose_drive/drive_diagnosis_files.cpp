@@ -12,6 +12,7 @@
 #include "app/diagnose_drive/drive_diagnosis_report.h"
 #include "drive_diagnosis/corrected_world.h"
 #include "drive_diagnosis/drive_claims.h"
+#include "drive_diagnosis/silent_effects.h"
 #include "terramech/basics/angles.h"
 #include "terramech/tables/csv_cells.h"
 
@@ -31,11 +32,15 @@ Json degrees_json(const std::optional<DriveEstimate>& estimate) {
 Json claim_json(const DriveClaim& claim) {
   Json parameters = Json::object();
   for (const auto& [key, estimate] : claim.parameters) parameters[key] = estimate_json(estimate);
-  return {{"id", claim.id},
-          {"parameters", parameters},
-          {"equivalent", claim.equivalent},
-          {"channels", claim.channels},
-          {"sigmas", claim.sigmas},
+  Json instead = Json::array();
+  for (const FaultEstimate& other : claim.instead) {
+    instead.push_back({{"id", other.id},
+                       {"parameter", other.parameter},
+                       {"value", other.size.value},
+                       {"std", other.size.std}});
+  }
+  return {{"id", claim.id},     {"parameters", parameters},   {"equivalent", claim.equivalent},
+          {"instead", instead}, {"channels", claim.channels}, {"sigmas", claim.sigmas},
           {"text", claim.text}};
 }
 
@@ -182,6 +187,13 @@ Json vehicle_json(const UncertainVehicle& vehicle) {
   return json;
 }
 
+/// By id and parameter.
+Json smallest_json(const std::vector<FaultShown>& faults) {
+  Json json = Json::object();
+  for (const FaultShown& fault : faults) json[fault.id][fault.parameter] = fault.least;
+  return json;
+}
+
 Json windows_used_json(const WindowsUsed& used) {
   Json left_out = Json::object();
   for (std::size_t i = 0; i < kLeftOutReasons; ++i) {
@@ -238,6 +250,9 @@ Json drive_diagnosis_content(const DriveDiagnosisRun& run) {
   json["not_shown"] = list_json(diagnosis.silent, [](const SilentEffect& silent) {
     return Json{{"ids", silent.ids}, {"why", silent.why}, {"next_drive", silent.drive}};
   });
+  if (diagnosis.effects) {
+    json["smallest_detectable"] = smallest_json(diagnosis.effects->faults_shown);
+  }
   json["windows"] = diagnosis.windows.size();
   if (diagnosis.windows_used) json["windows_used"] = windows_used_json(*diagnosis.windows_used);
   json["share_on_map"] = diagnosis.share_on_map;
@@ -312,6 +327,7 @@ std::string drive_diagnosis_summary(const DriveDiagnosisRun& run) {
   for (const DriveClaim& claim : diagnosis.claims) {
     text += fmt::format("  {}: {}\n", fmt::join(claim.equivalent, " | "), claim.text);
   }
+  if (const auto nearest = nearest_text(diagnosis)) text += "  " + *nearest + "\n";
   for (const std::string& withheld : withheld_texts(run)) text += "  " + withheld + "\n";
   if (diagnosis.currents) {
     const HeldOutCurrents& held_out = diagnosis.currents->held_out;

@@ -114,6 +114,7 @@ std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
   for (const DriveClaim& claim : run.diagnosis.claims) {
     lead.push_back(fmt::format("{}: {}.", fmt::join(claim.equivalent, " or "), claim.text));
   }
+  if (const auto nearest = nearest_text(run.diagnosis)) lead.push_back(*nearest + ".");
   for (const std::string& withheld : withheld_texts(run)) lead.push_back(withheld + ".");
   return render({.title = "Diagnosis of drives",
                  .headline = drive_diagnosis_headline(run),

@@ -21,6 +21,7 @@ constexpr double kCosine = 0.9;  ///< effects more alike than this are not told 
 constexpr double kToSpareFirstFault = 4, kToSpareFirstZone = 8, kToSpare = 12;
 constexpr double kNarrowest = 0.7;  ///< of the noise that is told, what there may be
 constexpr std::size_t kShortest = 2;
+constexpr double kPower_sigmas = 0.84;  ///< of four in five
 
 double spare(bool is_zone, bool is_first) {
   if (!is_first) return kToSpare;
@@ -161,26 +162,23 @@ class Contest {
     const Eigen::Index draws = products_.cols();
     Eigen::VectorXd largest = Eigen::VectorXd::Constant(draws, -1e9);
     EffectFound best{.gain = -1e9};
-    std::vector<double> fault_gains(static_cast<std::size_t>(lengths_.cols()), -1e9);
     for (Eigen::Index k = 0; k < lengths_.cols(); ++k) {
       const auto parameter = static_cast<std::size_t>(k);
       if (!may_be_claimed(parameter)) continue;
       for (Eigen::Index i = 0; i < draws; ++i) {
-        const double gain = fault_gain(lengths_(k, k), products_(k, i));
-        largest[i] = std::max(largest[i], gain);
-        if (i == 0) fault_gains[parameter] = gain;
+        largest[i] = std::max(largest[i], fault_gain(lengths_(k, k), products_(k, i)));
       }
-      if (fault_gains[parameter] > best.gain) {
-        best = {.parameter = parameter, .gain = fault_gains[parameter]};
-      }
+      if (largest[0] > best.gain) best = {.parameter = parameter, .gain = largest[0]};
     }
     const double best_fault = best.gain;
     const double best_zone = scan_zones(largest, best);
-    judge(largest, best);
-    for (std::size_t k = 0; k < fault_gains.size(); ++k) {
-      if (may_be_claimed(k) && is_alike(best, k, fault_gains[k])) best.alike.push_back(k);
+    const double wide = judge(largest, best);
+    for (std::size_t k = 0; k < contest_.claimable.size(); ++k) {
+      if (!may_be_claimed(k)) continue;
+      const FaultAlone& fault = best.faults.emplace_back(fault_alone(k, best.chance, wide));
+      if (is_alike(best, fault)) best.alike.push_back(fault);
     }
-    best.zone_alike = !best.is_zone && best_zone > best_fault - kAlike;
+    best.zone_alike = !best.is_zone && best_zone > best_fault - kAlike * wide * wide;
     return best;
   }
 
@@ -190,11 +188,12 @@ class Contest {
            std::ranges::find(contest_.faults_known, parameter) == contest_.faults_known.end();
   }
 
-  bool is_alike(const EffectFound& best, std::size_t other, double gain) const {
-    if (!best.is_zone && other == best.parameter) return true;
-    if (gain > best.gain - kAlike) return true;
+  bool is_alike(const EffectFound& best, const FaultAlone& other) const {
+    if (!best.is_zone && other.parameter == best.parameter) return true;
+    if (other.gain > best.gain - kAlike) return true;
     if (best.is_zone) return false;
-    const auto i = static_cast<Eigen::Index>(best.parameter), k = static_cast<Eigen::Index>(other);
+    const auto i = static_cast<Eigen::Index>(best.parameter),
+               k = static_cast<Eigen::Index>(other.parameter);
     return std::abs(lengths_(i, k)) > kCosine * std::sqrt(lengths_(i, i) * lengths_(k, k));
   }
 
@@ -304,32 +303,55 @@ class Contest {
     }
   }
 
-  void judge(Eigen::VectorXd& largest, EffectFound& best) const {
+  /// \returns how wide the noise is, as a multiple of what is told
+  double judge(Eigen::VectorXd& largest, EffectFound& best) const {
     const std::vector<double> chance(largest.data() + 1, largest.data() + largest.size());
     // Gains fall off as exp(-gain / 2): from one in twenty to one in a thousand.
     best.chance = quantile_value(chance, 0.95) + 2 * std::log(50.0);
     double explained = best.gain;
     if (!best.is_zone) {
       const auto k = static_cast<Eigen::Index>(best.parameter);
-      const double length = lengths_(k, k);
-      explained = products_(k, 0) * products_(k, 0) / length;
-      best.size = products_(k, 0) / length;
-      best.std = std::sqrt(std::max(1e-12, 1 / length - 1));  // without its own prior
+      explained = products_(k, 0) * products_(k, 0) / lengths_(k, k);
     }
     // What is left tells how wide the noise is, which inputs are told to have more or less than. A
     // zone has none narrower: one of chance takes what goes on from window to window out of it.
     const double wide =
         std::max(best.is_zone ? 1 : kNarrowest,
                  std::sqrt((energy_ - explained) / static_cast<double>(contest_.data.size())));
-    const bool is_first = contest_.zones_known.empty() && contest_.faults_known.empty();
-    best.asked = best.chance + spare(true, is_first);
-    best.std *= wide;
-    const double gain = best.gain / (wide * wide);
-    best.sigmas = best.is_zone ? std::sqrt(std::max(0.0, gain)) : std::abs(best.size) / best.std;
-    best.stands_out = best.is_zone ? gain > best.asked
-                                   : gain > best.chance && best.sigmas * best.sigmas >
-                                                               best.chance + spare(false, is_first);
-    best.gain = gain;
+    best.asked = best.chance + spare(true, is_first());
+    best.gain /= wide * wide;
+    if (best.is_zone) {
+      best.sigmas = std::sqrt(std::max(0.0, best.gain));
+      best.stands_out = best.gain > best.asked;
+    } else {
+      const FaultAlone fault = fault_alone(best.parameter, best.chance, wide);
+      best.size = fault.size;
+      best.std = fault.std;
+      best.sigmas = std::abs(best.size) / best.std;
+      best.stands_out = best.gain > best.chance &&
+                        best.sigmas * best.sigmas > best.chance + spare(false, is_first());
+    }
+    return wide;
+  }
+
+  bool is_first() const { return contest_.zones_known.empty() && contest_.faults_known.empty(); }
+
+  /// \param wide what the noise that is told is to be multiplied by
+  FaultAlone fault_alone(std::size_t parameter, double chance, double wide) const {
+    const auto k = static_cast<Eigen::Index>(parameter);
+    const double length = lengths_(k, k), product = products_(k, 0);
+    FaultAlone fault{.parameter = parameter,
+                     .size = product / length,
+                     // the metric holds the parameter's own prior as well
+                     .std = wide * std::sqrt(std::max(1e-12, 1 / length - 1)),
+                     .gain = fault_gain(length, product) / (wide * wide)};
+    const double asked_sigmas = std::sqrt(chance + spare(false, is_first()));
+    const double product_asked =
+        std::sqrt((chance * wide * wide + std::log(1 + kFault * kFault * length)) *
+                  (1 / (kFault * kFault) + length));
+    fault.least_shown =
+        std::max(asked_sigmas * fault.std, product_asked / length) + kPower_sigmas * fault.std;
+    return fault;
   }
 
   const EffectContest& contest_;
@@ -357,7 +379,6 @@ EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed) {
 
 std::vector<std::optional<int>> shortest_zones_shown(const EffectContest& contest, double asked) {
   constexpr double kOfPlaces = 0.9;
-  constexpr double kPower_sigmas = 0.84;  // of 80 %
   const double needed = std::pow(std::sqrt(std::max(asked, 0.0)) + kPower_sigmas, 2);
   const Metric metric(free_columns(contest));
   const ZoneGains zones(metric.products(contest.soil, contest.soil), contest.soil_numbers);

@@ -39,6 +39,14 @@ struct EffectContest {
   std::vector<std::size_t> faults_known;  ///< parameters that are free already
 };
 
+/// A fault by itself, beside all that varies without a name; in units of the parameter's column.
+struct FaultAlone {
+  std::size_t parameter = 0;
+  double size = 0, std = 0;  ///< whatever a sound vehicle is off
+  double gain = 0;           ///< twice the nats of evidence
+  double least_shown = 0;    ///< four of five faults of this size stand out
+};
+
 /// An effect that the data may need: a parameter or a zone.
 struct EffectFound {
   bool is_zone = false;
@@ -57,7 +65,8 @@ struct EffectFound {
   double asked = 0;   ///< gain that a zone needs to stand out
   double sigmas = 0;
   bool stands_out = false;
-  std::vector<std::size_t> alike;  ///< parameters that explain as much, or the same
+  std::vector<FaultAlone> faults;  ///< all that may be claimed and are not known
+  std::vector<FaultAlone> alike;   ///< those of them that explain as much, or the same
   bool zone_alike = false;         ///< some zone explains as much
 };
 

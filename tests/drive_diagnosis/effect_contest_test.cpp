@@ -117,6 +117,33 @@ TEST(StrongestEffect, StandsOutBeyondWhatChanceGives) {
   EXPECT_FALSE(strongest_effect(with_a_fault(3.2, 1), kSeed).stands_out);
 }
 
+/// White noise of the width that is told beside a fault of as many of its columns.
+EffectContest with_noise(double size, std::uint64_t seed) {
+  EffectContest contest = with_a_fault(0, 0);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (double& value : contest.data) value = normal(random);
+  contest.data += size * contest.parameters.col(0);
+  return contest;
+}
+
+TEST(StrongestEffect, TellsFromWhichSizeOnFourOfFiveFaultsStandOut) {
+  constexpr int kDraws = 200;
+  const auto least = [](std::uint64_t seed) {
+    return strongest_effect(with_noise(0, seed), 1).faults.at(0).least_shown;
+  };
+  double size = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) size += least(seed) / 10;
+  int shown = 0, half_shown = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    const auto seed = static_cast<std::uint64_t>(100 + i);
+    shown += strongest_effect(with_noise(size, seed), 1).stands_out;
+    half_shown += strongest_effect(with_noise(size / 2, seed), 1).stands_out;
+  }
+  EXPECT_NEAR(shown, 0.8 * kDraws, 0.09 * kDraws);  // three deviations of so many draws
+  EXPECT_LT(half_shown, 0.1 * kDraws);
+}
+
 TEST(StrongestEffect, BesideAKnownOneMoreIsAskedAsItsFitIsNotExact) {
   EffectContest contest = with_a_fault(4.2, 1);
   contest.faults_known = {1};
@@ -131,7 +158,9 @@ TEST(StrongestEffect, NamesThatChangeTheSameAreAClassUntilTheDataTellThemApart) 
     contest.parameters.col(1) = std::cos(angle_rad) * named + std::sin(angle_rad) * other;
     const EffectFound found = strongest_effect(contest, 1);
     EXPECT_EQ(found.parameter, 0u) << angle_deg;
-    return found.alike;
+    std::vector<std::size_t> parameters;
+    for (const FaultAlone& fault : found.alike) parameters.push_back(fault.parameter);
+    return parameters;
   };
   EXPECT_EQ(alike(20), (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(alike(40), std::vector<std::size_t>{0});

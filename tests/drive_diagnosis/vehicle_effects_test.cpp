@@ -251,5 +251,17 @@ TEST(VehicleEffects, ASteeringOffsetIsNamed) {
   EXPECT_EQ(off.effects->found[0].id, "steering_offset") << said(*off.effects);
 }
 
+TEST(VehicleEffects, TellHowLargeAFaultMustBeAndTorqueThatScattersHidesLargerDrags) {
+  const auto least = [](double torque_scatter, const std::string& parameter) {
+    const Diagnosed null = diagnosed({.torque_scatter = torque_scatter, .seed = 1});
+    const auto& shown = null.effects.value().faults_shown;
+    return std::ranges::find(shown, parameter, &FaultShown::parameter)->least;
+  };
+  const double drag_nm = least(0.03, "drag_rear_right_nm");
+  EXPECT_GT(drag_nm, 0);
+  EXPECT_GT(least(0.16, "drag_rear_right_nm"), drag_nm);
+  EXPECT_LT(least(0.03, "steer_front_deg"), 1);
+}
+
 }  // namespace
 }  // namespace regoplan
