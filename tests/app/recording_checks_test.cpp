@@ -130,6 +130,24 @@ TEST(RecordingChecks, ForcesInKilogramsAreSuspectedByTheFactor) {
   }
 }
 
+TEST(RecordingChecks, LoadsAndForcesInKilogramsAreSuspectedByTheSinkage) {
+  const auto in_kilograms = [](WheelRun& run) {
+    run.load_n /= 9.80665;
+    for (const Channel channel : {Channel::kFx, Channel::kFy, Channel::kTorque}) {
+      scale(run, channel, 1 / 9.80665);
+    }
+  };
+  const std::vector<std::string> found = doubtful_values(changed(in_kilograms), simulant());
+  ASSERT_EQ(found.size(), 1u);
+  expect_words(found[0], {"r.csv: sinkage_m is", "load_n, and forces with it, in kgf"});
+  // A soil in which wheels sink three times as deep is no unit: its forces are others.
+  const auto loose = [](WheelRun& run) {
+    scale(run, Channel::kSinkage, 3);
+    run.measured[0] -= 0.5 * run.load_n;
+  };
+  EXPECT_TRUE(doubtful_values(changed(loose), simulant()).empty());
+}
+
 TEST(RecordingChecks, SeveralForcesInKilogramsAreLeftOutAndOneAloneStays) {
   const auto in_kilograms = [](std::initializer_list<Channel> channels) {
     return changed([&](WheelRun& run) {
