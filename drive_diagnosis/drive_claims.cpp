@@ -69,13 +69,17 @@ std::string zone_text(const VehicleFinding& finding, const TerrainMap& map,
       said, where, chance_text(finding), resistance_text(finding));
 }
 
+std::string size_text(const std::string& parameter, const DriveEstimate& size) {
+  return fmt::format("{} = {:.3g} (95 %: {:.3g} to {:.3g})", parameter, size.value,
+                     size.value - kTwoSided95 * size.std, size.value + kTwoSided95 * size.std);
+}
+
 /// Other numbers of the vehicle that these drives hardly tell from the one that is claimed.
 std::string instead_text(const VehicleFinding& finding) {
   std::vector<std::string> numbers;
   for (const FaultEstimate& other : finding.instead) {
-    numbers.push_back(fmt::format("{} = {:.3g} (95 %: {:.3g} to {:.3g})", other.parameter,
-                                  other.size.value, other.size.value - kTwoSided95 * other.size.std,
-                                  other.size.value + kTwoSided95 * other.size.std));
+    const std::string id = other.id == finding.id ? "" : other.id + ", ";
+    numbers.push_back(id + size_text(other.parameter, other.size));
   }
   if (numbers.empty()) return "";
   return fmt::format("; hardly told from {}", fmt::join(numbers, " or from "));
@@ -92,10 +96,8 @@ std::string chance_text(const VehicleFinding& finding) {
 }
 
 std::string fault_text(const VehicleFinding& finding) {
-  return fmt::format(
-      "{} = {:.3g} (95 %: {:.3g} to {:.3g}), {:.1f} standard deviations from nothing",
-      finding.parameter, finding.size, finding.size - kTwoSided95 * finding.std,
-      finding.size + kTwoSided95 * finding.std, finding.sigmas);
+  return fmt::format("{}, {:.1f} standard deviations from nothing",
+                     size_text(finding.parameter, {finding.size, finding.std}), finding.sigmas);
 }
 
 void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
