@@ -7,6 +7,7 @@
 
 #include "drive_diagnosis/comparison/swapped_sides.h"
 #include "drive_diagnosis/comparison/torque_sign.h"
+#include "drive_diagnosis/differing_drives.h"
 #include "drive_diagnosis/drive_claims.h"
 #include "drive_diagnosis/instruments/torque_unit.h"
 #include "drive_diagnosis/instruments/yaw_unit.h"
@@ -217,6 +218,7 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
 DriveVerdict verdict_of(const DriveDiagnosis& diagnosis) {
   if (diagnosis.claims.empty()) {
     const bool compared = diagnosis.effects || diagnosis.currents;
+    if (is_found(diagnosis, "drives_differ")) return DriveVerdict::kUndecided;
     return compared ? DriveVerdict::kConsistent : DriveVerdict::kUndecided;
   }
   const bool a_class = std::ranges::any_of(
@@ -274,7 +276,13 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     result.windows_used = comparison.windows;
     result.effects = std::move(comparison.effects);
   }
-  if (result.effects) claim_effects(setup, drives, result);
+  if (result.effects) {
+    std::vector<DriveFinding> differing =
+        differing_drives(drives, result.windows, result.effects->compared);
+    // A fault of some drives looks like a smaller one of all of them, or like a zone.
+    if (differing.empty()) claim_effects(setup, drives, result);
+    std::ranges::move(differing, std::back_inserter(result.findings));
+  }
   say_what_is_silent(setup, drives, result);
   result.verdict = verdict_of(result);
 }

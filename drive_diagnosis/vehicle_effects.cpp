@@ -179,8 +179,10 @@ class EffectSearch {
   }
 
   std::vector<FaultShown> faults_shown(const EffectFound& sought_last) const {
+    constexpr double kUsual = 40;  // of what a sound vehicle is off
     std::vector<FaultShown> shown;
     for (const FaultAlone& fault : sought_last.faults) {
+      if (!(fault.least_shown < kUsual)) continue;
       const VehicleTrial& trial = trials_[fault.parameter];
       shown.push_back(
           {.id = trial.id, .parameter = trial.parameter, .least = fault.least_shown * trial.unit});

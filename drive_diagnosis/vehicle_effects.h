@@ -79,9 +79,10 @@ struct SoilFitted {
 /// What the vehicle's windows say.
 struct VehicleEffects {
   std::vector<VehicleFinding> found;
-  VehicleFinding strongest_left;         ///< what did not stand out
-  std::vector<FaultShown> faults_shown;  ///< beside what was found
-  std::vector<ZoneShown> zones_shown;    ///< beside what was found
+  VehicleFinding strongest_left;  ///< what did not stand out
+  /// Beside what was found; without those that are shown at no usual size.
+  std::vector<FaultShown> faults_shown;
+  std::vector<ZoneShown> zones_shown;  ///< beside what was found
   UncertainVehicle vehicle;  ///< of the numbers that nobody knew well, what the drives say
   std::vector<SoilFitted> soils_fitted;  ///< none where too few windows lie outside zones
   std::vector<MapSoil> soils;  ///< of the map, those that are handed back as they are fitted

@@ -29,7 +29,9 @@ ResultFolder corrected_folder(const ResultFolder& results) {
 }
 
 bool has_corrected_map(const DriveDiagnosisRun& run) {
-  return run.diagnosis.effects.has_value() && !run.diagnosis.interrupted;
+  const DriveDiagnosis& diagnosis = run.diagnosis;
+  return diagnosis.effects.has_value() && diagnosis.verdict != DriveVerdict::kUndecided &&
+         !diagnosis.interrupted;
 }
 
 std::vector<std::string> corrected_file_names() {

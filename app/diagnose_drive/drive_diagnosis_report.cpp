@@ -20,6 +20,9 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
                                                    : fmt::format("{} drives", run.drive_ids.size());
   if (diagnosis.interrupted) return fmt::format("Interrupted: {}, not diagnosed yet.", of);
   if (diagnosis.verdict == DriveVerdict::kUndecided) {
+    if (diagnosis.effects) {
+      return fmt::format("Undecided: in {} not the same is otherwise than the model has it.", of);
+    }
     return fmt::format("Undecided: nothing of {} could be compared with the model.", of);
   }
   if (diagnosis.claims.empty()) {
@@ -35,6 +38,10 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
 
 std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis) {
   if (diagnosis.verdict != DriveVerdict::kUndecided || diagnosis.silent.empty()) return {};
+  if (diagnosis.effects) {
+    return "Faults and zones are sought in all drives together. What would decide: each of them "
+           "diagnosed by itself.";
+  }
   const SilentEffect& first = diagnosis.silent.front();
   return fmt::format("Why: {}. What would decide: {}.", first.why, first.drive);
 }

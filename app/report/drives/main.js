@@ -71,6 +71,11 @@ const withUnit = key => {
 const quantityText = channel =>
     channel === 'soil' ? 'soil: rolling resistance, share of the load' : withUnit(channel);
 
+/// A vehicle's fault is no place: it acts wherever is driven.
+const nowhereText = () => REPORT.mechanisms.length ?
+    'At no one place: what is claimed acts all along.' :
+    'Nowhere beyond what chance gives.';
+
 byId('where').append(
     REPORT.where.length ?
         wideTable(
@@ -78,7 +83,8 @@ byId('where').append(
             columns('quantity', 'where', 'measured - model', '95 %', 'p'),
             REPORT.where.map(at => [quantityText(at.channel), at.where, number(at.effect),
                                     at.ci95.map(number).join(' to '), number(at.p_value)])) :
-        COMPARED ? 'Nowhere beyond what chance gives.' : 'Nothing could be compared.');
+        COMPARED ? nowhereText() :
+                   'Nothing could be compared.');
 if (REPORT.where.length)
   byId('where').append(element(
       'p', {class: 'note'},

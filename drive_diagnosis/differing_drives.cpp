@@ -1,0 +1,79 @@
+#include "drive_diagnosis/differing_drives.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drive_diagnosis/recording/robust_statistics.h"
+
+namespace regoplan {
+namespace {
+
+/// What is left of a channel in the windows of some drives.
+struct Left {
+  double middle = 0, scatter = 0;
+};
+
+Left left_in(const std::vector<double>& residuals) {
+  constexpr double kNormal = 0.6745;  // of a normal number, half lie within
+  const double middle = median_value(residuals);
+  std::vector<double> off;
+  for (const double residual : residuals) off.push_back(std::abs(residual - middle));
+  return {middle, median_value(std::move(off)) / kNormal};
+}
+
+/// How far one drive lies from all others.
+struct Apart {
+  std::size_t drive = 0;
+  double off = 0, scatters = 0;
+};
+
+/// The drive farthest from the others, in scatters of a window.
+Apart farthest(const std::vector<std::size_t>& drive_of, const std::vector<double>& residuals,
+               std::size_t drives) {
+  constexpr std::size_t kFewest = 8;
+  Apart most;
+  for (std::size_t drive = 0; drive < drives; ++drive) {
+    std::vector<double> own, others;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      (drive_of[i] == drive ? own : others).push_back(residuals[i]);
+    }
+    if (own.size() < kFewest || others.size() < kFewest) continue;
+    const Left of_own = left_in(own), of_others = left_in(others);
+    const double off = of_own.middle - of_others.middle;
+    const double scatters = std::abs(off) / std::max(of_own.scatter, of_others.scatter);
+    if (scatters > most.scatters) most = {drive, off, scatters};
+  }
+  return most;
+}
+
+}  // namespace
+
+std::vector<DriveFinding> differing_drives(const std::vector<DriveRecording>& drives,
+                                           const std::vector<DriveWindow>& windows,
+                                           const std::vector<ComparedChannel>& compared) {
+  constexpr double kFar_scatters = 4;
+  std::vector<DriveFinding> findings;
+  for (const ComparedChannel& channel : compared) {
+    std::vector<std::size_t> drive_of;
+    std::vector<double> residuals;
+    for (std::size_t i = 0; i < channel.windows.size(); ++i) {
+      drive_of.push_back(windows[channel.windows[i]].drive);
+      residuals.push_back(channel.measured[i] - channel.corrected[i]);
+    }
+    const Apart apart = farthest(drive_of, residuals, drives.size());
+    if (apart.scatters < kFar_scatters) continue;
+    findings.push_back(
+        {.id = "drives_differ",
+         .drive = drives[apart.drive].drive_id,
+         .text = fmt::format("{} lies {:.2g} {} in this drive than in the others, beside what all "
+                             "of them together say: {:.0f} times the scatter of a window",
+                             channel.name, std::abs(apart.off), apart.off > 0 ? "higher" : "lower",
+                             apart.scatters),
+         .value = apart.off});
+  }
+  return findings;
+}
+
+}  // namespace regoplan

@@ -1,0 +1,72 @@
+// What is otherwise in some drives only is no fault of all of them.
+#include "drive_diagnosis/differing_drives.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "tests/drive_diagnosis/simulated_drive.h"
+
+namespace regoplan {
+namespace {
+
+DriveRecording of_drive(const std::string& drive_id, std::uint64_t seed, double drag_nm) {
+  SimulatedDrive drive{.seed = seed};
+  drive.deviation.wheel_drag_nm[3] = drag_nm;
+  DriveRecording recording = record(drive, rolling_map());
+  recording.drive_id = drive_id;
+  return recording;
+}
+
+DriveDiagnosis diagnosed_together(const std::vector<DriveRecording>& drives) {
+  return diagnose_drives(
+      drives,
+      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
+      {});
+}
+
+TEST(DifferingDrives, AWheelThatDragsInOneOfThemIsNoVerdictOnBoth) {
+  const DriveDiagnosis diagnosis =
+      diagnosed_together({of_drive("sound", 1, 0), of_drive("dragging", 2, 7)});
+  EXPECT_EQ(diagnosis.verdict, DriveVerdict::kUndecided);
+  EXPECT_TRUE(diagnosis.claims.empty());
+  const auto differs = std::ranges::find(diagnosis.findings, "drives_differ", &DriveFinding::id);
+  ASSERT_NE(differs, diagnosis.findings.end());
+  EXPECT_NE(differs->text.find("torque_"), std::string::npos) << differs->text;
+}
+
+TEST(DifferingDrives, AWheelThatDragsInAllIsNamed) {
+  const DriveDiagnosis diagnosis =
+      diagnosed_together({of_drive("first", 1, 7), of_drive("second", 2, 7)});
+  EXPECT_EQ(std::ranges::count(diagnosis.findings, "drives_differ", &DriveFinding::id), 0);
+  ASSERT_FALSE(diagnosis.claims.empty());
+  EXPECT_EQ(diagnosis.claims[0].id, "wheel_drag");
+}
+
+/// Two drives of twenty windows whose residuals are told.
+std::vector<DriveFinding> differing(const std::function<double(std::size_t)>& residual) {
+  const std::vector<DriveRecording> drives{{.drive_id = "a"}, {.drive_id = "b"}};
+  std::vector<DriveWindow> windows(40);
+  ComparedChannel channel{.name = "torque_nm", .corrected = std::vector<double>(40, 0.0)};
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    windows[i].drive = i < 20 ? 0 : 1;
+    channel.windows.push_back(i);
+    channel.measured.push_back(residual(i));
+  }
+  return differing_drives(drives, windows, {channel});
+}
+
+TEST(DifferingDrives, AreToldByTheMiddleOfWhatIsLeftAgainstTheScatterOfAWindow) {
+  const auto scatter = [](std::size_t i) { return i % 2 == 0 ? 1.0 : -1.0; };
+  EXPECT_TRUE(differing(scatter).empty());
+  // A zone in a third of one drive does not move the middle of all its windows.
+  EXPECT_TRUE(differing([&](std::size_t i) { return scatter(i) + (i < 7 ? 50 : 0); }).empty());
+  const auto apart = differing([&](std::size_t i) { return scatter(i) + (i < 20 ? 12 : 0); });
+  ASSERT_EQ(apart.size(), 1u);
+  EXPECT_EQ(apart[0].drive, "a");
+  EXPECT_NEAR(apart[0].value.value_or(0), 12, 1e-9);
+}
+
+}  // namespace
+}  // namespace regoplan
