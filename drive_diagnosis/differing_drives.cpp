@@ -30,9 +30,12 @@ struct Apart {
 };
 
 /// The drive farthest from the others, in scatters of a window.
+/// \param noise of the channel, as it is fitted: what is left of one without any scatter, as a
+/// simulator without sensors may record, is round-off
 Apart farthest(const std::vector<std::size_t>& drive_of, const std::vector<double>& residuals,
-               std::size_t drives) {
+               std::size_t drives, double noise) {
   constexpr std::size_t kFewest = 8;
+  constexpr double kNarrowest = 0.1;
   Apart most;
   for (std::size_t drive = 0; drive < drives; ++drive) {
     std::vector<double> own, others;
@@ -42,7 +45,9 @@ Apart farthest(const std::vector<std::size_t>& drive_of, const std::vector<doubl
     if (own.size() < kFewest || others.size() < kFewest) continue;
     const Left of_own = left_in(own), of_others = left_in(others);
     const double off = of_own.middle - of_others.middle;
-    const double scatters = std::abs(off) / std::max(of_own.scatter, of_others.scatter);
+    const double scatter = std::max({of_own.scatter, of_others.scatter, kNarrowest * noise});
+    if (!(scatter > 0)) continue;
+    const double scatters = std::abs(off) / scatter;
     if (scatters > most.scatters) most = {drive, off, scatters};
   }
   return most;
@@ -62,7 +67,7 @@ std::vector<DriveFinding> differing_drives(const std::vector<DriveRecording>& dr
       drive_of.push_back(windows[channel.windows[i]].drive);
       residuals.push_back(channel.measured[i] - channel.corrected[i]);
     }
-    const Apart apart = farthest(drive_of, residuals, drives.size());
+    const Apart apart = farthest(drive_of, residuals, drives.size(), channel.noise);
     if (apart.scatters < kFar_scatters) continue;
     findings.push_back(
         {.id = "drives_differ",

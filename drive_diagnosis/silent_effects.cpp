@@ -143,7 +143,7 @@ SilentEffect smaller_faults(const std::vector<FaultShown>& faults) {
 }  // namespace
 
 std::optional<std::string> nearest_text(const DriveDiagnosis& result) {
-  if (!result.effects) return {};
+  if (!result.effects || result.verdict == DriveVerdict::kUndecided) return {};
   const VehicleFinding& nearest = result.effects->strongest_left;
   // Of the largest gains by chance, from one in a thousand to one in twenty.
   const double asked = nearest.chance - 2 * std::log(50.0);

@@ -64,7 +64,7 @@ TEST(DriveClaims, AFaultIsToldWithTheNumbersThatItIsHardlyToldFrom) {
 
 /// What is not enough for a claim is told where chance seldom shows as much.
 TEST(DriveClaims, WhatComesNearestToAClaimIsTold) {
-  DriveDiagnosis diagnosis;
+  DriveDiagnosis diagnosis{.verdict = DriveVerdict::kConsistent};
   EXPECT_FALSE(nearest_text(diagnosis));
   diagnosis.effects = VehicleEffects{.strongest_left = {.id = "wheel_drag",
                                                         .parameter = "drag_front_left_nm",

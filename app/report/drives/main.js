@@ -72,9 +72,13 @@ const quantityText = channel =>
     channel === 'soil' ? 'soil: rolling resistance, share of the load' : withUnit(channel);
 
 /// A vehicle's fault is no place: it acts wherever is driven.
-const nowhereText = () => REPORT.mechanisms.length ?
-    'At no one place: what is claimed acts all along.' :
-    'Nowhere beyond what chance gives.';
+const nowhereText = () => {
+  if (REPORT.findings.some(({id}) => id === 'drives_differ'))
+    return 'Not the same in every drive: what was found in the recordings says in which.';
+  if (!COMPARED) return 'Nothing could be compared.';
+  return REPORT.mechanisms.length ? 'At no one place: what is claimed acts all along.' :
+                                    'Nowhere beyond what chance gives.';
+};
 
 byId('where').append(
     REPORT.where.length ?
@@ -83,8 +87,7 @@ byId('where').append(
             columns('quantity', 'where', 'measured - model', '95 %', 'p'),
             REPORT.where.map(at => [quantityText(at.channel), at.where, number(at.effect),
                                     at.ci95.map(number).join(' to '), number(at.p_value)])) :
-        COMPARED ? nowhereText() :
-                   'Nothing could be compared.');
+        nowhereText());
 if (REPORT.where.length)
   byId('where').append(element(
       'p', {class: 'note'},
