@@ -10,19 +10,6 @@
 namespace regoplan {
 namespace {
 
-/// What is left of a channel in the windows of some drives.
-struct Left {
-  double middle = 0, scatter = 0;
-};
-
-Left left_in(const std::vector<double>& residuals) {
-  constexpr double kNormal = 0.6745;  // of a normal number, half lie within
-  const double middle = median_value(residuals);
-  std::vector<double> off;
-  for (const double residual : residuals) off.push_back(std::abs(residual - middle));
-  return {middle, median_value(std::move(off)) / kNormal};
-}
-
 /// How far one drive lies from all others.
 struct Apart {
   std::size_t drive = 0;
@@ -43,7 +30,7 @@ Apart farthest(const std::vector<std::size_t>& drive_of, const std::vector<doubl
       (drive_of[i] == drive ? own : others).push_back(residuals[i]);
     }
     if (own.size() < kFewest || others.size() < kFewest) continue;
-    const Left of_own = left_in(own), of_others = left_in(others);
+    const MiddleAndScatter of_own = middle_and_scatter(own), of_others = middle_and_scatter(others);
     const double off = of_own.middle - of_others.middle;
     const double scatter = std::max({of_own.scatter, of_others.scatter, kNarrowest * noise});
     if (!(scatter > 0)) continue;

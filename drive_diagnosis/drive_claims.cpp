@@ -13,12 +13,6 @@ namespace {
 
 constexpr double kTwoSided95 = 1.96;  ///< standard deviations of a normal number
 
-/// In what share of drives of a sound vehicle over the map's soils chance alone shows as much.
-double chance_of(const VehicleFinding& finding) {
-  // Beyond what one contest in a thousand gains, gains fall off as exp(-gain / 2).
-  return 1e-3 * std::exp((finding.chance - finding.gain) / 2);
-}
-
 /// Where on the map a zone lies that a drive went through.
 DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveRecording>& drives,
                           const VehicleFinding& finding) {
@@ -86,6 +80,11 @@ std::string instead_text(const VehicleFinding& finding) {
 }
 
 }  // namespace
+
+double chance_of(const VehicleFinding& finding) {
+  // Beyond what one contest in a thousand gains, gains fall off as exp(-gain / 2).
+  return 1e-3 * std::exp((finding.chance - finding.gain) / 2);
+}
 
 std::string chance_text(const VehicleFinding& finding) {
   constexpr double kRarest = 1e-6;

@@ -21,6 +21,9 @@ void claim_side_drag(DriveDiagnosis& result);
 void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                    DriveDiagnosis& result);
 
+/// In what share of drives of a sound vehicle over the map's soils chance alone shows as much.
+double chance_of(const VehicleFinding& finding);
+
 /// How rare drives of a sound vehicle over the map's soils are in which chance alone shows as much.
 std::string chance_text(const VehicleFinding& finding);
 

@@ -145,9 +145,8 @@ SilentEffect smaller_faults(const std::vector<FaultShown>& faults) {
 std::optional<std::string> nearest_text(const DriveDiagnosis& result) {
   if (!result.effects || result.verdict == DriveVerdict::kUndecided) return {};
   const VehicleFinding& nearest = result.effects->strongest_left;
-  // Of the largest gains by chance, from one in a thousand to one in twenty.
-  const double asked = nearest.chance - 2 * std::log(50.0);
-  if (nearest.gain < asked) return {};
+  constexpr double kSeldom = 0.05;
+  if (chance_of(nearest) > kSeldom) return {};
   const std::string size = nearest.id == "soil_zone" ? "" : ": " + fault_text(nearest);
   return fmt::format(
       "nearest to a claim, and not enough for one, is {}{}; by chance alone {} would show as much",

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "diagnosis/recording/median.h"
+#include "diagnosis/recording/neighbour_scatter.h"
 #include "diagnosis/recording/replicate_covariance.h"
 #include "diagnosis/recording/replicates.h"
 #include "diagnosis/recording/thresholds.h"
@@ -27,12 +29,6 @@ constexpr Eigen::Index kTellsGrowth = 12;
 /// alike, nearly a half-Cauchy prior about a run's scatter (Gelman 2006, Bayesian Analysis 1, 515).
 constexpr std::array kSteps{0.0, 0.35, 0.7, 1.4, 2.8};
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Robust scatter of one run from the differences of replicates.
 double rough_deviation(const Replicates& replicates, const std::vector<double>& value) {
   std::vector<double> differences;
@@ -43,7 +39,7 @@ double rough_deviation(const Replicates& replicates, const std::vector<double>& 
       }
     }
   }
-  const double middle = median(differences) / (0.6745 * std::sqrt(2.0));
+  const double middle = median(differences) / (kMedianOfNormal * std::sqrt(2.0));
   if (middle > 0) return middle;
   return std::accumulate(differences.begin(), differences.end(), 0.0) /
          (1.128 * static_cast<double>(differences.size()));
@@ -147,56 +143,6 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
       }
     }
   }
-}
-
-/// Root mean square of values that are far off where they are farther than outliers lie: a median
-/// alone would take tails for narrower than they are.
-double winsorised_rms(const std::vector<double>& off, double rough) {
-  const double most = Thresholds::kOutlier_deviations * rough;
-  double sum = 0;
-  for (const double value : off) sum += std::pow(std::min(value, most), 2);
-  return std::sqrt(sum / static_cast<double>(off.size()));
-}
-
-struct NeighbourScatter {
-  double deviation = 0;        ///< of one run; 0 where there are too few
-  int degrees_of_freedom = 0;  ///< by which it is known
-};
-
-/// Scatter between neighbouring conditions of what the model leaves: each run against the mean of
-/// its two nearest.
-NeighbourScatter neighbour_scatter(const std::vector<Condition>& conditions,
-                                   const std::vector<double>& value,
-                                   const std::vector<double>& model) {
-  struct Point {
-    double s, b, l, residual;
-  };
-  std::vector<Point> points;
-  for (const Condition& at : conditions) {
-    for (const std::size_t run : at.runs) {
-      if (!std::isfinite(value[run])) continue;
-      points.push_back({at.slip_ratio / 0.1, at.slip_angle_rad / 0.1, std::log(at.load_n) / 0.3,
-                        value[run] - model[run]});
-    }
-  }
-  if (points.size() < 4) return {};
-  std::vector<double> off;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::vector<std::pair<double, double>> others;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      if (k == i) continue;
-      const double distance = std::hypot(points[k].s - points[i].s, points[k].b - points[i].b,
-                                         points[k].l - points[i].l);
-      others.emplace_back(distance, points[k].residual);
-    }
-    std::ranges::partial_sort(others, others.begin() + 2);
-    off.push_back(std::abs(points[i].residual - (others[0].second + others[1].second) / 2));
-  }
-  const double rough = median(off) / 0.6745;
-  // Each difference shares its runs with about four others.
-  constexpr int kShared = 4;
-  return {std::max(rough, winsorised_rms(off, rough)) / std::sqrt(1.5),
-          std::max(1, static_cast<int>(points.size()) / kShared)};
 }
 
 ChannelNoise told_by_neighbours(Channel channel, const NeighbourScatter& scatter,

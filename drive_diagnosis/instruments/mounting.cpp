@@ -25,9 +25,7 @@ std::optional<DriveEstimate> offset_of(const AnglePairs& pairs) {
   for (std::size_t i = 0; i < pairs.ground.size(); ++i) {
     off.push_back(pairs.measured[i] - pairs.ground[i]);
   }
-  const double middle = median_value(off);
-  for (double& value : off) value = std::abs(value - middle);
-  const double spread = median_value(off) / 0.6745;
+  const auto [middle, spread] = middle_and_scatter(std::move(off));
   const double independent = static_cast<double>(pairs.ground.size()) / 3;
   constexpr double kLeast_rad = 1e-4;
   return DriveEstimate{middle, std::max(kLeast_rad, 1.2533 * spread / std::sqrt(independent))};

@@ -5,6 +5,11 @@
 #include <numeric>
 
 namespace regoplan {
+namespace {
+
+constexpr double kMedianOfNormal = 0.6745;  // of |x|
+
+}  // namespace
 
 double median_value(std::vector<double> values) {
   return quantile_value(std::move(values), 0.5);
@@ -16,6 +21,12 @@ double quantile_value(std::vector<double> values, double share) {
   const auto low = static_cast<std::size_t>(at);
   const std::size_t high = std::min(low + 1, values.size() - 1);
   return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
+MiddleAndScatter middle_and_scatter(std::vector<double> values) {
+  const double middle = median_value(values);
+  for (double& value : values) value = std::abs(value - middle);
+  return {middle, median_value(std::move(values)) / kMedianOfNormal};
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
@@ -34,7 +45,6 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
 
 double scatter_of_samples(const std::vector<double>& time_s, const std::vector<double>& values) {
   constexpr std::size_t kNeighbours = 5;
-  constexpr double kMedianOfNormal = 0.6745;  // of |x|
   std::vector<double> sizes;
   for (std::size_t first = 0; first + kNeighbours <= values.size(); ++first) {
     // The fourth divided difference, which is 0 of any cubic.

@@ -10,6 +10,13 @@ double median_value(std::vector<double> values);
 /// The value below which a share of them lies, interpolated. \pre not empty, no NaN
 double quantile_value(std::vector<double> values, double share);
 
+/// The median, and the standard deviation of a normal number of which half lie as near to it.
+struct MiddleAndScatter {
+  double middle = 0, scatter = 0;
+};
+/// \pre not empty, no NaN
+MiddleAndScatter middle_and_scatter(std::vector<double> values);
+
 /// Pearson's correlation of pairs; 0 where either does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b);
 
