@@ -184,7 +184,7 @@ struct Diagnosis {
   WheelModelSpec corrected_model;  ///< calibrated soil, the claim's mechanisms, or `generic`
   UncertainSoil corrected_soil;
   std::vector<NameStep> names_added;    ///< of the claims, first to last
-  std::vector<std::string> suspects;    ///< physics that would do instead of a soil number
+  std::vector<std::string> suspects;    ///< names that would do instead of a soil number
   double remainder_share = 0;           ///< of the excess misfit, which the claims leave
   double chance_nats = 0;               ///< gain that one nameless world in forty reaches; 0: none
   std::vector<std::string> references;  ///< what the recording was compared with

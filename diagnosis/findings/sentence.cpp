@@ -254,17 +254,19 @@ std::string bed_memory_words() {
          "prepare the bed anew before each run.";
 }
 
-/// A name that is likelier than all else, and by a third and more, is not denied, though it is not
-/// claimed.
+/// Names that are likelier than all else, the first by a third and more and others half as likely,
+/// are not denied, though they are not claimed.
 std::string nameless_words(const Diagnosis& diagnosis) {
   constexpr double kNear = 1.0 / 3;
   const std::vector<std::string> none{"unexplained", "parameters", "none"};
-  const auto& ranking = diagnosis.ranking;
-  if (ranking.empty() || ranking.front().probability < kNear ||
-      std::ranges::find(none, ranking.front().id) != none.end()) {
-    return "no known name explains it";
+  std::vector<std::string> nearest;
+  for (const ScoredCandidate& one : diagnosis.ranking) {
+    const double least = nearest.empty() ? kNear : diagnosis.ranking.front().probability / 2;
+    if (one.probability < least || std::ranges::find(none, one.id) != none.end()) break;
+    nearest.push_back(one.id);
   }
-  return fmt::format("no known name stands (nearest: {})", ranking.front().id);
+  if (nearest.empty()) return "no known name explains it";
+  return fmt::format("no known name stands (nearest: {})", list_of(nearest));
 }
 
 }  // namespace

@@ -230,13 +230,14 @@ double shared_temperature(const std::vector<ScoredId>& scored) {
 
 /// The logarithm of each candidate's likelihood as it is weighed. Names are fitted with the soil
 /// free within its tests; that its numbers may all lie at their means is no merit over a name: the
-/// plain model weighs as the free soil does, whichever of the two it is.
+/// plain model weighs as the free soil does, whichever of the two it is; all of it is that of the
+/// one that is left where the other is given up.
 std::vector<double> log_likelihoods(const std::vector<ScoredId>& scored) {
   const double temperature = shared_temperature(scored),
                free_soil = scored_as(Account::Kind::kParameters, scored).score / temperature;
   std::vector<double> plain, all;
   for (const ScoredId& s : scored) {
-    if (s.account.is_plain()) plain.push_back(s.score / temperature);
+    if (s.account.is_plain() && !s.given_up) plain.push_back(s.score / temperature);
   }
   const double of_plain = log_sum(plain);
   for (const ScoredId& s : scored) {
@@ -288,6 +289,7 @@ NameSupport support_of(const std::vector<ScoredId>& scored, PlainModel tests) {
   std::vector<double> plain, other;
   for (std::size_t i = 0; i < scored.size(); ++i) {
     const Account& account = scored[i].account;
+    if (account.is_plain() && scored[i].given_up) continue;
     const double prior = log_prior_of(account);
     (account.is_plain() ? plain : other).push_back(likelihood[i] + prior);
     if (account.kind == Account::Kind::kEffects) best = std::max(best, scored[i].score + prior);

@@ -112,8 +112,8 @@ CondensedRecording with_known_soil(CondensedRecording recording) {
   return recording;
 }
 
-/// Model at the prior means, and a surface over it where that proves itself. Figures of the
-/// calibrated model stay those of the calibrated model.
+/// Model at the prior means, and a surface over it where that proves itself. What is told of the
+/// calibrated model stays that of the calibrated model.
 Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surface,
                           const HeldOut& of_calibrated, int threads) {
   const CalibratedRecording known(with_known_soil(calibrated.recording()));
@@ -137,6 +137,11 @@ Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surfa
           : 0;
   proof.excess = of_calibrated.excess;
   Correction correction = handed_out(known, known.base(), settings, proof);
+  const std::vector<RunResidual> by_calibrated =
+      residuals_of(calibrated, proof, calibrated.base().prediction);
+  for (std::size_t i = 0; i < by_calibrated.size(); ++i) {
+    correction.residuals[i].calibrated = by_calibrated[i].calibrated;
+  }
   correction.soil = calibrated.bed().setup.soil;
   correction.soil_pulls = calibrated.soil_pulls();
   for (SoilPull& pull : correction.soil_pulls) {
@@ -144,18 +149,6 @@ Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surfa
     pull.corrected_pull = 0;
   }
   return correction;
-}
-
-/// Why a calibrated model is not handed on; empty where it is: soil numbers that fit some channels
-/// at the cost of another tell nothing of the soil.
-std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof) {
-  const auto loss =
-      clear_loss(calibrated.bed(), proof.calibrated, calibrated.prediction_at_prior_means());
-  if (!loss) return "";
-  return fmt::format(
-      "held out by {}, calibrated soil numbers predict {} worse than the prior means by {:.1f} "
-      "standard errors",
-      proof.families.by, name(loss->channel), loss->errors);
 }
 
 /// The soil fitted to noise as wide as what it leaves.
@@ -166,11 +159,30 @@ std::optional<CandidateFit> soil_near_tests(const CalibratedRecording& calibrate
                         start_of(problem, {}), kSteps);
 }
 
+/// Why the prior means are handed on in place of the calibrated model; empty where they are not: of
+/// two that each spoil a channel of the other's the calibrated one is what others are held to.
+std::string prior_means_for(const CalibratedRecording& calibrated, const HeldOut& proof) {
+  const bool they_spoil =
+      clear_loss(calibrated.bed(), calibrated.prediction_at_prior_means(), proof.calibrated)
+          .has_value();
+  return they_spoil ? "" : worse_than_prior_means(calibrated, proof);
+}
+
 }  // namespace
+
+std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof) {
+  const auto loss =
+      clear_loss(calibrated.bed(), proof.calibrated, calibrated.prediction_at_prior_means());
+  if (!loss) return "";
+  return fmt::format(
+      "held out by {}, calibrated soil numbers predict {} worse than the prior means by {:.1f} "
+      "standard errors",
+      proof.families.by, name(loss->channel), loss->errors);
+}
 
 Correction calibrated_alone(const CalibratedRecording& calibrated, int threads) {
   const HeldOut proof = calibrated.held_out({}, threads);
-  std::string worse = worse_than_prior_means(calibrated, proof);
+  std::string worse = prior_means_for(calibrated, proof);
   if (worse.empty()) return handed_out(calibrated, calibrated.base(), {}, proof);
   Correction correction = at_prior_means(calibrated, false, proof, threads);
   correction.refused = "the soil stays at its prior means: " + worse;
@@ -183,11 +195,7 @@ Correction correction_by(const CalibratedRecording& calibrated, const CandidateF
   std::string reason = no_better_than_calibrated(calibrated.bed(), proof);
   if (reason.empty()) return handed_out(calibrated, fit, remainder, proof);
   const HeldOut plain = calibrated.held_out({}, proof.families, threads);
-  std::string worse = worse_than_prior_means(calibrated, plain);
-  // of two that each spoil a channel of the other's the calibrated one is what others are held to
-  if (clear_loss(calibrated.bed(), calibrated.prediction_at_prior_means(), plain.calibrated)) {
-    worse.clear();
-  }
+  const std::string worse = prior_means_for(calibrated, plain);
   Correction correction = worse.empty() ? handed_out(calibrated, calibrated.base(), {}, plain)
                                         : at_prior_means(calibrated, false, plain, threads);
   correction.refused = worse.empty() ? std::move(reason) : reason + "; " + worse;

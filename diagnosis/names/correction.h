@@ -22,6 +22,11 @@ struct Correction {
       refused;  ///< why the model asked for gave way to the calibrated one; empty: it did not
 };
 
+/// Why a calibrated model is not handed on; empty where it is: soil numbers that fit some channels
+/// at the cost of another tell nothing of the soil.
+/// \param proof of the calibrated model
+std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof);
+
 /// The calibrated model, nothing added.
 Correction calibrated_alone(const CalibratedRecording& calibrated, int threads);
 

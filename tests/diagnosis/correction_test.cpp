@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "synthetic_bed.h"
 
 namespace regoplan {
@@ -28,12 +30,12 @@ TEST(Correction, CalibratedSoilIsHandedOnWhereTheModelHolds) {
   EXPECT_EQ(correction.refused, "");
 }
 
-TEST(Correction, SoilNumbersThatPredictAChannelWorseThanThePriorMeansAreNotHandedOn) {
-  const Correction correction = corrected(with_a_pull_beyond_any_soil());
-  EXPECT_NE(correction.refused.find("the soil stays at its prior means"), std::string::npos)
-      << correction.refused;
-  EXPECT_EQ(correction.soil.mean.cohesion_pa, simulant_setup().soil.mean.cohesion_pa);
-  EXPECT_EQ(correction.soil.mean.friction_angle_rad, simulant_setup().soil.mean.friction_angle_rad);
+TEST(Correction, TellsOfSoilNumbersThatPredictAChannelWorseThanThePriorMeans) {
+  const CalibratedRecording pulled(recorded(with_a_pull_beyond_any_soil()));
+  EXPECT_NE(worse_than_prior_means(pulled, pulled.held_out({}, 2)).find("predict fy_n worse"),
+            std::string::npos);
+  const CalibratedRecording sound(recorded({}));
+  EXPECT_EQ(worse_than_prior_means(sound, sound.held_out({}, 2)), "");
 }
 
 TEST(Correction, PriorMeansDoNotReplaceSoilNumbersThatPredictAnotherChannelBetter) {

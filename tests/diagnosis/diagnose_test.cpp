@@ -8,6 +8,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "synthetic_bed.h"
+#include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
@@ -32,6 +33,32 @@ Diagnosis diagnosed(const TrueWheel& truth, std::uint64_t seed, BedPlan plan = {
   std::mt19937_64 random(seed);
   return diagnose(record(truth, setup, draw(setup.soil, setup.wheel.width_m, random), plan, seed),
                   setup, options);
+}
+
+/// A loose sand of which only some numbers were tested.
+DiagnosisSetup setup_of_few_soil_tests() {
+  DiagnosisSetup setup{.wheel = {.radius_m = 0.12, .width_m = 0.1}};
+  setup.soil.mean = {.cohesion_pa = 500,
+                     .friction_angle_rad = 34 * kDegree,
+                     .kc = 1370,
+                     .kphi = 814000,
+                     .n = 1,
+                     .a0 = 0.4,
+                     .a1 = 0.15,
+                     .lambda = 0.9,
+                     .density_kgpm3 = 1550,
+                     .kx0_m = 0.03,
+                     .kx1_m = 0.043,
+                     .ky0_m = 0.014,
+                     .ky1_m = 0.02};
+  setup.soil.standard_deviation = {.cohesion_pa = 150,
+                                   .friction_angle_rad = 1.5 * kDegree,
+                                   .kphi = 80000,
+                                   .a0 = 0.04,
+                                   .lambda = 0.08,
+                                   .kx0_m = 0.004,
+                                   .ky0_m = 0.002};
+  return setup;
 }
 
 TEST(Diagnose, OtherSoilNumbersWithinTheirPriorsAreNoMissingPhysics) {
@@ -113,6 +140,24 @@ TEST(Diagnose, AShareOfTheSideForceToBothSidesIsTheFlanksFriction) {
   const Diagnosis found = diagnosed({}, 21, plan);
   EXPECT_TRUE(names(found, "flank_friction")) << found.sentence;
   EXPECT_FALSE(names(found, "sensor_crosstalk")) << found.sentence;
+}
+
+/// Under one load other soil numbers do nearly what a bias does, at the cost of the side force.
+TEST(Diagnose, SoilNumbersThatTakeUpABiasAtTheCostOfAnotherChannelAreNoCleanBill) {
+  BedPlan plan{.slips = {-0.2, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6},
+               .angles_deg = {0, 5, 10, 15},
+               .loads_n = {90}};
+  plan.instruments = [](WheelRun& run) { run.measured[0] += 4; };
+  const DiagnosisSetup setup = setup_of_few_soil_tests();
+  for (const std::uint64_t seed : {1, 3}) {
+    const Diagnosis found = diagnose(record({}, setup, setup.soil.mean, plan, seed), setup);
+    EXPECT_TRUE(found.verdict != Verdict::kParameters ||
+                std::ranges::count(found.suspects, "sensor_bias") == 1)
+        << found.sentence;
+    for (const ChannelFit& fit : found.fit) {
+      EXPECT_LT(fit.corrected_rmse, 1.3 * fit.noise_floor) << name(fit.channel) << found.sentence;
+    }
+  }
 }
 
 TEST(Diagnose, ABiasIsNamedWhereverOnTheBedTheRunsBegan) {
