@@ -166,17 +166,31 @@ class Differing {
         return fmt::format("with {} it predicts {} worse", regoplan::name(t.base),
                            regoplan::name(*share.worsened));
       }
-      if (t.base == SharedBase::kCalibrated) {
-        const double p = chance_of(reached_, name->gain_nats, share.share.low);
-        if (p > Thresholds::kByChance_p) {
-          return fmt::format(
-              "nameless differences let some name do as well with a probability of {:.2f}", p);
-        }
-      }
       std::string doubt = objection(t.calibrated->problem(), name->fit);
       if (!doubt.empty()) return doubt;
     }
     return "";
+  }
+
+  /// How often nameless differences let some name do as well as this one.
+  double chance_of_name(const CappedName& name) {
+    const NameShare share = name_share(*primary().calibrated, name.fit, options_.threads);
+    return chance_of(reached_, name.gain_nats, share.share.low);
+  }
+
+  /// Why names that fit alike are not claimed; empty where they are. What makes one of them more
+  /// than chance makes the class: its others are not denied for doing a little less.
+  std::string objection_to_names(const std::vector<std::string>& ids) {
+    double p = 1;
+    for (const std::string& id : ids) p = std::min(p, chance_of_name(*primary().find(id)));
+    if (p > Thresholds::kByChance_p) {
+      return fmt::format(
+          "{}: nameless differences let some name do as well with a probability of {:.2f}",
+          fmt::join(ids, " or "), p);
+    }
+    const bool leave_nothing = explained(left_by(primary().find(ids.front())->fit));
+    const std::string doubt = objection_to_class(ids, leave_nothing);
+    return doubt.empty() ? likelier_than(ids) : doubt;
   }
 
   /// Ids by their gain over all treatments, the best first.
@@ -219,13 +233,23 @@ class Differing {
       }
     }
     if (!claimed.ids.empty()) {
-      const bool leave_nothing = explained(left_by(primary().find(claimed.ids.front())->fit));
-      const std::string doubt = objection_to_class(claimed.ids, leave_nothing);
+      const std::string doubt = objection_to_names(claimed.ids);
       if (doubt.empty()) return claim(claimed);
       found_.notes.push_back(doubt);
     }
     found_.verdict = Verdict::kUnexplained;
     no_name();
+  }
+
+  /// What is likelier than these names, though it may not stand; empty where nothing is.
+  std::string likelier_than(const std::vector<std::string>& ids) const {
+    double claimed = 0;
+    for (const ScoredCandidate& one : found_.ranking) {
+      if (std::ranges::find(ids, one.id) != ids.end()) claimed += one.probability;
+    }
+    if (claimed > Thresholds::kLikelierThanAll) return "";
+    return fmt::format("{} may stand, and something else is likelier: {}", fmt::join(ids, " or "),
+                       found_.ranking.front().id);
   }
 
   void claim(const NameClass& claimed) {
@@ -256,10 +280,7 @@ class Differing {
 
   /// How often nameless differences let some name do as well as the first.
   double chance_p() {
-    const Treatment& t = primary();
-    if (t.names.empty()) return 1;
-    const NameShare share = name_share(*t.calibrated, t.names.front().fit, options_.threads);
-    return chance_of(reached_, t.names.front().gain_nats, share.share.low);
+    return primary().names.empty() ? 1 : chance_of_name(primary().names.front());
   }
 
   /// No difference is proven: how likely none is goes by the setting that lets them differ least.

@@ -11,6 +11,38 @@
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
+namespace {
+
+/// Where evidence for a smooth misfit finds no longer scale than these, it may have one.
+DiscrepancyScales beyond_the_longest() {
+  const DiscrepancyScales& longest = discrepancy_scales().back();
+  return {.slip = 2 * longest.slip,
+          .slip_angle_rad = 2 * longest.slip_angle_rad,
+          .log_load = 2 * longest.log_load};
+}
+
+/// Factors of the covariances, noise and misfit, of worlds whose misfit is as large as this setting
+/// says and as smooth or smoother.
+std::vector<Eigen::LLT<Eigen::MatrixXd>> nameless_covariances(const TestBed& bed,
+                                                              const ChannelData& data,
+                                                              std::size_t setting) {
+  const DiscrepancySetting& found = discrepancy_settings()[setting];
+  if (found.amplitude == 0) return {Eigen::LLT<Eigen::MatrixXd>(data.noise)};
+  const double deviation = found.amplitude * data.scale;
+  const ConditionsAt at = conditions_of(bed, data);
+  std::vector<DiscrepancyScales> all = discrepancy_scales();
+  all.push_back(beyond_the_longest());
+  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors;
+  for (std::size_t k = found.scales; k < all.size(); ++k) {
+    factors.emplace_back(data.noise +
+                         deviation * deviation *
+                             discrepancy_kernels(all[k], data.channel, at, at, found.sides));
+  }
+  return factors;
+}
+
+}  // namespace
+
 CappedContest::CappedContest(const CalibratedRecording& calibrated) : calibrated_(calibrated) {
   const FitProblem problem = calibrated.problem();
   const Cap cap = cap_for(problem.bed.measured() - calibrated.base().prediction);
@@ -96,8 +128,18 @@ ByChance CappedContest::best_in_world(const std::vector<CappedName>& names,
       evidence_of(problem.bed, problem.discrepancy,
                   {.residual = at_base, .jacobian = base.jacobian}, problem.soil_free, weights_)
           .log_marginal;
+  // what is left without a remainder, as name_share() has it
   const NoiseFactors noise(problem.bed);
-  const double misfit = whitened(problem.bed, noise, world).squaredNorm();
+  const std::vector<std::size_t> noise_only(problem.bed.channels.size(), 0);
+  const auto misfit_by = [&](const Linearised& model) {
+    const Posterior fit = posterior_of(problem.bed, problem.discrepancy, model, noise_only);
+    const Eigen::VectorXd left = model.residual - model.jacobian * fit.x;
+    return whitened(problem.bed, noise, left).squaredNorm();
+  };
+  const double misfit = misfit_by({.residual = at_base, .jacobian = base.jacobian});
+  const auto expected = static_cast<double>(problem.bed.size());
+  const double excess = misfit - expected;
+  const bool is_clear = excess > Thresholds::kClear_errors * std::sqrt(2 * expected);
   ByChance best;
   for (const CappedName& name : names) {
     // what it adds, from nothing to twice its size, then the shapes in which it may err
@@ -111,10 +153,9 @@ ByChance CappedContest::best_in_world(const std::vector<CappedName>& names,
         evidence_of(problem.bed, problem.discrepancy, model, problem.soil_free, weights_);
     if (evidence.x[soil] < 0 && !is_instrument(name.id)) continue;  // the wrong way round
     if (evidence.log_marginal - alone <= best.gain_nats) continue;
-    const Eigen::VectorXd left =
-        at_base - model.jacobian.leftCols(soil + 1 + own) * evidence.x.head(soil + 1 + own);
-    best = {evidence.log_marginal - alone,
-            1 - whitened(problem.bed, noise, left).squaredNorm() / misfit};
+    const double left =
+        misfit_by({.residual = at_base, .jacobian = model.jacobian.leftCols(soil + 1 + own)});
+    best = {evidence.log_marginal - alone, is_clear ? (misfit - left) / excess : 0};
   }
   return best;
 }
@@ -125,15 +166,18 @@ std::vector<ByChance> CappedContest::by_chance(const std::vector<CappedName>& na
   const TestBed& bed = problem.bed;
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
+  std::vector<std::vector<Eigen::LLT<Eigen::MatrixXd>>> covariances;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    covariances.push_back(nameless_covariances(bed, bed.channels[c], alone_settings_[c]));
+  }
   std::vector<Eigen::VectorXd> drawn;
-  for (int w = 0; w < worlds; ++w) {
+  for (std::size_t w = 0; w < static_cast<std::size_t>(worlds); ++w) {
     Eigen::VectorXd world(bed.size());
     for (std::size_t c = 0; c < bed.channels.size(); ++c) {
       const Eigen::Index n = bed.channels[c].mean.size();
       Eigen::VectorXd z(n);
       for (double& value : z) value = normal(random);
-      world.segment(bed.offset(c), n) =
-          problem.discrepancy.at(c, alone_settings_[c]).factor.matrixL() * z;
+      world.segment(bed.offset(c), n) = covariances[c][w % covariances[c].size()].matrixL() * z;
     }
     drawn.push_back(std::move(world));
   }

@@ -21,7 +21,7 @@ struct CappedName {
 /// What the best name makes of a world whose misfit has no name.
 struct ByChance {
   double gain_nats = 0;
-  double share = 0;  ///< of the misfit that the name alone explains, in sample
+  double share = 0;  ///< of the excess misfit that the name alone explains, in sample
 };
 
 /// Every name against an unnamed remainder, a smooth Gaussian process on each channel. Without a
@@ -37,9 +37,9 @@ class CappedContest {
   std::vector<CappedName> score(const std::vector<Effect>& effects, const CandidateFit* beside,
                                 int threads) const;
 
-  /// What the best of the names reaches in worlds whose misfit has no name: draws of the remainder
-  /// that the base model alone needs, with noise, under the same cap. Names are linear in their
-  /// numbers there. Sorted by gain.
+  /// What the best of the names reaches in worlds whose misfit has no name: draws of a remainder as
+  /// large as the base model alone needs, as smooth and smoother, with noise, under the same cap.
+  /// Names are linear in their numbers there. Sorted by gain.
   std::vector<ByChance> by_chance(const std::vector<CappedName>& names, int worlds,
                                   std::uint64_t seed, int threads) const;
 

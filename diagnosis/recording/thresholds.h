@@ -138,6 +138,8 @@ struct Thresholds {
   /// other name, or they are a class: half of it.
   static constexpr double kOverRemainder_nats = 10;
   static constexpr double kOverOthers_nats = 5;
+  /// What is claimed of a difference is likelier than all else together, refused names included.
+  static constexpr double kLikelierThanAll = 0.5;
   /// Of forms whose evidence is no farther apart the one that predicts best stands for its name;
   /// asked for names that come so near the leading one. As one and twice the gain over a remainder.
   static constexpr double kNearForm_nats = 10;
