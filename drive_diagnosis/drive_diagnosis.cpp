@@ -10,6 +10,7 @@
 #include "drive_diagnosis/differing_drives.h"
 #include "drive_diagnosis/drive_claims.h"
 #include "drive_diagnosis/instruments/torque_unit.h"
+#include "drive_diagnosis/instruments/track_unit.h"
 #include "drive_diagnosis/instruments/yaw_unit.h"
 #include "drive_diagnosis/recording/drive_pace.h"
 #include "drive_diagnosis/recording/position_lag.h"
@@ -180,9 +181,27 @@ bool is_found(const DriveDiagnosis& result, std::string_view id) {
                              [id](const DriveFinding& finding) { return finding.id == id; });
 }
 
+/// Where time or positions are told in another unit, speeds and the map say nothing: neither
+/// claims nor a map are to be made of such a drive.
+/// \returns whether each drive was left out
+std::vector<bool> leave_doubtful_tracks_out(const DriveSetup& setup,
+                                            std::vector<DriveRecording>& drives) {
+  std::vector<bool> left_out;
+  for (DriveRecording& drive : drives) {
+    std::optional<DriveFinding> doubt =
+        doubtful_track_unit(drive, setup.vehicle ? &*setup.vehicle : nullptr);
+    left_out.push_back(doubt.has_value());
+    if (!doubt) continue;
+    drive.findings.push_back(*std::move(doubt));
+    leave_samples_out(drive);
+  }
+  return left_out;
+}
+
 void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
                   const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
   const double speed_max_mps = setup.vehicle ? setup.vehicle->speed_max_mps : 10;
+  const std::vector<bool> left_out = leave_doubtful_tracks_out(setup, drives);
   for (std::size_t i = 0; i < drives.size(); ++i) {
     if (options.progress) {
       options.progress("reading windows",
@@ -199,7 +218,9 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   result.windows = windows_of(drives, setup);
   const std::vector<double> windows_s = lengths_s(drives, setup);
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    if (std::ranges::find(result.windows, i, &DriveWindow::drive) == result.windows.end()) {
+    const bool has_window =
+        std::ranges::find(result.windows, i, &DriveWindow::drive) != result.windows.end();
+    if (!has_window && !left_out[i]) {
       drives[i].findings.push_back(
           {.id = "no_window",
            .drive = drives[i].drive_id,
@@ -209,7 +230,8 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     }
     std::ranges::copy(drives[i].findings, std::back_inserter(result.findings));
   }
-  if (result.windows.empty()) {
+  const bool is_any_left = std::ranges::find(left_out, false) != left_out.end();
+  if (result.windows.empty() && is_any_left) {
     throw InputError(fmt::format("{}: no {:.0f} s of driving without a gap in {} samples",
                                  drives.front().file, windows_s.front(), drives.front().size()));
   }

@@ -167,6 +167,12 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
                               "steering_offset", "payload", "tow_drag"},
                              why_nothing_is_compared(result),
                              drive_that_decides(result)});
+    if (result.windows.empty()) {
+      result.silent.back().why = "the unit of the time or of the positions is in doubt";
+      result.silent.back().drive =
+          "the same drives with time in s and positions in m (--columns multiplies a column by its "
+          "scale)";
+    }
   }
   const bool has_zone =
       result.effects && std::ranges::any_of(result.effects->found, [](const VehicleFinding& found) {
