@@ -76,6 +76,7 @@ class EffectSearch {
       fit_.settle_with(strongest);
       found.push_back(std::move(strongest));
     }
+    judge_beside_each_other(found);
     std::size_t zone = 0;
     for (const EffectFound& effect : found) {
       VehicleFinding finding = told(effect);
@@ -163,6 +164,19 @@ class EffectSearch {
     return channels;
   }
 
+  /// What else a fault may be was judged as it was found; what was found later stands beside it
+  /// now, and may have been what another number seemed to explain.
+  void judge_beside_each_other(std::vector<EffectFound>& found) const {
+    if (found.size() < 2) return;
+    for (EffectFound& effect : found) {
+      if (effect.is_zone) continue;
+      EffectFound anew = fit_.judged_anew(effect.parameter, seed_);
+      effect.alike = std::move(anew.alike);
+      effect.zone_alike = anew.zone_alike;
+      effect.sigmas = anew.sigmas;
+    }
+  }
+
   std::vector<ZoneShown> zones_shown(const EffectFound& sought_last) const {
     double way_m = 0;
     for (std::size_t i = 0; i < comparison_.size(); ++i) {
@@ -210,8 +224,10 @@ class EffectSearch {
     };
     for (const FaultAlone& other : effect.alike) {
       const VehicleTrial& trial = trials_[other.parameter];
+      const bool is_itself = !effect.is_zone && other.parameter == effect.parameter;
+      if (!is_itself && trial.is_drag() && other.size < 0) continue;
       add(trial.id);
-      if (!effect.is_zone && other.parameter == effect.parameter) continue;
+      if (is_itself) continue;
       finding.instead.push_back({.id = trial.id,
                                  .parameter = trial.parameter,
                                  .size = {other.size * trial.unit, other.std * trial.unit}});

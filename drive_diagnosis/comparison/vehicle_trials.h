@@ -24,6 +24,8 @@ struct VehicleTrial {
   std::string parameter;  ///< what it is told in, `steer_front_deg`
   double unit = 1;        ///< of the parameter: what a sound vehicle is off, one standard deviation
   VehicleDeviation deviation;  ///< of that size
+  /// A drag: nothing that drags makes a vehicle go by itself, so that none is less than 0.
+  bool is_drag() const { return id.ends_with("_drag"); }
 };
 
 /// Everything that may be otherwise all along: faults, and numbers of the map's soils.

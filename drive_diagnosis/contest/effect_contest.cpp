@@ -159,9 +159,28 @@ class Contest {
   }
 
   EffectFound strongest() const {
+    EffectFound best{.gain = -1e9};
+    Eigen::VectorXd largest = fault_gains(best);
+    const double best_fault = best.gain;
+    const double best_zone = scan_zones(largest, best);
+    return judged(best, largest, best_fault, best_zone);
+  }
+
+  /// Of one fault, whatever is stronger.
+  EffectFound of(std::size_t parameter) const {
+    EffectFound strongest{.gain = -1e9};
+    Eigen::VectorXd largest = fault_gains(strongest);
+    const double best_zone = scan_zones(largest, strongest);
+    const auto k = static_cast<Eigen::Index>(parameter);
+    const double gain = fault_gain(lengths_(k, k), products_(k, 0));
+    return judged({.parameter = parameter, .gain = gain}, largest, gain, best_zone);
+  }
+
+ private:
+  /// \returns the largest of all faults, of the data and of each null draw
+  Eigen::VectorXd fault_gains(EffectFound& best) const {
     const Eigen::Index draws = products_.cols();
     Eigen::VectorXd largest = Eigen::VectorXd::Constant(draws, -1e9);
-    EffectFound best{.gain = -1e9};
     for (Eigen::Index k = 0; k < lengths_.cols(); ++k) {
       const auto parameter = static_cast<std::size_t>(k);
       if (!may_be_claimed(parameter)) continue;
@@ -170,8 +189,12 @@ class Contest {
       }
       if (largest[0] > best.gain) best = {.parameter = parameter, .gain = largest[0]};
     }
-    const double best_fault = best.gain;
-    const double best_zone = scan_zones(largest, best);
+    return largest;
+  }
+
+  /// \param largest gains of all that competes, of the data and of each null draw
+  EffectFound judged(EffectFound best, Eigen::VectorXd& largest, double best_fault,
+                     double best_zone) const {
     const double wide = judge(largest, best);
     for (std::size_t k = 0; k < contest_.claimable.size(); ++k) {
       if (!may_be_claimed(k)) continue;
@@ -182,7 +205,6 @@ class Contest {
     return best;
   }
 
- private:
   bool may_be_claimed(std::size_t parameter) const {
     return contest_.claimable[parameter] &&
            std::ranges::find(contest_.faults_known, parameter) == contest_.faults_known.end();
@@ -375,6 +397,11 @@ Eigen::VectorXd shares_between(double begins, double ends, std::size_t windows) 
 
 EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed) {
   return Contest(contest, seed).strongest();
+}
+
+EffectFound judged_anew(EffectContest contest, std::size_t fault_known, std::uint64_t seed) {
+  std::erase(contest.faults_known, fault_known);
+  return Contest(contest, seed).of(fault_known);
 }
 
 std::vector<std::optional<int>> shortest_zones_shown(const EffectContest& contest, double asked) {

@@ -169,6 +169,33 @@ TEST(StrongestEffect, NamesThatChangeTheSameAreAClassUntilTheDataTellThemApart) 
   EXPECT_EQ(alike(40), (std::vector<std::size_t>{0, 1}));
 }
 
+/// A second fault lends a third number what made it look like the first.
+TEST(JudgedAnew, WhatAFaultIsHardlyToldFromIsJudgedWithTheOtherFaultsStanding) {
+  EffectContest contest = with_a_fault(20, 1);
+  const Eigen::Index measured = contest.data.size();
+  const Eigen::MatrixXd apart = Eigen::MatrixXd(contest.parameters).householderQr().householderQ() *
+                                Eigen::MatrixXd::Identity(measured, 4);
+  const double first_size = contest.data.dot(apart.col(0)), second_size = 0.7 * first_size;
+  contest.data += second_size * apart.col(1);
+  contest.parameters.conservativeResize(Eigen::NoChange, 3);
+  contest.parameters.col(1) = contest.parameters.col(0).norm() * apart.col(1);
+  contest.parameters.col(2) = contest.parameters.col(0).norm() *
+                              (0.7 * apart.col(0) + 0.6 * apart.col(1) + 0.39 * apart.col(3));
+  contest.claimable = {true, true, true};
+  const auto alike = [](const EffectFound& found) {
+    std::vector<std::size_t> parameters;
+    for (const FaultAlone& fault : found.alike) parameters.push_back(fault.parameter);
+    return parameters;
+  };
+  EXPECT_EQ(alike(judged_anew(contest, 0, 1)), (std::vector<std::size_t>{0, 2}));
+  contest.faults_known = {0, 1};
+  const EffectFound anew = judged_anew(contest, 0, 1);
+  EXPECT_EQ(alike(anew), std::vector<std::size_t>{0});
+  EXPECT_EQ(anew.parameter, 0u);
+  EXPECT_NEAR(anew.size * contest.parameters.col(0).norm(), std::abs(first_size),
+              0.05 * std::abs(first_size));
+}
+
 /// Ten windows of twenty white measurements, each changed by a soil of its own; in two of them the
 /// soil is otherwise by so many of its standard deviations.
 EffectContest with_a_zone(double deviations) {

@@ -239,6 +239,26 @@ TEST(VehicleEffects, NothingElseIsClaimedBesideADragWhereTorqueScatters) {
   }
 }
 
+TEST(VehicleEffects, OfTwoFaultsEachIsToldAsItIsBesideTheOther) {
+  SimulatedDrive drive{.seed = 21};
+  drive.deviation.wheel_drag_nm[0] = drive.deviation.wheel_drag_nm[3] = 5;
+  const Diagnosed dragging = diagnosed(drive);
+  ASSERT_TRUE(dragging.effects);
+  ASSERT_EQ(dragging.effects->found.size(), 2u) << said(*dragging.effects);
+  for (const VehicleFinding& found : dragging.effects->found) {
+    EXPECT_EQ(found.id, "wheel_drag") << said(*dragging.effects);
+    for (const FaultEstimate& other : found.instead) {
+      // The one that is claimed beside it is nothing that it could be instead.
+      for (const VehicleFinding& claimed : dragging.effects->found) {
+        EXPECT_NE(other.parameter, claimed.parameter) << said(*dragging.effects);
+      }
+      EXPECT_GT(other.size.value, 0) << other.parameter;  // nothing drags by less than nothing
+    }
+    // Told of the claim as it is told of its size.
+    EXPECT_NEAR(found.sigmas * found.std / found.size, 1, 0.4) << said(*dragging.effects);
+  }
+}
+
 TEST(VehicleEffects, ASteeringOffsetIsNamed) {
   SimulatedDrive drive{.seed = 31};
   const Vehicle vehicle = preset_vehicle("lrv");
