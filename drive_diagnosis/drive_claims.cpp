@@ -211,6 +211,17 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
   }
 }
 
+DriveFinding unnamed_finding(const VehicleFinding& unnamed) {
+  return {.id = "no_name",
+          .drive = "",
+          .text = fmt::format(
+              "something stands out that has no name: it would be {} of {}, and nothing drags by "
+              "less than nothing; a sensor of torque that reads less than there is may look so, or "
+              "a part that sits askew",
+              unnamed.id, size_text(unnamed.parameter, {unnamed.size, unnamed.std})),
+          .value = unnamed.size};
+}
+
 std::string withheld_text(const SoilFitted& fitted, const MapSoil& said) {
   return fmt::format(
       "{} stays as the map has it: its numbers, fitted to the rest of what was driven on it, make "

@@ -240,7 +240,9 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
 DriveVerdict verdict_of(const DriveDiagnosis& diagnosis) {
   if (diagnosis.claims.empty()) {
     const bool compared = diagnosis.effects || diagnosis.currents;
-    if (is_found(diagnosis, "drives_differ")) return DriveVerdict::kUndecided;
+    if (is_found(diagnosis, "drives_differ") || is_found(diagnosis, "no_name")) {
+      return DriveVerdict::kUndecided;
+    }
     return compared ? DriveVerdict::kConsistent : DriveVerdict::kUndecided;
   }
   const bool a_class = std::ranges::any_of(
@@ -302,7 +304,12 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     std::vector<DriveFinding> differing =
         differing_drives(drives, result.windows, result.effects->compared);
     // A fault of some drives looks like a smaller one of all of them, or like a zone.
-    if (differing.empty()) claim_effects(setup, drives, result);
+    if (differing.empty()) {
+      claim_effects(setup, drives, result);
+      if (result.effects->unnamed) {
+        result.findings.push_back(unnamed_finding(*result.effects->unnamed));
+      }
+    }
     std::ranges::move(differing, std::back_inserter(result.findings));
   }
   say_what_is_silent(setup, drives, result);

@@ -124,6 +124,16 @@ std::string sizes_text(const std::vector<FaultShown>& faults, const std::string&
   return text + ")";
 }
 
+/// The wheels that are not steered, of a vehicle that steers others: how they stand is not sought.
+std::string fixed_beside_steered(const Vehicle& vehicle) {
+  if (vehicle.steering == Steering::kSkid) return "";
+  std::vector<std::string> names;
+  for (const WheelMount& mount : vehicle.wheels) {
+    if (!mount.steered) names.push_back(mount.name);
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 /// How large the vehicle's faults must be for these drives to show them.
 SilentEffect smaller_faults(const std::vector<FaultShown>& faults) {
   SilentEffect silent{
@@ -144,6 +154,7 @@ SilentEffect smaller_faults(const std::vector<FaultShown>& faults) {
 
 std::optional<std::string> nearest_text(const DriveDiagnosis& result) {
   if (!result.effects || result.verdict == DriveVerdict::kUndecided) return {};
+  if (result.effects->unnamed) return {};  // it stands out
   const VehicleFinding& nearest = result.effects->strongest_left;
   constexpr double kSeldom = 0.05;
   if (chance_of(nearest) > kSeldom) return {};
@@ -189,6 +200,13 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
   }
   if (result.effects && !result.effects->faults_shown.empty()) {
     result.silent.push_back(smaller_faults(result.effects->faults_shown));
+  }
+  const std::string fixed = setup.vehicle ? fixed_beside_steered(*setup.vehicle) : "";
+  if (result.effects && !fixed.empty()) {
+    result.silent.push_back(
+        {{"steering_offset"},
+         "wheels that are not steered are taken to be mounted straight ahead: " + fixed,
+         "none: a look at how these wheels are mounted"});
   }
   if (!any_has(drives, "torque_")) {
     result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},

@@ -63,8 +63,10 @@ class EffectSearch {
     while (true) {
       const double share = static_cast<double>(found.size()) / (kEffectsMost + 1);
       show("looking for zones and faults", share);
-      EffectFound strongest = fit_.strongest(seed_);
-      if (!strongest.stands_out || static_cast<int>(found.size()) == kEffectsMost) {
+      EffectFound strongest = named(fit_.strongest(seed_));
+      if (strongest.stands_out && is_impossible(strongest)) result.unnamed = told(strongest);
+      if (result.unnamed || !strongest.stands_out ||
+          static_cast<int>(found.size()) == kEffectsMost) {
         result.strongest_left = told(strongest);
         result.zones_shown = zones_shown(strongest);
         result.faults_shown = faults_shown(strongest);
@@ -164,6 +166,25 @@ class EffectSearch {
     return channels;
   }
 
+  bool is_impossible(std::size_t parameter, double size) const {
+    return trials_[parameter].is_drag() && size < 0;
+  }
+  bool is_impossible(const EffectFound& effect) const {
+    return !effect.is_zone && is_impossible(effect.parameter, effect.size);
+  }
+
+  /// In place of a drag of less than nothing the strongest of those that explain as much and may
+  /// be.
+  EffectFound named(EffectFound strongest) const {
+    if (!is_impossible(strongest)) return strongest;
+    const FaultAlone* best = nullptr;
+    for (const FaultAlone& other : strongest.alike) {
+      if (is_impossible(other.parameter, other.size)) continue;
+      if (best == nullptr || other.gain > best->gain) best = &other;
+    }
+    return best == nullptr ? strongest : fit_.judged_anew(best->parameter, seed_);
+  }
+
   /// What else a fault may be was judged as it was found; what was found later stands beside it
   /// now, and may have been what another number seemed to explain.
   void judge_beside_each_other(std::vector<EffectFound>& found) const {
@@ -225,7 +246,7 @@ class EffectSearch {
     for (const FaultAlone& other : effect.alike) {
       const VehicleTrial& trial = trials_[other.parameter];
       const bool is_itself = !effect.is_zone && other.parameter == effect.parameter;
-      if (!is_itself && trial.is_drag() && other.size < 0) continue;
+      if (!is_itself && is_impossible(other.parameter, other.size)) continue;
       add(trial.id);
       if (is_itself) continue;
       finding.instead.push_back({.id = trial.id,

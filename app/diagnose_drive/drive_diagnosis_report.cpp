@@ -20,6 +20,9 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
                                                    : fmt::format("{} drives", run.drive_ids.size());
   if (diagnosis.interrupted) return fmt::format("Interrupted: {}, not diagnosed yet.", of);
   if (diagnosis.verdict == DriveVerdict::kUndecided) {
+    if (diagnosis.effects && diagnosis.effects->unnamed) {
+      return fmt::format("Undecided: in {} something is otherwise that has no name.", of);
+    }
     if (diagnosis.effects) {
       return fmt::format("Undecided: in {} not the same is otherwise than the model has it.", of);
     }
@@ -38,6 +41,10 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
 
 std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis) {
   if (diagnosis.verdict != DriveVerdict::kUndecided || diagnosis.silent.empty()) return {};
+  if (diagnosis.effects && diagnosis.effects->unnamed) {
+    return "What would decide: what the sensors of torque read at rest and of a wheel in the air, "
+           "and a look at how the wheels are mounted.";
+  }
   if (diagnosis.effects) {
     return "Faults and zones are sought in all drives together. What would decide: each of them "
            "diagnosed by itself.";

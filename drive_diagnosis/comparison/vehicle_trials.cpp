@@ -58,7 +58,9 @@ void add_wheels(const Vehicle& vehicle, double drag_nm, Trials& trials) {
                [i](VehicleDeviation& d, double size) { d.wheel_drag_nm.at(i) = size; });
     trials.add("motor_constant", "torque_" + mount.name + "_share", kSoundMotor,
                [i](VehicleDeviation& d, double size) { d.motor_share.at(i) = size; });
-    if (!mount.steered) continue;
+    // Where no wheel is steered, one that is mounted askew looks like a drag of its side; beside
+    // steered wheels none is sought, which `say_what_is_silent` tells.
+    if (!mount.steered && vehicle.steering != Steering::kSkid) continue;
     trials.add(
         "steering_offset", "steer_" + mount.name + "_deg", kSoundSteer_deg,
         [i](VehicleDeviation& d, double size) { d.steering_offset_rad.at(i) = size * kDegree; });

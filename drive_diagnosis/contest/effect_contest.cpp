@@ -399,9 +399,9 @@ EffectFound strongest_effect(const EffectContest& contest, std::uint64_t seed) {
   return Contest(contest, seed).strongest();
 }
 
-EffectFound judged_anew(EffectContest contest, std::size_t fault_known, std::uint64_t seed) {
-  std::erase(contest.faults_known, fault_known);
-  return Contest(contest, seed).of(fault_known);
+EffectFound judged_anew(EffectContest contest, std::size_t fault, std::uint64_t seed) {
+  std::erase(contest.faults_known, fault);
+  return Contest(contest, seed).of(fault);
 }
 
 std::vector<std::optional<int>> shortest_zones_shown(const EffectContest& contest, double asked) {

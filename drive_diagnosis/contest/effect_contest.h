@@ -73,9 +73,9 @@ struct EffectFound {
 /// How much of each window lies between two places along them.
 Eigen::VectorXd shares_between(double begins, double ends, std::size_t windows);
 
-/// One of the faults that are known, as if it were to be found now: all else that is known stands.
-/// Of it, `faults` and `alike` tell which others there are beside those that stand.
-EffectFound judged_anew(EffectContest contest, std::size_t fault_known, std::uint64_t seed);
+/// A fault as if it were to be found now, whatever is stronger; of those that are known, all others
+/// stand. `faults` and `alike` tell which others there are beside those that stand.
+EffectFound judged_anew(EffectContest contest, std::size_t fault, std::uint64_t seed);
 
 /// The strongest of all effects, judged against the largest gain in null draws of the whole
 /// contest: sound vehicles, soils within their spread, normal noise.

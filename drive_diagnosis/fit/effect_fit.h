@@ -44,10 +44,10 @@ class EffectFit {
   /// borders of known zones say nothing of it: where a wheel changes soils is told no finer than to
   /// `kEdgeErr`, and what that leaves is the zone's, whichever effect it looks like.
   EffectFound strongest(std::uint64_t seed);
-  /// A fault that is known, as it would be found beside all else that is known by now. \pre an
-  /// effect was sought after the last was added
-  EffectFound judged_anew(std::size_t fault_known, std::uint64_t seed) const {
-    return regoplan::judged_anew(contest_, fault_known, seed);
+  /// A fault as it would be found beside all else that is known by now, whatever is stronger.
+  /// \pre an effect was sought after the last was added
+  EffectFound judged_anew(std::size_t fault, std::uint64_t seed) const {
+    return regoplan::judged_anew(contest_, fault, seed);
   }
   /// Of each likely soil, the fewest windows of a zone that the effect sought last would have been:
   /// see `shortest_zones_shown`.

@@ -62,6 +62,45 @@ TEST(DriveClaims, AFaultIsToldWithTheNumbersThatItIsHardlyToldFrom) {
   EXPECT_NE(std::ranges::find(told, "steer_front_left_deg"), told.end()) << claim.text;
 }
 
+/// No wheel drags by less than nothing: a sensor of torque that reads too little is no such name.
+TEST(DriveClaims, ADragOfLessThanNothingIsNotClaimedButTold) {
+  SimulatedDrive drive{.seed = 21};
+  drive.deviation.wheel_drag_nm[1] = -5;
+  const DriveDiagnosis diagnosis = diagnose_drives(
+      {record(drive, rolling_map())},
+      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
+      {});
+  EXPECT_EQ(diagnosis.verdict, DriveVerdict::kUndecided);
+  EXPECT_TRUE(diagnosis.claims.empty());
+  const auto told = std::ranges::find(diagnosis.findings, "no_name", &DriveFinding::id);
+  ASSERT_NE(told, diagnosis.findings.end());
+  EXPECT_EQ(count_of("wheel_drag of drag_", told->text), 1) << told->text;
+  EXPECT_LT(told->value.value(), -4);
+  EXPECT_FALSE(nearest_text(diagnosis));
+}
+
+/// Whatever is not sought is told: how wheels stand that are not steered, where others are.
+TEST(DriveClaims, WheelsThatAreTakenToStandStraightAheadAreTold) {
+  const auto told_of = [](const Vehicle& vehicle) {
+    DriveDiagnosis diagnosis;
+    diagnosis.effects.emplace();
+    say_what_is_silent({.map = rolling_map(), .vehicle = vehicle, .gravity_mps2 = 1.62}, {},
+                       diagnosis);
+    std::string told;
+    for (const SilentEffect& silent : diagnosis.silent) {
+      if (silent.ids == std::vector<std::string>{"steering_offset"}) told += silent.why;
+    }
+    return told;
+  };
+  EXPECT_EQ(told_of(preset_vehicle("lrv")), "");
+  EXPECT_EQ(count_of("middle_left, middle_right", told_of(preset_vehicle("curiosity"))), 1)
+      << told_of(preset_vehicle("curiosity"));
+  Vehicle skid = preset_vehicle("lrv");
+  skid.steering = Steering::kSkid;
+  for (WheelMount& mount : skid.wheels) mount.steered = false;
+  EXPECT_EQ(told_of(skid), "");  // of these it is sought
+}
+
 /// What is not enough for a claim is told where chance seldom shows as much.
 TEST(DriveClaims, WhatComesNearestToAClaimIsTold) {
   DriveDiagnosis diagnosis{.verdict = DriveVerdict::kConsistent};

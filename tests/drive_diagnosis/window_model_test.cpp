@@ -149,5 +149,28 @@ TEST(WindowModel, AZoneIsOfItsOwnSoilWhateverTheMapSays) {
   }
 }
 
+/// Of a vehicle that turns by its sides a wheel that is mounted askew looked like a drag of a side.
+TEST(VehicleTrials, AWheelMayStandAskewWhereNoneIsSteered) {
+  const TerrainMap map = rolling_map();
+  const auto angles_of = [&map](const Vehicle& vehicle) {
+    std::vector<std::string> parameters;
+    for (const VehicleTrial& trial : vehicle_trials(vehicle, 1.62, {}, map, {true})) {
+      if (trial.id == "steering_offset") parameters.push_back(trial.parameter);
+    }
+    return parameters;
+  };
+  Vehicle skid = preset_vehicle("lrv");
+  skid.steering = Steering::kSkid;
+  std::vector<std::string> each;
+  for (WheelMount& mount : skid.wheels) {
+    mount.steered = false;
+    each.push_back("steer_" + mount.name + "_deg");
+  }
+  EXPECT_EQ(angles_of(skid), each);
+  for (const std::string& parameter : angles_of(preset_vehicle("curiosity"))) {
+    EXPECT_EQ(parameter.find("middle"), std::string::npos) << parameter;
+  }
+}
+
 }  // namespace
 }  // namespace regoplan

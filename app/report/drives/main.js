@@ -75,6 +75,8 @@ const quantityText = channel =>
 const nowhereText = () => {
   if (REPORT.findings.some(({id}) => id === 'drives_differ'))
     return 'Not the same in every drive: what was found in the recordings says in which.';
+  if (REPORT.findings.some(({id}) => id === 'no_name'))
+    return 'At no one place: what stands out has no name.';
   if (!COMPARED) return 'Nothing could be compared.';
   return REPORT.mechanisms.length ? 'At no one place: what is claimed acts all along.' :
                                     'Nowhere beyond what chance gives.';
