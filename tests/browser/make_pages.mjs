@@ -54,6 +54,49 @@ writeFileSync(join(folder, 'manoeuvres.yaml'), `
 regoplan(
     'evaluate', scenario('dune_field'), '--manoeuvres', join(folder, 'manoeuvres.yaml'), '--draws',
     '100', '--out', join(folder, 'manoeuvres'));
+// Nothing of this vehicle is steered.
+const wheel = (name, x_m, y_m) =>
+    `  - {name: ${name}, x_m: ${x_m}, y_m: ${y_m}, steered: false, driven: true}\n`;
+writeFileSync(
+    join(folder, 'skidder.yaml'),
+    `name: skidder
+source: own, a small rover of four wheels that turns by its sides
+mass_kg: 90
+yaw_inertia_kgm2: 14
+cg_height_m: 0.32
+turn_centre_x_m: 0
+speed_max_mps: 0.6
+acceleration_max_mps2: 0.15
+curvature_max_1pm: 0.4
+curvature_rate_max_1pms: 0.4
+steer_angle_max_deg: 0
+slip_angle_max_deg: 30
+slip_max: 0.6
+sinkage_max_m: 0.06
+slope_max_deg: 20
+step_max_m: 0.1
+wheel: {radius_m: 0.16, width_m: 0.12}
+suspension: equal_springs
+drive_law: kinematic
+steering: skid
+body: {x_min_m: -0.5, x_max_m: 0.5, y_min_m: -0.42, y_max_m: 0.42, clearance_m: 0.15, height_m: 0.5}
+wheels:
+${wheel('fl', 0.3, 0.36)}${wheel('fr', 0.3, -0.36)}${wheel('rl', -0.3, 0.36)}${
+        wheel('rr', -0.3, -0.36)}`);
+writeFileSync(
+    join(folder, 'skidder_scenario.yaml'),
+    readFileSync(scenario('side_slope'), 'utf8')
+        .replace('../../scenarios', join(source, 'scenarios'))
+        .replace('slope_north_deg: 14', 'slope_north_deg: 2')
+        .replace('vehicle: lrv', 'vehicle: skidder.yaml')
+        .replace('max: 3', 'max: 0.6'));
+writeFileSync(join(folder, 'straight.csv'), 'x_m,y_m\n20,100\n30,100\n40,100\n');
+regoplan(
+    'evaluate', join(folder, 'skidder_scenario.yaml'), join(folder, 'straight.csv'), '--draws', '2',
+    '--out', join(folder, 'skid evaluation'));
+regoplan(
+    'drive', join(folder, 'skidder_scenario.yaml'), join(folder, 'straight.csv'), '--out',
+    join(folder, 'skid drive'));
 writeFileSync(join(folder, 'truth.yaml'), `zones:
   - {name: soft, like: loose_regolith, soil: {kphi: 1e5}, corners_m: [[60, 80], [120, 80], [120, 120]]}
 vehicle: {wheels: {front_left: {steer_offset_deg: 12}}}
@@ -77,4 +120,6 @@ iterations: 400
 soil_draws: 2
 `);
 regoplan('benchmark', join(folder, 'suite.yaml'), '--out', join(folder, 'benchmark'));
-regoplan('compare', join(folder, 'plan'), join(folder, 'other-plan'), '--out', join(folder, 'comparison'));
+regoplan(
+    'compare', join(folder, 'plan'), join(folder, 'other-plan'), '--out',
+    join(folder, 'comparison'));

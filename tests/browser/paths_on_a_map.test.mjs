@@ -234,3 +234,41 @@ test(
         assert.match(await readout(page), /\bA\b/);
       });
     });
+
+for (const kind of ['skid evaluation', 'skid drive'])
+  test(
+      `${kind}: where nothing steers no angle of a wheel is shown`,
+      () => withPage(kind, async (page, {errors}) => {
+        const charts =
+            await page.evaluate(() => CHARTS.map(({title, series}) => [title, series.length]));
+        assert.ok(charts.length > 5);
+        assert.deepEqual(
+            charts.filter(([title, lines]) => lines === 0 || /Steering( angle|$)/.test(title)), []);
+        assert.ok(!(await readout(page)).includes('Steering'));
+        assert.deepEqual(errors, []);
+      }));
+
+// Numbers come to the very edge of the map as it is moved.
+test(
+    'no number of the map\'s axes is cut off',
+    () => withPage('plan', async page => {
+      const cut = () => page.evaluate(() => {
+        const map = document.querySelector('#map svg').getBoundingClientRect();
+        const isCut = text => {
+          const {left, right, top, bottom} = text.getBoundingClientRect();
+          return left < map.left || right > map.right || top < map.top || bottom > map.bottom;
+        };
+        return [...document.querySelectorAll('#map .axis text')].filter(isCut).map(
+            text => text.textContent);
+      });
+      await page.locator('#map').scrollIntoViewIfNeeded();
+      const box = await page.locator('#map').boundingBox();
+      const [x, y] = [box.x + 0.3 * box.width, box.y + 0.3 * box.height];
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      for (let moved = 0; moved <= 150; moved += 5) {
+        await page.mouse.move(x + moved, y + moved);
+        assert.deepEqual(await cut(), [], `moved by ${moved} pixels`);
+      }
+      await page.mouse.up();
+    }));

@@ -109,5 +109,8 @@ const DRIVE_CHARTS = [
   },
   ATTITUDE_CHART,
   GROUND_CHART,
-].filter(chart => DRIVE.sensors !== 'exact' || chart.series[0].key !== 'seen_off_m');
-CHARTS.splice(0, CHARTS.length, ...DRIVE_CHARTS);
+];
+/// A chart without a line shows nothing, and exact sensors are not off.
+const isShown = ({series}) =>
+    series.length > 0 && (DRIVE.sensors !== 'exact' || series[0].key !== 'seen_off_m');
+CHARTS.splice(0, CHARTS.length, ...DRIVE_CHARTS.filter(isShown));

@@ -36,7 +36,9 @@ const CHARTS = [
     unit: '\u00b0',
     decimals: 1,
     zero: true,
-    series: [{name: 'largest angle, left positive', key: 'steer_deg', colour: '--series-1'}]
+    series: STEERS ?
+        [{name: 'largest angle, left positive', key: 'steer_deg', colour: '--series-1'}] :
+        []
   },
   {
     title: 'Slip ratio',
@@ -109,7 +111,7 @@ const CHARTS = [
     soils: true,
     series: [{name: 'ground', key: 'z_m', colour: '--series-4'}]
   },
-];
+].filter(chart => chart.series.length > 0);
 
 function charts(host) {
   if (!view.selected) {

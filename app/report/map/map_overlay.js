@@ -170,8 +170,8 @@ function mapOverlay(svg, frame) {
   /// Beside a path; on narrow screens below the labels that stand there already.
   function labelPath(text, x, y, labelled) {
     const width = 9 * text.length;
-    const covers = other => Math.abs(other.y - y) < 14 && x < other.x + other.width &&
-        other.x < x + width;
+    const covers = other =>
+        Math.abs(other.y - y) < 14 && x < other.x + other.width && other.x < x + width;
     while (labelled.some(covers)) y += 14;
     labelled.push({x, y, width});
     label(text, x, y, 9, -7);
@@ -185,6 +185,9 @@ function mapOverlay(svg, frame) {
         .attr('y', y + dy)
         .text(text);
   }
+
+  /// What numbers of the axes take.
+  const halfWidth_px = text => 6.5 * text.length / 2, HALF_HEIGHT_PX = 7;
 
   function drawAxes() {
     const [west, north] = frame.mapPoint([frame.left, frame.top]);
@@ -203,10 +206,17 @@ function mapOverlay(svg, frame) {
         .call(d3.axisBottom(x)
                   .ticks(Math.max(2, Math.min(8, frame.width / 110)))
                   .tickSize(4)
-                  .tickFormat(plain(x)));
+                  .tickFormat(plain(x)))
+        .selectAll('text')
+        // The map goes to the edge of its picture: half of a number at its end would be cut off.
+        .attr('text-anchor', function(place_m) {
+          return x(place_m) + halfWidth_px(this.textContent) > frame.width ? 'end' : 'middle';
+        });
     axisGroups[1]
         .attr('transform', `translate(${frame.left},0)`)
-        .call(d3.axisLeft(y).ticks(6).tickSize(4).tickFormat(plain(y)));
+        .call(d3.axisLeft(y).ticks(6).tickSize(4).tickFormat(plain(y)))
+        .selectAll('text')
+        .attr('dy', north_m => (y(north_m) < frame.top + HALF_HEIGHT_PX ? '0.71em' : '0.32em'));
     const span_m = d3.tickStep(0, 130 / frame.pixelsPerMetre(), 1.5),
           length = span_m * frame.pixelsPerMetre();
     scaleBar.selectAll('*').remove();

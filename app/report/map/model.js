@@ -2,6 +2,9 @@
 // Views draw on "selected", "visible", "coloured", "cursor" and "marks".
 const PLAN = REPORT, MAP = REPORT.map, TERRAIN = readTerrain(MAP), LIMITS = REPORT.problem.limits,
       VEHICLE = REPORT.problem.vehicle;
+/// Whether a wheel of the vehicle is steered: of one that turns by its sides there is no angle to
+/// show.
+const STEERS = VEHICLE.wheels.some(wheel => wheel.steered);
 const WEIGHT_N = VEHICLE.mass_kg * PLAN.problem.gravity_mps2;
 /// Of an entry of a list that the map names.
 const letter = k => String.fromCharCode(65 + k % 26);
@@ -140,7 +143,7 @@ function stateAt(path, i) {
       'Energy so far', fixed(isKnown(p.energy_j[i]) ? p.energy_j[i] / 1000 : null, 2, 'kJ'),
       false
     ],
-    ['Steering', fixed(p.steer_deg[i], 1, '\u00b0'), false],
+    ...(STEERS ? [['Steering', fixed(p.steer_deg[i], 1, '\u00b0'), false]] : []),
     ['Heading', fixed(p.yaw_deg[i], 1, '\u00b0'), false],
     ['Position', `${fixed(p.x_m[i], 1)}, ${fixed(p.y_m[i], 1, 'm')}`, false],
     ['Elevation', fixed(p.z_m[i], 2, 'm'), false],
