@@ -293,12 +293,11 @@ class Drive {
       manoeuvre.rim_acceleration_mps2 = leg().direction() * leg().speed.at(s_m).acceleration_mps2;
     }
     const StateMargins margins = truth_.margins(manoeuvre, patch);
-    const double cornering = margins.cornering.value_or(-1);
     const MarginMoment moment{.time_s = result_.duration_s,
                               .s_m = s_m_,
-                              .cornering = cornering,
+                              .cornering = margins.counted_cornering(),
                               .tip_over = margins.tip_over,
-                              .traction = margins.traction.value_or(std::min(cornering, 0.0))};
+                              .traction = margins.counted_traction()};
     result_.margins.push_back(moment);
     result_.margin_cornering_min = std::min(result_.margin_cornering_min, moment.cornering);
     result_.margin_tip_over_min = std::min(result_.margin_tip_over_min, moment.tip_over);

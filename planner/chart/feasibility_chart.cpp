@@ -162,10 +162,9 @@ FeasibilityChart feasibility_chart(const ChartSettings& settings) {
     SideSlope& at = chart.side_slopes[i];
     const Plane plane(settings, static_cast<std::size_t>(at.soil));
     const StateMargins margins = plane.margins(kSlow_mps, 0, at.slope_rad);
-    at.cornering = margins.cornering.value_or(-1);
+    at.cornering = margins.counted_cornering();
     at.tip_over = margins.tip_over;
-    // Beyond the supply there is no traction either; the cornering margin tells by how much.
-    at.traction = margins.traction.value_or(std::min(at.cornering, 0.0));
+    at.traction = margins.counted_traction();
     at.any_heading = margin_of_any_heading(plane, at.slope_rad);
   });
   return chart;

@@ -15,11 +15,9 @@ namespace regoplan {
 namespace {
 
 PathMargins counted(const StateMargins& margins) {
-  const double cornering = margins.cornering.value_or(-1);
-  // Beyond the supply no trim gives traction either; the cornering margin tells by how much.
-  return {.cornering = cornering,
+  return {.cornering = margins.counted_cornering(),
           .tip_over = margins.tip_over,
-          .traction = margins.traction.value_or(std::min(cornering, 0.0))};
+          .traction = margins.counted_traction()};
 }
 
 std::vector<VehicleState> states_at(const std::vector<VehicleState>& states,

@@ -83,10 +83,12 @@ py::tuple margins(const VehicleOnSoil& vehicle, const std::vector<py::array>& ar
     out.at(0, row) = m.demand_n;
     out.at(1, row) = m.supply ? m.supply->right_n : kNone;
     out.at(2, row) = m.supply ? m.supply->left_n : kNone;
+    // Without supply nothing tells by how much it fails; with it the chart's number does.
+    const double traction = m.supply ? m.counted_traction() : kNone;
     out.at(3, row) = m.cornering.value_or(kNone);
     out.at(4, row) = m.tip_over;
-    out.at(5, row) = m.traction.value_or(kNone);
-    out.at(6, row) = m.stability().value_or(kNone);
+    out.at(5, row) = traction;
+    out.at(6, row) = m.supply ? std::min({*m.cornering, m.tip_over, traction}) : kNone;
   });
   return out.tuple();
 }

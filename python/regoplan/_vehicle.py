@@ -67,9 +67,11 @@ class Margins(Columns):
     supply_min_n, supply_max_n : float64
         The interval [A-, A+] of lateral forces that steady trims can give, N; NaN without a trim.
     cornering, tip_over, traction : float64
-        Margins as shares of the weight; NaN where there is no trim.
+        Margins as shares of the weight. Where the demand lies beyond the supply, no trim holds it
+        and traction is the cornering margin, as in ``side-slope.csv`` of ``evaluate --chart``.
+        Without any supply cornering and traction are NaN: nothing tells by how much they fail.
     margin : float64
-        The stability margin: the smallest of the three; NaN where one is missing.
+        The stability margin: the smallest of the three; NaN without supply.
     """
 
     __slots__ = ("demand_n", "supply_min_n", "supply_max_n", "cornering", "tip_over", "traction",

@@ -72,6 +72,31 @@ def test_safe_curvatures_are_those_of_the_programs_chart(program, soil, tmp_path
     assert [row["limited_by"] for row in rows] == found.limit.tolist()
 
 
+def test_margins_across_a_slope_are_those_of_the_programs_chart(program, soil, tmp_path):
+    soils = tmp_path / "soils.yaml"
+    soils.write_text("soils:\n  firm:\n    source: test\n" + "".join(
+        f"    {key}: {value!r}\n" for key, value in soil.model_keys().items()))
+    ran = program("evaluate", "--chart", tmp_path / "chart", "--vehicle", "curiosity", "--soils",
+                  soils, "--gravity-mps2", "3.71")
+    assert ran.returncode == 0, ran.stderr
+    with open(tmp_path / "chart" / "side-slope.csv", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    slope_rad = np.radians([float(row["slope_deg"]) for row in rows])
+    rover = regoplan.VehicleOnSoil("curiosity", soil, 3.71, method="fast")
+    found = rover.margins(0.01, 0, slope_left_rad=slope_rad)
+    assert np.any(found.traction < 0) and np.any(found.traction > 0)
+    for column, values in (("cornering_margin", found.cornering), ("tip_over_margin", found.tip_over),
+                           ("traction_margin", found.traction), ("margin", found.margin)):
+        told = [float(row[column]) for row in rows]
+        np.testing.assert_allclose(values, told, rtol=1e-4, atol=1e-5, err_msg=column)
+
+
+def test_without_any_supply_only_the_tip_over_margin_is_told(lrv):
+    steep = lrv.margins(1, 0, slope_forward_rad=1.0)
+    assert np.isnan(steep.supply_min_n) and np.isfinite(steep.tip_over)
+    assert np.isnan([steep.cornering, steep.traction, steep.margin]).all()
+
+
 def test_soils_that_come_with_regoplan_are_those_that_the_program_prints(program, tmp_path):
     for name in regoplan.Soil.presets():
         file = tmp_path / f"{name}.yaml"

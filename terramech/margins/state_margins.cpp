@@ -10,6 +10,14 @@ std::optional<double> StateMargins::stability() const {
   return std::min({*cornering, *traction, tip_over});
 }
 
+double StateMargins::counted_cornering() const {
+  return cornering.value_or(-1);
+}
+
+double StateMargins::counted_traction() const {
+  return traction.value_or(std::min(counted_cornering(), 0.0));
+}
+
 SupplyAnswer SolvedSupply::answer(const SupplyQuestion& question) const {
   if (!(question.normal_n > 0)) return {};  // off the ground
   std::vector<WheelLaw> laws;

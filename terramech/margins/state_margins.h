@@ -29,6 +29,11 @@ struct StateMargins {
 
   /// The smallest of the three; nothing where one of them is missing.
   std::optional<double> stability() const;
+
+  /// The margins as numbers, for sums, charts and tables. Without supply cornering counts as -1.
+  /// Beyond the supply no trim gives traction either; there the cornering margin tells by how much.
+  double counted_cornering() const;
+  double counted_traction() const;
 };
 
 /// Where supply and traction come from. One of: `SolvedSupply`, `TabledSupply`.

@@ -125,6 +125,19 @@ TEST(StateMargins, StabilityIsTheSmallestOfTheThree) {
   EXPECT_EQ(margins.stability(), -0.2);
 }
 
+TEST(StateMargins, CountBeyondTheSupplyByTheCorneringThatIsShort) {
+  StateMargins margins;
+  EXPECT_EQ(margins.counted_cornering(), -1);
+  EXPECT_EQ(margins.counted_traction(), -1);
+  margins.cornering = -0.009;
+  EXPECT_EQ(margins.counted_traction(), -0.009);
+  margins.cornering = 0.2;
+  EXPECT_EQ(margins.counted_traction(), 0);
+  margins.traction = 0.3;
+  EXPECT_EQ(margins.counted_cornering(), 0.2);
+  EXPECT_EQ(margins.counted_traction(), 0.3);
+}
+
 TEST(StateMargins, AreThoseOfTheSteadyManoeuvre) {
   const Driving lrv("lrv");
   const VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 3, 1.0 / 20);
