@@ -16,6 +16,15 @@ bool means_all_of(const SettingsNode& value, std::string_view field) {
   return fmt::format(".{}", value.path()).ends_with(fmt::format(".{}", field));
 }
 
+/// Whether a key that is given may be one that is missing. Keys of a family differ in one letter
+/// that is another (`x_m` and `y_m`, `kx0_m` and `kx1_m`): they are no slips of each other.
+bool may_misspell(std::string_view given, std::string_view missing) {
+  constexpr std::size_t kEditsMax = 2;
+  const std::size_t edits = edits_between(given, missing);
+  const bool of_one_family = given.size() == missing.size() && edits == 1;
+  return edits <= kEditsMax && 2 * edits <= missing.size() && !of_one_family;
+}
+
 }  // namespace
 
 SettingsError placed_error(const SettingsNode& node, const ValueError& bad) {
@@ -50,12 +59,16 @@ const SettingsNode* SettingsMapping::optional(std::string_view key) {
 const SettingsNode& SettingsMapping::required(std::string_view key) {
   if (const SettingsNode* value = optional(key)) return *value;
   // A misspelt key is the likeliest reason.
+  const SettingsEntry* likest = nullptr;
   for (const SettingsEntry& entry : node_.mapping()) {
-    if (!asked_.contains(entry.key) && edits_between(entry.key, key) <= 2) {
-      throw node_.error(fmt::format("{} is missing (line {} has {})", key, entry.line, entry.key));
+    if (asked_.contains(entry.key) || !may_misspell(entry.key, key)) continue;
+    if (!likest || edits_between(entry.key, key) < edits_between(likest->key, key)) {
+      likest = &entry;
     }
   }
-  throw node_.error(fmt::format("{} is missing", key));
+  if (!likest) throw node_.error(fmt::format("{} is missing", key));
+  throw node_.error(fmt::format("{} is missing ({} on line {}: did you mean {}?)", key, likest->key,
+                                likest->line, key));
 }
 
 double SettingsMapping::number(std::string_view key, const ValueRange& allowed) {

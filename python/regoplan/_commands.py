@@ -4,7 +4,7 @@ import os
 
 from . import _arguments, _physics, _program, _tables
 from ._errors import InputError
-from ._maps import TerrainMap, absolute
+from ._maps import TerrainMap, absolute, shown_files
 from ._own_follower import OwnFollower
 from ._results import (Benchmark, Candidate, Comparison, Diagnosis, Drive, DriveDiagnosis,
                        Evaluation, Plan, Result)
@@ -329,7 +329,9 @@ class _Call:
         terrain = value.get("map")
         if isinstance(terrain, TerrainMap):
             # Relative names: the same map is the same scenario, whatever folder it stands in.
-            files = terrain.write(self._inputs.path / self._new(name, "-map"))
+            folder = self._new(name, "-map")
+            files = terrain.write(self._inputs.path / folder)
+            self._shown += shown_files(folder)
             value["map"] = {key: os.path.relpath(item, self._inputs.path.resolve())
                             if isinstance(item, str) and key in _MAP_FILES else item
                             for key, item in files.items()}

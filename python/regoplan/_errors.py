@@ -8,12 +8,19 @@ _NOT_VALID = re.compile(
     r" \(allowed: (?P<allowed>.*)\)",
     re.S,
 )
+# Dicts have no lines: where a misspelt key stands, its name says.
+_LINE_OF_KEY = re.compile(r" on line \d+(?=: did you mean )")
 _PLACE = re.compile(r"^(?P<file>[^\n]*?):(?P<line>\d+): ")
 # What is said of a key or an argument that has no value to tell.
 _NAMED = re.compile(
     r"(?:^|: )(?:column )?(?P<field>[\w.-]+(?:\[[\d, ]+\][\w.]*)*)"
     r"(?: is missing|: (?:unknown key|shape does not broadcast|masked values|is needed|is no |stands twice))"
 )
+
+
+def of_dict(message):
+    """What is said of settings that came from a dict, without the lines of their file."""
+    return _LINE_OF_KEY.sub("", message)
 
 
 class InputError(ValueError):
@@ -32,7 +39,8 @@ class InputError(ValueError):
     """
 
     def __init__(self, message):
-        message = _FROM_DICT.sub(r"\1: ", str(message))
+        message, dicts = _FROM_DICT.subn(r"\1: ", str(message))
+        message = of_dict(message) if dicts else message
         super().__init__(message)
         found = _NOT_VALID.search(message)
         named = found or _NAMED.search(message)

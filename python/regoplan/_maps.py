@@ -13,6 +13,8 @@ from ._soil import Soil
 
 _NO_CLASS = -(2**31)
 _UNKNOWN_M = -3.4e38
+_HEIGHT_MAX_M = 1e6  # what the program takes of heights in rasters
+_ARGUMENTS = {"elevation.bil": "elevation_m", "soil_class.bil": "soil_class", "rocks.csv": "rocks"}
 
 
 class TerrainMap:
@@ -48,8 +50,12 @@ class TerrainMap:
     def __init__(self, elevation_m, cell_m, soils, *, west_m=0.0, south_m=0.0, soil_class=None,
                  classes=None, unmapped=None, rocks=None):
         self._elevation_m = _raster("elevation_m", elevation_m).astype("<f4")
-        _arguments.require_all("elevation_m", self._elevation_m, ~np.isinf(self._elevation_m),
-                               "finite numbers, NaN: unknown")
+        _arguments.require_all("elevation_m", self._elevation_m,
+                               ~(np.abs(self._elevation_m) > _HEIGHT_MAX_M),
+                               f"-{_HEIGHT_MAX_M:.0f} to {_HEIGHT_MAX_M:.0f}, NaN: unknown")
+        if np.isnan(self._elevation_m).all():
+            raise InputError("elevation_m: NaN everywhere is not valid "
+                             "(allowed: a known height in one cell at least)")
         self._elevation_m.flags.writeable = False
         cell = _arguments.scalar("cell_m", cell_m)
         if not 0 < cell < np.inf:
@@ -73,8 +79,10 @@ class TerrainMap:
         if codes.shape != self._elevation_m.shape:
             raise InputError(f"soil_class: shape {codes.shape} is not valid "
                              f"(allowed: that of elevation_m, {self._elevation_m.shape})")
-        if codes.dtype.kind == "f" or not np.all((codes > _NO_CLASS) & (codes < 2**31)):
-            raise InputError("soil_class: is not valid (allowed: integers of 32 bits)")
+        allowed = "integers of 32 bits"
+        _arguments.require_all("soil_class", codes, (codes > _NO_CLASS) & (codes < 2**31), allowed)
+        if codes.dtype.kind == "f":
+            raise InputError(f"soil_class: dtype {codes.dtype} is not valid (allowed: {allowed})")
         if not classes:
             raise InputError("classes: is needed with soil_class (code: name of a soil)")
         return codes.astype("<i4")
@@ -123,12 +131,18 @@ class TerrainMap:
             scenario = Path(folder, "scenario.yaml")
             scenario.write_text(_arguments.settings("map", {"map": self.write(folder)}))
             told = json.loads(_program.output(["map", "info", str(scenario), "--json"],
-                                              [(scenario, "map"), (folder, "map")]))
+                                              [*shown_files(folder), (scenario, "map"),
+                                               (folder, "map")]))
             return next(iter(told.values()))
 
     def __repr__(self):
         rows, columns = self._elevation_m.shape
         return f"TerrainMap({rows} x {columns} cells of {self.cell_m} m)"
+
+
+def shown_files(folder):
+    """What to call the files of a map in messages: the arguments that they were made of."""
+    return [(os.path.join(folder, file), name) for file, name in _ARGUMENTS.items()]
 
 
 def _raster(name, value):

@@ -16,7 +16,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from ._errors import InputError
+from ._errors import InputError, of_dict
 
 _PROGRESS = re.compile(r"^(?P<stage>[^\d%]*?) ?(?P<share>\d+) %(?P<more>.*)$")
 _PIECES = re.compile(r"[\r\n]+")
@@ -158,7 +158,11 @@ def _renamed(line, shown):
             number = int(found["line"] or 0)
             return f"{name}, row {number - 2}" if is_table and number > 1 else name
 
-        line = re.sub(re.escape(str(file)) + r"(?::(?P<line>\d+))?", called, line)
+        line, count = re.subn(re.escape(str(file)) + r"(?::(?P<line>\d+))?", called, line)
+        if count:
+            # An array has no empty cells: tables hold its NaN and None so.
+            line = line.replace(": an empty cell is not valid", ": NaN is not valid") if is_table \
+                else of_dict(line)
     return line
 
 

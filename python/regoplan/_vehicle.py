@@ -101,6 +101,16 @@ class SafeCurvature(Columns):
         words = np.array(limit, dtype=str if limit else "U1")
         super().__init__((curvature_1pm, supply_n, words.reshape(curvature_1pm.shape)))
 
+    def __repr__(self):
+        if np.ndim(self.limit) == 0:
+            return (f"SafeCurvature({self.curvature_1pm:.4g} 1/m, supply {self.supply_n:.4g} N, "
+                    f"limited by {self.limit})")
+        if np.size(self.limit) == 0:
+            return f"SafeCurvature(shape {np.shape(self.limit)})"
+        limits = ", ".join(np.unique(self.limit))
+        return (f"SafeCurvature(shape {np.shape(self.limit)}, {np.min(self.curvature_1pm):.4g} to "
+                f"{np.max(self.curvature_1pm):.4g} 1/m, limited by {limits})")
+
 
 class VehicleOnSoil:
     """A vehicle that drives on planes of one soil, judged as plans and charts judge.

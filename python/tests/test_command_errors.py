@@ -55,7 +55,7 @@ def test_bad_options_are_named(scenario, option, value, told):
 
 @pytest.mark.parametrize("path, told", [
     ({"x_m": [1, 2], "y_m": [1]}, "columns differ in length"),
-    ({"x_m": [10, 20], "y_m": [25, np.nan]}, "row 1: y_m: an empty cell"),
+    ({"x_m": [10, 20], "y_m": [25, np.nan]}, "row 1: y_m: NaN is not valid"),
     ({"x_m": [10, 20], "z": [25, 25]}, "y_m"),
     ({"x_m": [[10]], "y_m": [[25]]}, "x_m: shape"),
     ("missing.csv", "missing.csv"),
@@ -95,6 +95,11 @@ def test_bad_maps_are_named(soil):
         ({"elevation_m": np.zeros(10)}, "elevation_m: shape"),
         ({"elevation_m": flat + 1j}, "elevation_m: dtype"),
         ({"elevation_m": flat + np.inf}, r"elevation_m\[0, 0\]: inf"),
+        ({"elevation_m": flat + 1e7}, r"elevation_m\[0, 0\]: 10000000.0 is not valid .allowed: -1000000 to"),
+        ({"elevation_m": flat + np.nan}, "^elevation_m: NaN everywhere is not valid"),
+        ({"soil_class": np.where(np.eye(10), np.nan, 1), "classes": {1: "soil"}},
+         r"^soil_class\[0, 0\]: nan is not valid .allowed: integers"),
+        ({"soil_class": flat + .5, "classes": {1: "soil"}}, "soil_class: dtype float64"),
         ({"rocks": [[1, 2, 3, np.nan]]}, r"rocks\[0, 3\]: nan"),
         ({"cell_m": 0}, "cell_m"),
         ({"soil_class": np.ones((3, 3), int), "classes": {1: "soil"}}, "soil_class: shape"),
@@ -104,3 +109,22 @@ def test_bad_maps_are_named(soil):
     ]:
         with pytest.raises(regoplan.InputError, match=told):
             regoplan.TerrainMap(**{"elevation_m": flat, "cell_m": 1, "soils": soil, **arguments})
+
+
+def test_what_the_program_says_of_a_map_names_the_arguments(scenario, soil):
+    flat = np.zeros((120, 120))
+    rocks = regoplan.TerrainMap(flat, 0.5, soil, rocks=[[25, 30, 1, 1], [25, 20, -1, 1]])
+    for call in (rocks.info, lambda: regoplan.plan({**scenario, "map": rocks})):
+        with pytest.raises(regoplan.InputError, match="rocks, row 1: radius_m: -1.0") as caught:
+            call()
+        assert "csv" not in str(caught.value) and "given" not in str(caught.value)
+
+
+def test_a_misspelt_key_is_told_from_the_one_that_is_missing(scenario):
+    misspelt = {**scenario, "gaol": scenario["goal"]}
+    del misspelt["goal"]
+    with pytest.raises(regoplan.InputError, match=r"goal is missing \(gaol: did you mean goal\?\)$"):
+        regoplan.plan(misspelt)
+    for goal in ({"y_m": 25, "radius_m": 3}, {"y_m": 25, "radius_m": 3, "z": 1}):
+        with pytest.raises(regoplan.InputError, match="x_m is missing$"):
+            regoplan.plan({**scenario, "goal": goal})

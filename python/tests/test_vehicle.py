@@ -150,6 +150,14 @@ def test_results_are_columns_by_name(lrv):
     assert list(lrv.margins(1, [0, 0.05]).to_dataframe())[-1] == "margin"
 
 
+def test_results_show_what_they_are(lrv):
+    shown = repr(lrv.largest_safe_curvature(1))
+    assert shown.startswith("SafeCurvature(0.52") and shown.endswith(" N, limited by steering)")
+    assert repr(lrv.largest_safe_curvature([1, 3])).startswith("SafeCurvature(shape (2,), ")
+    assert repr(lrv.largest_safe_curvature([])) == "SafeCurvature(shape (0,))"
+    assert repr(lrv.margins(1, [0, 0.1])) == "Margins(shape (2,))"
+
+
 def test_threads_change_no_bit(lrv):
     speed = np.linspace(0.5, 3.5, 60)
     assert np.array_equal(lrv.margins(speed, 0.05).margin,

@@ -164,7 +164,7 @@ TEST_F(ScenarioSettings, WhatCannotBeAskedIsAnErrorWithItsLine) {
                           radius_m));
   }
   EXPECT_EQ(error_of("radius_m: 3", "radius: 3"),
-            "s.yaml:7: goal: radius_m is missing (line 7 has radius)");
+            "s.yaml:7: goal: radius_m is missing (radius on line 7: did you mean radius_m?)");
   EXPECT_EQ(error_of("gravity_mps2: 1.62", "gravity_mps2: .nan"),
             "s.yaml:5: gravity_mps2: .nan is not valid (allowed: a number, above 0 to 100)");
   EXPECT_EQ(error_of("planner:", "speed_mps: {max: 50}\nplanner:").substr(0, 40),

@@ -31,8 +31,22 @@ TEST(SettingsMapping, AKeyThatIsGivenIsNotOfferedAgain) {
 
 TEST(SettingsMapping, AMissingKeyNamesWhatLooksLikeIt) {
   EXPECT_EQ(error_text([] { read_radius("\nradius: 1\n"); }),
-            "f.yaml:2: radius_m is missing (line 2 has radius)");
+            "f.yaml:2: radius_m is missing (radius on line 2: did you mean radius_m?)");
   EXPECT_EQ(error_text([] { read_radius("width_m: 1\n"); }), "f.yaml:1: radius_m is missing");
+}
+
+TEST(SettingsMapping, AMissingKeyIsNoMisspellingOfAnotherOfItsFamily) {
+  const auto read = [](const std::string& key, const std::string& yaml) {
+    return error_text([&] {
+      read_mapping(parse_settings(yaml, "f.yaml"),
+                   [&](SettingsMapping& mapping) { return mapping.number(key, kAbove0); });
+    });
+  };
+  EXPECT_EQ(read("x_m", "y_m: 1\n"), "f.yaml:1: x_m is missing");
+  EXPECT_EQ(read("kx0_m", "kx1_m: 1\n"), "f.yaml:1: kx0_m is missing");
+  EXPECT_EQ(read("n", "a0: 1\n"), "f.yaml:1: n is missing");
+  EXPECT_EQ(read("goal", "goa: 1\ngaol: 1\n"),
+            "f.yaml:1: goal is missing (goa on line 1: did you mean goal?)");
 }
 
 TEST(SettingsMapping, SomethingElseThanAMappingIsAnError) {
