@@ -90,7 +90,7 @@ def main():
                   f"{min(ratios):.3f} to {max(ratios):.3f})")
             direct = direct or min(ours) / options.rows
     few = [column[:20000] for column in rows]
-    port = Port(0.41, 0.23, 1.62, soil.to_dict())
+    port = Port(0.41, 0.23, 1.62, soil.model_keys())
     port_s = min(seconds(lambda: port.forces(*few)) for _ in range(2)) / len(few[0])
     print(f"numpy port: {1e9 * port_s:.0f} ns a row; the module is {port_s / direct:.0f} times as fast")
 

@@ -50,7 +50,7 @@ std::string checked_soil(const std::string& settings) {
   const UncertainSoil soil = read_mapping(
       settings_of(settings, "soil"),
       [](SettingsMapping& mapping) { return read_soil(mapping, WheelVariant::kIshigami2007); });
-  return json_of(settings_of(soil_keys_text({.mean = soil.mean}, ""), "soil"));
+  return json_of(settings_of(soil_keys_text(soil, ""), "soil"));
 }
 
 std::string model_file_settings(const std::string& file) {
@@ -71,7 +71,7 @@ std::string json_of_soils(const std::vector<MapSoil>& soils) {
   std::string text;
   for (const MapSoil& soil : soils) {
     text += quoted_text(soil.name) + ":\n  source: " + quoted_text(soil.source) + "\n" +
-            soil_keys_text({.mean = soil.soil.mean}, "  ");
+            soil_keys_text(soil.soil, "  ");
   }
   return json_of(settings_of(text, "soils"));
 }

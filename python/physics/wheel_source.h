@@ -37,7 +37,7 @@ std::string model_file_settings(const std::string& file);
 /// The wheel and soil of the paper's figures, as JSON with the keys of a model file.
 std::string paper_wheel_settings();
 
-/// The soils of a soils file as JSON, each `{source, <soil keys>}`: numbers at their means.
+/// The soils of a soils file as JSON, each `{source, <soil keys>}`, uncertain ones `{mean, std}`.
 std::string soils_file_settings(const std::string& file);
 
 /// The soils that come with regoplan, as `soils_file_settings` gives them.

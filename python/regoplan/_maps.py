@@ -29,8 +29,9 @@ class TerrainMap:
     cell_m : float
         Side of a cell, m, above 0.
     soils : Soil, or dict of str to Soil or dict
-        One soil for all, or the soils by name; a dict may have ``{mean, std}`` values and needs a
-        ``source`` (docs/vehicle-and-soil.md).
+        One soil for all, or the soils by name. Numbers that are given as ``{mean, std}`` vary in
+        the draws of ``plan`` and ``evaluate``; a dict needs a ``source``
+        (docs/vehicle-and-soil.md).
     west_m, south_m : float, optional
         Of the raster's edges; 0.
     soil_class : array_like of int, (rows, columns), optional

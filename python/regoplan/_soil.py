@@ -10,6 +10,10 @@ from ._settings import Settings
 class Soil(Settings):
     """Soil under a wheel. Keys and units are those of soil files (docs/vehicle-and-soil.md); immutable.
 
+    Each number may be given as ``{"mean": 170, "std": 30}`` where it is not known better. Attributes
+    are the means, and wheels and vehicles count with them; in a map of ``plan``, ``evaluate`` and the
+    other commands the soil varies as such a soil of a file does (``soil_draws``).
+
     Parameters
     ----------
     cohesion_pa : float
@@ -68,7 +72,7 @@ class Soil(Settings):
 
     @classmethod
     def from_file(cls, file):
-        """All soils of a soils file (docs/vehicle-and-soil.md) by name, numbers at their means.
+        """All soils of a soils file (docs/vehicle-and-soil.md) by name.
 
         Returns
         -------
@@ -85,10 +89,20 @@ class Soil(Settings):
     @property
     def lambda_(self):
         """Rear contact height over sinkage; ``lambda`` is a word of Python."""
-        return self._values["lambda"]
+        return _mean(self._values["lambda"])
+
+    @property
+    def standard_deviations(self):
+        """By key, of the numbers that are not known exactly."""
+        return {key: value["std"] for key, value in self._values.items() if isinstance(value, dict)}
+
+    def __getattr__(self, key):
+        return _mean(super().__getattr__(key))
 
     def model_keys(self):
-        """The keys of a model file's ``soil``: all but ``source``."""
-        values = self.to_dict()
-        values.pop("source", None)
-        return values
+        """The keys of a model file's ``soil`` at their means: all but ``source``."""
+        return {key: _mean(value) for key, value in self._values.items() if key != "source"}
+
+
+def _mean(value):
+    return value["mean"] if isinstance(value, dict) else value

@@ -169,6 +169,22 @@ def test_manoeuvres_are_evaluated_without_a_path(scenario):
     assert len(judged.paths) == 1
 
 
+def test_a_soil_varies_in_the_draws_as_it_does_from_a_file(scenario, soil):
+    assert soil.standard_deviations
+    flat = np.zeros((120, 120))
+    path = {"x_m": [10, 40], "y_m": [25, 25]}
+
+    def margins(given):
+        here = {**scenario, "map": regoplan.TerrainMap(flat, 0.5, given)}
+        judged = regoplan.evaluate(here, path, draws=40, threads=1)
+        return judged.paths[0]["quantiles"]["margin"]
+
+    assert margins(soil) == margins({"soil": soil.to_dict()})
+    assert margins(soil)["p05"] < margins(soil)["p95"]
+    known = margins(regoplan.Soil(**soil.model_keys()))
+    assert known["p05"] == known["p95"]
+
+
 @pytest.fixture(scope="module")
 def recording():
     """Of a wheel whose sinkage grows with slip, which the base model leaves out."""

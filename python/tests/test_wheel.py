@@ -52,7 +52,7 @@ def test_forces_are_the_programs_bit_for_bit(program, wheel, tmp_path):
 def test_forces_agree_with_the_paper_coded_in_numpy(wheel, soil):
     load, slip, angle = random_rows(2000)
     forces = wheel.forces(load, slip, angle)
-    port = Port(0.41, 0.23, 1.62, soil.to_dict()).forces(load, slip, angle)
+    port = Port(0.41, 0.23, 1.62, soil.model_keys()).forces(load, slip, angle)
     assert np.all(forces.ok)
     for ours, theirs in zip((forces.fx_n, forces.fy_n), port[:2]):
         assert np.max(np.abs(ours - theirs) / load) < 1e-6
@@ -240,6 +240,22 @@ def test_soils_are_strict_and_immutable(soil):
     assert caught.value.field == "cohesion_kpa"
     with pytest.raises(AttributeError):
         soil.n = 2
+
+
+def test_uncertain_soils_keep_what_is_not_known_of_them(soil):
+    known = regoplan.Soil(**soil.model_keys())
+    assert known.standard_deviations == {}
+    uncertain = known.replace(cohesion_pa={"mean": 170, "std": 30}, lambda_={"mean": 0.8, "std": 0.1})
+    assert (uncertain.cohesion_pa, uncertain.lambda_) == (170, 0.8)
+    assert uncertain.standard_deviations == {"cohesion_pa": 30, "lambda": 0.1}
+    assert uncertain == regoplan.Soil(**uncertain.to_dict()) == pickle.loads(pickle.dumps(uncertain))
+    assert uncertain.replace(cohesion_pa=170).standard_deviations == {"lambda": 0.1}
+    at_means = regoplan.Soil(**uncertain.model_keys())
+    assert at_means.standard_deviations == {} and at_means != uncertain
+    of_both = [regoplan.Wheel(0.4, 0.2, each).forces(100, 0.2, 0.1).fx_n for each in (uncertain, at_means)]
+    assert of_both[0] == of_both[1]
+    with pytest.raises(regoplan.InputError, match="std"):
+        known.replace(cohesion_pa={"mean": 170, "std": -1})
 
 
 def test_frames_have_the_columns_of_the_program(wheel):
