@@ -83,13 +83,14 @@ std::string evaluation_headline(const EvaluationResult& result) {
   const EvaluatedPath& best = result.paths.front();
   const PathEvaluation& e = best.evaluation;
   if (feasible == 0) {
-    return by_then + fmt::format("None of {} feasible; first: {} fails for {}.",
+    return by_then + fmt::format("None of {} feasible at the mean soils; first: {} fails for {}.",
                                  result.paths.size(), short_name(best), sentence(*e.refusal));
   }
   return by_then +
-         fmt::format("{} of {} feasible; the best, {}, keeps a stability margin of {:.2f} ({}).",
-                     feasible, result.paths.size(), short_name(best), e.margin_min,
-                     limiting_text(e));
+         fmt::format(
+             "{} of {} feasible at the mean soils; the best, {}, keeps a stability margin "
+             "of {:.2f} there ({}).",
+             feasible, result.paths.size(), short_name(best), e.margin_min, limiting_text(e));
 }
 
 std::string evaluation_report(const PlanningProblem& problem, const EvaluationResult& result) {

@@ -47,7 +47,7 @@ std::string summary(const EvaluationResult& result) {
     if (!e.spread->influences.empty() && e.spread->influences.front().share > 0.01) {
       const SoilInfluence& most = e.spread->influences.front();
       text += fmt::format("{:>13} {} of {}: {:.0f} % of the margin's variance\n",
-                          "decides:", most.parameter, most.soil, 100 * most.share);
+                          "varies with:", most.parameter, most.soil, 100 * most.share);
     }
     if (e.spread->direct_draws < e.spread->draws) {
       const PathMargins& error = e.spread->surrogate_error;

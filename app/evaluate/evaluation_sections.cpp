@@ -27,8 +27,8 @@ std::string per_cent_text(const std::optional<SoilSpread>& spread) {
 std::string table_row(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
   return fmt::format("<tr><th scope=\"row\">{} {}</th>", e.rank, html_escaped(short_name(path))) +
-         cell(verdict_text(e)) + cell(influence_text(e.spread, 1)) + cell(limited_by(e)) +
-         cell(margin_text(e, e.margin_min), true) +
+         cell(verdict_text(e)) + cell(limited_by(e)) + cell(margin_text(e, e.margin_min), true) +
+         cell(influence_text(e.spread, 1)) +
          cell(margin_text(e, e.spread ? e.spread->margin.p05 : 0), true) +
          cell(per_cent_text(e.spread), true) +
          cell(driven_text(e, length_text(e.tracking.deviation_max_m)), true) +
@@ -39,14 +39,16 @@ std::string table_row(const EvaluatedPath& path) {
 
 std::string course_html(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
-  const std::string verdict =
-      e.feasible ? "is feasible" : "is not feasible: " + sentence(*e.refusal);
+  const std::string verdict = e.feasible
+                                  ? "is feasible at the mean soils"
+                                  : "is not feasible at the mean soils: " + sentence(*e.refusal);
   const std::string margins =
-      e.spread
-          ? fmt::format("<p>Smallest margin {:.3f}: {}.</p><p>Soil numbers that decide: {}.</p>",
-                        e.margin_min, html_escaped(limiting_text(e)),
-                        html_escaped(influence_text(e.spread, 3)))
-          : "<p>It has no margins: not all of it can be judged.</p>";
+      e.spread ? fmt::format(
+                     "<p>Smallest margin at the mean soils {:.3f}: {}.</p>"
+                     "<p>Over the draws of the soils it varies most with: {}.</p>",
+                     e.margin_min, html_escaped(limiting_text(e)),
+                     html_escaped(influence_text(e.spread, 3)))
+               : "<p>It has no margins: not all of it can be judged.</p>";
   return fmt::format(
       "<article class=\"panel\"><div class=\"course\"></div><p>Path {} {}.</p>{}</article>\n",
       e.rank, html_escaped(verdict), margins);
@@ -77,8 +79,8 @@ std::string side_by_side_html(const EvaluationResult& result) {
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table of the paths\">"
       "<table class=\"one-line\">\n<thead><tr>";
   for (const char* head :
-       {"Path", "Verdict", "Decided by", "Limited by", "Smallest margin", "5 % margin",
-        "P(margins hold)", "Deviation", "Length", "Duration", "Energy"}) {
+       {"Path", "Verdict at mean soils", "Limited by", "Margin at mean soils", "Varies most with",
+        "5 % margin", "P(margins hold)", "Deviation", "Length", "Duration", "Energy"}) {
     html += fmt::format("<th scope=\"col\">{}</th>", head);
   }
   html += "</tr></thead><tbody>\n";
@@ -105,12 +107,16 @@ std::string method_html(const EvaluationResult& result) {
       "slope, obstacles and deviation limited at every step. Steering law: " +
       steering_law_text(result.settings.follower.law) + ".");
   item(
-      "Feasible where both hold. P is the probability that the margins hold over what is known of "
-      "the soils, speeds and curvatures held, with Wilson's interval; every path sees the same "
-      "draws.");
+      "Feasible where both hold at the mean soils: the draws do not change that verdict. P is the "
+      "probability that the margins hold over what is known of the soils, speeds and curvatures "
+      "held, with Wilson's interval; every path sees the same draws.");
   item(
-      "The soil number that decides is the one whose spread explains most of the margin's "
-      "variance; the per cent are its share.");
+      "The soil number that a margin varies most with is the one whose spread explains most of its "
+      "variance over the draws; the per cent are its share. Few draws decide P with a wide "
+      "interval, but cannot name such a number.");
+  item(
+      "A margin of -1 stands for a place where the soil bears no steady drive at all, or for the "
+      "open end of an interval.");
   for (const EvaluatedPath& path : result.paths) {
     const auto& spread = path.evaluation.spread;
     if (spread && spread->draws > 0) item(draws_text(path, *spread));

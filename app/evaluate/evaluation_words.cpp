@@ -49,7 +49,7 @@ std::string limiting_text(const PathEvaluation& evaluation) {
 
 std::string influence_text(const std::optional<SoilSpread>& spread, std::size_t count_max) {
   if (!spread) return std::string(kNotKnown);
-  if (spread->draws > 0 && spread->influences.empty()) return "too few draws to tell";
+  if (spread->draws > 0 && spread->influences.empty()) return "too few draws to name one";
   constexpr double kShareMin = 0.01;
   std::string text;
   for (std::size_t i = 0; i < std::min(count_max, spread->influences.size()); ++i) {

@@ -41,6 +41,24 @@ std::string with_stop(std::string sentence) {
   return sentence;
 }
 
+/// What the margin says that places without a steady drive count as; empty where none is shown.
+std::string broken_margin_sentence(const MarginSpread& spread) {
+  const std::string shown = number(MarginSpread::kBroken, 2);
+  if (spread.p05 <= MarginSpread::kBroken) {
+    return fmt::format(
+        " A margin of {} stands for a place where the soil of that draw bears no steady drive at "
+        "all.",
+        shown);
+  }
+  if (spread.p05_low <= MarginSpread::kBroken) {
+    return fmt::format(
+        " Its lower end of {} says that so many draws do not rule out soils that bear no steady "
+        "drive at all.",
+        shown);
+  }
+  return "";
+}
+
 /// How likely the best path holds, in view of what is not known of the soils.
 std::string soil_sentence(const Candidate& best) {
   if (!best.spread) return "How its margin spreads over the soils' uncertainty was not drawn.";
@@ -48,10 +66,10 @@ std::string soil_sentence(const Candidate& best) {
   return fmt::format(
       "Over {} draws of the soils within their uncertainty, the best path keeps its margins in "
       "{:.0f} % of them (95 % interval of the share: {:.0f} to {:.0f} %); in 5 % of them its "
-      "smallest margin falls below {} (95 % interval of that quantile: {} to {}).",
+      "smallest margin is {} or less (95 % interval of that quantile: {} to {}).{}",
       spread.draws, 100 * spread.feasible.share, 100 * spread.feasible.low,
       100 * spread.feasible.high, number(spread.p05, 2), number(spread.p05_low, 2),
-      number(spread.p05_high, 2));
+      number(spread.p05_high, 2), broken_margin_sentence(spread));
 }
 
 /// How far from the fastest path that there is.
@@ -72,6 +90,12 @@ std::string best_words(const Candidate& best) {
     return fmt::format("the best keeps a stability margin of {} at the mean soils", at_mean);
   }
   const MarginSpread& spread = *best.spread;
+  if (spread.p05 <= MarginSpread::kBroken) {
+    return fmt::format(
+        "the best holds in {:.0f} of {} draws of the soils; in 5 % of them or more the soil bears "
+        "no steady drive along it (its stability margin is {} at the mean soils)",
+        spread.feasible.share * spread.draws, spread.draws, at_mean);
+  }
   return fmt::format(
       "the best holds in {:.0f} of {} draws of the soils, with a stability margin of {} or more in "
       "95 % of them ({} at the mean soils)",

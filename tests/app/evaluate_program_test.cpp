@@ -56,6 +56,34 @@ TEST_F(Evaluate, RanksPathsFeasibleOnesFirst) {
   EXPECT_NE(folder_.read("out/report.html").find("good.csv"), std::string::npos);
 }
 
+TEST_F(Evaluate, SaysWhatTheMeanSoilsDecideAndWhatTheDrawsTell) {
+  const std::string path = file("good.csv", "x_m,y_m,speed_mps\n8,20,0\n20,20,1\n30,21,0\n");
+  const ProgramRun run = evaluate(path + " --threads 1");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_TRUE(run.output.starts_with("1 of 1 feasible at the mean soils; ")) << run.output;
+  const std::string known = folder_.read("out/report.html");
+  for (const char* told :
+       {"Verdict at mean soils", "is feasible at the mean soils.",
+        "Over the draws of the soils it varies most with: soil numbers known."}) {
+    EXPECT_NE(known.find(told), std::string::npos) << told;
+  }
+  // Fewer draws than tell uncertain numbers apart.
+  std::string soils = folder_.read("scenario.yaml");
+  for (const char* key : {"cohesion_pa: ", "friction_angle_deg: "}) {
+    const std::size_t at = soils.find(key) + std::string(key).size();
+    const std::size_t end = soils.find_first_of(",\n}", at);
+    soils.replace(at, end - at, "{mean: " + soils.substr(at, end - at) + ", std: 1}");
+  }
+  folder_.write("scenario.yaml", soils);
+  const ProgramRun doubtful =
+      run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' " + path + " --out '" +
+                               folder_.path("out") + "' --threads 1 --draws 4");
+  ASSERT_EQ(doubtful.status, 0) << doubtful.errors;
+  const std::string page = folder_.read("out/report.html");
+  EXPECT_NE(page.find("it varies most with: too few draws to name one."), std::string::npos);
+  EXPECT_EQ(page.find("too few draws to tell"), std::string::npos);
+}
+
 TEST_F(Evaluate, WhatWasNeverDrawnOrDrivenIsNoNumber) {
   const ProgramRun run = evaluate(file("away.csv", "x_m,y_m\n-30,20\n-10,20\n"));
   EXPECT_EQ(run.status, 2) << run.errors;

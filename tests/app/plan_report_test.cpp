@@ -175,6 +175,23 @@ TEST_F(PlanReport, SaysOfEachIntervalWhatItIsOf) {
   EXPECT_NE(page.find("(95 % interval of that quantile: "), std::string::npos);
 }
 
+TEST_F(PlanReport, ExplainsAMarginOfMinusOne) {
+  MarginSpread& spread = result_.candidates.front().spread.emplace();
+  spread = {.draws = 40,
+            .p05 = 0.1,
+            .p05_low = 0.05,
+            .p05_high = 0.2,
+            .feasible = probability_of(38, 40)};
+  const auto tells = [&](const std::string& words) {
+    return plan_report(problem_, result_).find(words) != std::string::npos;
+  };
+  EXPECT_FALSE(tells("no steady drive") || tells("bear no steady drive"));
+  spread.p05_low = -1;
+  EXPECT_TRUE(tells("Its lower end of -1.00 says that so many draws do not rule out soils"));
+  spread.p05 = -1;
+  EXPECT_TRUE(tells("A margin of -1.00 stands for a place where the soil of that draw bears no"));
+}
+
 TEST_F(PlanReport, EscapesTextThatComesFromFiles) {
   std::vector<MapSoil> soils = problem_.map.soils();
   const std::string hostile = "</script><script>alert('soil')</script><!-- & \"";
@@ -229,9 +246,9 @@ TEST(PlanHeadline, FeasibleNamesTheMarginAndWhatBindsWhereAndWhen) {
   EXPECT_EQ(
       plan_headline(result, {}),
       "Feasible at the mean soils, doubtful over their draws: 2 verified paths; the best holds in "
-      "58 of 100 draws of the soils, with a stability margin of -1.00 or more in 95 % of them "
-      "(0.21 "
-      "at the mean soils); tip over binds at x = 12.3 m, y = 56.0 m, t = 7.2 s.");
+      "58 of 100 draws of the soils; in 5 % of them or more the soil bears no steady drive along "
+      "it (its stability margin is 0.21 at the mean soils); tip over binds at x = 12.3 m, y = 56.0 "
+      "m, t = 7.2 s.");
   EXPECT_EQ(plan_headline(result, {.probability_min = 0.5}).rfind("Feasible: 2", 0), 0u);
 }
 
