@@ -377,6 +377,23 @@ TEST_F(Evaluate, AChartGoesAsFastAsTheVehicleDoesAndNoFaster) {
   EXPECT_TRUE(rows.substr(rows.rfind('\n', rows.size() - 2) + 1).starts_with("r,0,0.04,")) << rows;
 }
 
+TEST_F(Evaluate, AChartNamesEveryCurveOfALineThatIsSeveral) {
+  const std::string numbers =
+      "source: t, cohesion_pa: 170, friction_angle_deg: 36, kc: 1400, kphi: 820000, n: 1, a0: 0.4, "
+      "a1: 0.15, lambda: 0.9, density_kgpm3: 1500, kx0_m: 0.018, ky0_m: 0.013}";
+  const std::string soils = file("s.yaml", "soils: {r: {" + numbers + ", s: {" + numbers + "}\n");
+  const ProgramRun run =
+      run_program(folder_, "evaluate --chart '" + folder_.path("chart") + "' --vehicle curiosity" +
+                               " --gravity-mps2 3.71 --chart-slopes-deg 0 --chart-slopes-deg 15" +
+                               " --chart-speed-mps 0.04 --quiet --soils " + soils);
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const std::string picture = folder_.read("chart/feasibility.svg");
+  for (const char* told : {"1 is one line for r, s, turns on ground that rises 0 deg",
+                           "is one line for r, s, straight across a slope"}) {
+    EXPECT_NE(picture.find(told), std::string::npos) << told;
+  }
+}
+
 TEST_F(Evaluate, AChartIsAPictureAndTables) {
   const ProgramRun run =
       run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' --chart '" +
