@@ -60,6 +60,10 @@ ExitStatus run_map_import(const MapImportOptions& options) {
     const std::string notice = unlisted_classes_notice(map, *options.classes);
     if (!notice.empty()) notify(notice, options.quiet);
   }
+  if (options.rocks) {
+    const std::string notice = rocks_off_map_notice(map, *options.rocks);
+    if (!notice.empty()) notify(notice, options.quiet);
+  }
   if (!write_map_folder(map, options.stub, options.out, stop_on_interrupt())) return kInterrupted;
   for (const std::string& notice : map_notices(map, stub_vehicle(options.stub))) {
     notify(notice, options.quiet);

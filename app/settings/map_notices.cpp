@@ -72,4 +72,25 @@ std::string unlisted_classes_notice(const TerrainMap& map, const std::string& ra
       map.classes()->code.size(), unlisted.front().code);
 }
 
+std::string rocks_off_map_notice(const TerrainMap& map, const std::string& source) {
+  const GridFrame& frame = map.elevation().frame;
+  constexpr std::size_t kListed = 8;
+  std::size_t count = 0;
+  std::vector<std::string> listed;
+  for (const Rock& rock : map.rocks()) {
+    // How far the nearest point of the map lies from the rock's centre.
+    const double aside_m = std::max({frame.west_m - rock.x_m, rock.x_m - frame.east_m(), 0.0});
+    const double along_m = std::max({frame.south_m() - rock.y_m, rock.y_m - frame.north_m, 0.0});
+    if (std::hypot(aside_m, along_m) <= rock.radius_m) continue;
+    if (++count > kListed) continue;
+    listed.push_back(fmt::format("x_m {:.10g}, y_m {:.10g}, radius_m {:.4g}", rock.x_m, rock.y_m,
+                                 rock.radius_m));
+  }
+  if (count == 0) return "";
+  if (count > kListed) listed.push_back(fmt::format("{} others", count - kListed));
+  return fmt::format("{}: {} of {} rocks {} wholly off the map ({}), where no path meets {}: {}",
+                     source, count, map.rocks().size(), count == 1 ? "lies" : "lie",
+                     extent_text(frame), count == 1 ? "it" : "them", fmt::join(listed, "; "));
+}
+
 }  // namespace regoplan

@@ -17,4 +17,8 @@ std::vector<std::string> map_notices(const TerrainMap& map, const Vehicle& vehic
 /// \param raster what the codes stand in, for the sentence
 std::string unlisted_classes_notice(const TerrainMap& map, const std::string& raster);
 
+/// Of the rocks that lie wholly off the map, where no path can meet them: where each stands, and
+/// where the map ends. Empty where there are none. \param source what the rocks stand in
+std::string rocks_off_map_notice(const TerrainMap& map, const std::string& source);
+
 }  // namespace regoplan

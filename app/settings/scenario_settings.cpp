@@ -143,9 +143,13 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
                                                      : named_vehicle(node, folder);
 }
 
-ScenarioMap with_class_notice(ScenarioMap map, const std::string& raster) {
-  std::string notice = unlisted_classes_notice(map.map, raster);
-  if (!notice.empty()) map.notices.push_back(std::move(notice));
+/// \param classes_shown, rocks_shown what its classes and rocks stand in
+ScenarioMap with_notices(ScenarioMap map, const std::string& classes_shown,
+                         const std::string& rocks_shown) {
+  for (const std::string& notice : {unlisted_classes_notice(map.map, classes_shown),
+                                    rocks_off_map_notice(map.map, rocks_shown)}) {
+    if (!notice.empty()) map.notices.push_back(notice);
+  }
   return map;
 }
 
@@ -224,12 +228,14 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
 
     if (const SettingsNode* drawn = mapping.optional("terrain")) {
       SyntheticTerrain terrain = placed(*drawn, [&] { return draw_terrain(read_terrain(*drawn)); });
-      return with_class_notice(
+      const std::string shown =
+          fmt::format("{}:{}: {}", drawn->file(), drawn->line(), drawn->path());
+      return with_notices(
           {.map = TerrainMap(std::move(terrain.elevation), std::move(terrain.classes),
                              std::move(catalogue), std::move(terrain.rocks)),
            .notices = std::move(notices),
            .inputs = std::move(inputs)},
-          fmt::format("{}:{}: {}", drawn->file(), drawn->line(), drawn->path()));
+          shown, shown);
     }
     const SettingsNode& elevation_file = mapping.required("elevation");
     ElevationRaster elevation = read_named(
@@ -251,18 +257,20 @@ ScenarioMap read_map(const SettingsNode& node, const std::filesystem::path& fold
     }
 
     std::vector<Rock> rocks;
+    std::string rocks_shown;
     if (const SettingsNode* name = mapping.optional("rocks")) {
       rocks = read_named(*name, [&](const NamedFile& file) {
+        rocks_shown = file.shown.string();
         return read_rocks(file.path.string(), elevation.frame);
       });
     } else if (std::filesystem::exists(folder / "rocks.csv")) {
       notices.push_back(unread_rocks_notice(node));
     }
-    return with_class_notice({.map = TerrainMap(std::move(elevation), std::move(classes),
-                                                std::move(catalogue), std::move(rocks)),
-                              .notices = std::move(notices),
-                              .inputs = std::move(inputs)},
-                             classes_shown);
+    return with_notices({.map = TerrainMap(std::move(elevation), std::move(classes),
+                                           std::move(catalogue), std::move(rocks)),
+                         .notices = std::move(notices),
+                         .inputs = std::move(inputs)},
+                        classes_shown, rocks_shown);
   });
 }
 

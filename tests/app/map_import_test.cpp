@@ -84,9 +84,12 @@ TEST_F(MapImport, TheStartStandsWhereThePlannerLetsTheVehicleStand) {
   });
   std::string rocks = "x_m,y_m,radius_m,height_m\n";
   for (int i = 0; i < 8; ++i) rocks += "21," + std::to_string(5 * i + 2) + ".5,0.5,1\n";
+  rocks += "90,5,1,1\n";
   folder_.write("rocks.csv", rocks);
   const ProgramRun run = import("--rocks '" + folder_.path("rocks.csv") + "'");
   ASSERT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.errors.find("rocks.csv: 1 of 9 rocks lies wholly off the map"), std::string::npos)
+      << run.errors;
   const auto rejection = rejection_of_start();
   EXPECT_FALSE(rejection) << name(rejection->reason);
 }

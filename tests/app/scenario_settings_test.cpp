@@ -267,5 +267,28 @@ TEST_F(ScenarioSettings, AClassWithoutASoilIsToldWithItsCodeItsCellsAndTheRemedy
   EXPECT_EQ(told("unmapped: mare, classes: {1: mare}, "), "");
 }
 
+TEST_F(ScenarioSettings, RocksWhollyOffTheMapAreToldWithTheirPlacesAndTheMapsBounds) {
+  const std::string soils = std::string("soils: ") + kOneSoil;
+  const auto told = [&](const std::string& rows) -> std::string {
+    folder_.write("r.csv", "x_m,y_m,radius_m,height_m\n20,30,1,1\n" + rows);
+    const std::vector<std::string> notices = scenario(soils, "rocks: r.csv\n  " + soils).notices;
+    const auto found = std::ranges::find_if(
+        notices, [](const auto& n) { return n.find("off the map") != std::string::npos; });
+    return found == notices.end() ? "" : found->substr(folder_.path("").size());
+  };
+  EXPECT_EQ(told(""), "");
+  EXPECT_EQ(told("40.5,20,1,1\n"), "");  // reaches over the edge
+  EXPECT_EQ(told("100,5.5,1,1\n"),
+            "r.csv: 1 of 2 rocks lies wholly off the map (x 0 to 40 m, y 0 to 40 m), where no path "
+            "meets it: x_m 100, y_m 5.5, radius_m 1");
+  // Off a corner: within the radius of either edge's line, and not of the map.
+  EXPECT_EQ(told("40.9,40.9,1,1\n-3,5,2,1\n"),
+            "r.csv: 2 of 3 rocks lie wholly off the map (x 0 to 40 m, y 0 to 40 m), where no path "
+            "meets them: x_m 40.9, y_m 40.9, radius_m 1; x_m -3, y_m 5, radius_m 2");
+  std::string many;
+  for (int i = 0; i < 10; ++i) many += "100,5,1,1\n";
+  EXPECT_TRUE(told(many).ends_with("; 2 others"));
+}
+
 }  // namespace
 }  // namespace regoplan
