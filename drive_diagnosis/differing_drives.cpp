@@ -40,11 +40,10 @@ Apart farthest(const std::vector<std::size_t>& drive_of, const std::vector<doubl
   return most;
 }
 
-}  // namespace
-
-std::vector<DriveFinding> differing_drives(const std::vector<DriveRecording>& drives,
-                                           const std::vector<DriveWindow>& windows,
-                                           const std::vector<ComparedChannel>& compared) {
+/// Drives whose windows lie apart in a channel, in the middle of what all of them leave.
+std::vector<DriveFinding> off_in_the_middle(const std::vector<DriveRecording>& drives,
+                                            const std::vector<DriveWindow>& windows,
+                                            const std::vector<ComparedChannel>& compared) {
   constexpr double kFar_scatters = 4;
   std::vector<DriveFinding> findings;
   for (const ComparedChannel& channel : compared) {
@@ -64,6 +63,42 @@ std::vector<DriveFinding> differing_drives(const std::vector<DriveRecording>& dr
                              channel.name, std::abs(apart.off), apart.off > 0 ? "higher" : "lower",
                              apart.scatters),
          .value = apart.off});
+  }
+  return findings;
+}
+
+/// Whether a zone leaves next to nothing of its drive outside, while other drives lie outside.
+bool is_all_of_a_drive(const SoilZoneFound& zone, const std::vector<DriveWindow>& windows) {
+  constexpr double kNearlyAll = 0.9;
+  std::size_t of_drive = 0, within = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    if (windows[i].drive != zone.drive) continue;
+    ++of_drive;
+    if (i >= zone.first && i <= zone.last) ++within;
+  }
+  return of_drive < windows.size() &&
+         static_cast<double>(within) >= kNearlyAll * static_cast<double>(of_drive);
+}
+
+DriveFinding zone_all_along(const std::vector<DriveRecording>& drives, const SoilZoneFound& zone) {
+  return {.id = "drives_differ",
+          .drive = drives[zone.drive].drive_id,
+          .text =
+              "another soil would have to lie along all of this drive and of no other: the "
+              "vehicle may have been otherwise in it, by a payload or a fault",
+          .value = zone.ends_s - zone.starts_s};
+}
+
+}  // namespace
+
+std::vector<DriveFinding> differing_drives(const std::vector<DriveRecording>& drives,
+                                           const std::vector<DriveWindow>& windows,
+                                           const VehicleEffects& effects) {
+  std::vector<DriveFinding> findings = off_in_the_middle(drives, windows, effects.compared);
+  for (const VehicleFinding& finding : effects.found) {
+    if (finding.zone && is_all_of_a_drive(*finding.zone, windows)) {
+      findings.push_back(zone_all_along(drives, *finding.zone));
+    }
   }
   return findings;
 }

@@ -302,7 +302,7 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   }
   if (result.effects) {
     std::vector<DriveFinding> differing =
-        differing_drives(drives, result.windows, result.effects->compared);
+        differing_drives(drives, result.windows, *result.effects);
     // A fault of some drives looks like a smaller one of all of them, or like a zone.
     if (differing.empty()) {
       claim_effects(setup, drives, result);

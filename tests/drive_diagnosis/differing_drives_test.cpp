@@ -44,6 +44,22 @@ TEST(DifferingDrives, AWheelThatDragsInAllIsNamed) {
   EXPECT_EQ(diagnosis.claims[0].id, "wheel_drag");
 }
 
+/// Two drives of twenty windows, and a zone over some of them.
+std::vector<DriveFinding> differing_by_zone(std::size_t first, std::size_t last) {
+  const std::vector<DriveRecording> drives{{.drive_id = "a"}, {.drive_id = "b"}};
+  std::vector<DriveWindow> windows(40);
+  for (std::size_t i = 20; i < windows.size(); ++i) windows[i].drive = 1;
+  VehicleEffects effects;
+  effects.found.push_back(
+      {.id = "soil_zone", .zone = SoilZoneFound{.drive = 1, .first = first, .last = last}});
+  return differing_drives(drives, windows, effects);
+}
+
+TEST(DifferingDrives, AZoneAlongNearlyAllOfOneOfThemMayBeItsVehicle) {
+  EXPECT_EQ(differing_by_zone(21, 39).size(), 1u);
+  EXPECT_EQ(differing_by_zone(21, 35).size(), 0u);
+}
+
 /// Two drives of twenty windows whose residuals are told.
 std::vector<DriveFinding> differing(const std::function<double(std::size_t)>& residual) {
   const std::vector<DriveRecording> drives{{.drive_id = "a"}, {.drive_id = "b"}};
@@ -54,7 +70,9 @@ std::vector<DriveFinding> differing(const std::function<double(std::size_t)>& re
     channel.windows.push_back(i);
     channel.measured.push_back(residual(i));
   }
-  return differing_drives(drives, windows, {channel});
+  VehicleEffects effects;
+  effects.compared = {channel};
+  return differing_drives(drives, windows, effects);
 }
 
 TEST(DifferingDrives, AreToldByTheMiddleOfWhatIsLeftAgainstTheScatterOfAWindow) {
