@@ -142,12 +142,20 @@ class Diagnosing {
       return;
     }
     // soil numbers that fit some channels at the cost of another are not those of the soil
-    const std::string worse =
-        worse_than_prior_means(calibrated_, calibrated_.held_out({}, options_.threads));
-    if (worse.empty()) return;
+    const HeldOut proof = calibrated_.held_out({}, options_.threads);
+    const std::string worse = worse_than_prior_means(calibrated_, proof);
+    if (worse.empty() || !has_clear_excess(calibrated_.bed(), proof) || !means_miss(proof)) return;
     found_.notes.push_back(worse);
     unfit_ = true;
     rejected_ = true;
+  }
+
+  /// Whether the prior means miss some channel by more than one run scatters: nearer by, they may
+  /// be handed on though they misfit.
+  static bool means_miss(const HeldOut& proof) {
+    return std::ranges::any_of(proof.fit, [](const ChannelFit& fit) {
+      return std::pow(fit.baseline_rmse, 2) > 2 * std::pow(fit.noise_floor, 2);
+    });
   }
 
   /// Whether calibrated soil numbers gain more over their prior means, the pulls on them counted,

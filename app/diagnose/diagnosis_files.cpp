@@ -114,13 +114,19 @@ Json experiment_json(const Experiment& experiment) {
           {"expected_gain_nats", experiment.expected_gain_nats}};
 }
 
-/// By mechanism; of several forms the one that stands first.
+/// To six digits: ends of ranges are powers that round-off makes long.
+double six_digits(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
+}
+
+/// By mechanism; of several forms the one that stands first. Null where none of a usual size shows.
 Json detectable_json(const std::vector<SmallestDetectable>& all) {
   Json detectable = Json::object();
   for (const SmallestDetectable& one : all) {
     if (detectable.contains(one.id)) continue;
-    detectable[one.id] = {
-        {"parameter", one.parameter}, {"value", one.value}, {"usual_range", {one.low, one.high}}};
+    detectable[one.id] = {{"parameter", one.parameter},
+                          {"value", one.is_usual ? Json(one.value) : Json(nullptr)},
+                          {"usual_range", {six_digits(one.low), six_digits(one.high)}}};
   }
   return detectable;
 }

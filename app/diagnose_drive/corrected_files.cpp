@@ -1,5 +1,6 @@
 #include "app/diagnose_drive/corrected_files.h"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "app/settings/map_files.h"
@@ -49,6 +50,12 @@ void write_corrected_map(const DriveDiagnosisRun& run, const ResultFolder& folde
   files.write({"vehicle.yaml", vehicle_text(corrected_vehicle(*setup.vehicle, effects))});
   files.write({"scenario.yaml", scenario_text(run, !map.rocks().empty())});
   files.commit();
+}
+
+void remove_corrected_map(const ResultFolder& folder) {
+  if (!std::filesystem::exists(folder.path)) return;
+  StagedFiles files(folder);
+  for (const std::string& name : corrected_file_names()) files.remove(name);
 }
 
 }  // namespace regoplan

@@ -18,6 +18,9 @@ bool has_corrected_map(const DriveDiagnosisRun& run);
 /// diagnosed scenario with these: all or none. \pre has_corrected_map \throws InputError where the
 /// folder takes no files
 void write_corrected_map(const DriveDiagnosisRun& run, const ResultFolder& folder);
+
+/// Takes away what an earlier run has left there, where this one hands nothing back.
+void remove_corrected_map(const ResultFolder& folder);
 std::vector<std::string> corrected_file_names();
 
 }  // namespace regoplan

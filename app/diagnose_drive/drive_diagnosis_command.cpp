@@ -106,7 +106,11 @@ DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
 }
 
 void write_drive_diagnosis(const DriveDiagnosisRun& run, const ResultFolder& folder) {
-  if (has_corrected_map(run)) write_corrected_map(run, corrected_folder(folder));
+  if (has_corrected_map(run)) {
+    write_corrected_map(run, corrected_folder(folder));
+  } else {
+    remove_corrected_map(corrected_folder(folder));
+  }
   write_drive_diagnosis_files(run, folder);
 }
 

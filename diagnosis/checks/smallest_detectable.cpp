@@ -25,13 +25,16 @@ Eigen::VectorXd usual_size(const Eigen::VectorXd& soil, const Effect& effect) {
 
 /// \param x of the first coordinate at the usual size \param share of that size that is shown
 SmallestDetectable smallest_of(const Effect& effect, double x, double share) {
-  SmallestDetectable smallest{.id = effect.id, .parameter = "share", .value = share, .high = 1};
+  SmallestDetectable smallest{
+      .id = effect.id, .parameter = "share", .value = share, .high = 1, .is_usual = share <= 1};
   if (effect.coordinates.empty()) return smallest;
   const Coordinate& c = effect.coordinates.front();
   smallest.parameter = c.name;
   smallest.value = c.is_factor() ? c.value(share * x) : share * c.value(x);
   smallest.low = c.is_positive() ? c.value(-1) : c.value(-1.5);
   smallest.high = c.is_positive() ? c.value(1) : c.value(1.5);
+  smallest.is_usual =
+      c.is_factor() ? smallest.value >= smallest.low : smallest.value <= smallest.high;
   return smallest;
 }
 

@@ -133,6 +133,7 @@ struct SmallestDetectable {
   std::string parameter;
   double value = 0;          ///< amplitude that these data would have shown with 80 % power
   double low = 0, high = 0;  ///< usual range
+  bool is_usual = true;      ///< such effects come so large
 };
 
 /// One row of the recording against the models, for pictures.

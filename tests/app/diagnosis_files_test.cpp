@@ -94,6 +94,7 @@ TEST(DiagnosisJson, WithoutAClaimSaysWhatCouldHaveBeenSeen) {
   EXPECT_TRUE(d["mechanisms"].empty());
   EXPECT_EQ(d["smallest_detectable"]["slip_sinkage"]["value"], 0.05);
   EXPECT_EQ(d["smallest_detectable"]["slip_sinkage"]["parameter"], "n1");
+  EXPECT_TRUE(d["smallest_detectable"]["rut_asymmetry"]["value"].is_null()) << "beyond its range";
 }
 
 TEST(DiagnosisJson, WhatIsNotFiniteIsNull) {

@@ -105,7 +105,8 @@ DiagnosisRun consistent_diagnosis() {
   d.next_experiments.clear();
   d.ranking = {{"none", 0.98}, {"parameters", 0.02}};
   d.smallest_detectable = {{"slip_sinkage", "n1", 0.05, 0.1, 0.6},
-                           {"slip_sinkage", "strength", 0.2, 0.5, 1.5}};
+                           {"slip_sinkage", "strength", 0.2, 0.5, 1.5},
+                           {"rut_asymmetry", "kappa", 5.4, 0.2, 1, false}};
   d.after = d.before;
   for (RunResidual& residual : d.residuals) residual.corrected = residual.calibrated;
   d.corrected_model.mechanisms.clear();

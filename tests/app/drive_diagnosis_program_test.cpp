@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,6 +15,20 @@
 
 namespace regoplan {
 namespace {
+
+/// A drive with its second column, the time, told in ms.
+std::string in_milliseconds(const std::string& drive) {
+  std::istringstream text(drive);
+  std::string line, told;
+  std::getline(text, told);
+  told += "\n";
+  while (std::getline(text, line)) {
+    std::vector<std::string> cells = *split_cells(line);
+    cells.at(1) = fmt::format("{}", 1000 * std::stod(cells.at(1)));
+    told += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return told;
+}
 
 class DriveDiagnosisProgram : public testing::Test {
  protected:
@@ -106,6 +121,14 @@ TEST_F(DriveDiagnosisProgram, AHiddenSoftPatchIsFoundAndThePlanGoesOnWithIt) {
   EXPECT_EQ(again.status, 0) << again.errors;
   const auto plan = nlohmann::json::parse(folder_.read("second/plan.json"));
   EXPECT_EQ(plan["status"], "feasible");
+
+  // what another drive does not tell is not left there from this one
+  folder_.write("ms.csv", in_milliseconds(folder_.read("driven/drive.csv")));
+  const ProgramRun doubtful =
+      run("diagnose '" + folder_.path("ms.csv") + "' --scenario '" + s + "' --out '" + out + "'");
+  EXPECT_EQ(doubtful.status, 2) << doubtful.errors;
+  EXPECT_EQ(diagnosis()["verdict"], "undecided");
+  EXPECT_FALSE(std::filesystem::exists(corrected));
 }
 
 TEST_F(DriveDiagnosisProgram, AFaultOfASlowRoverIsNamed) {

@@ -31,7 +31,8 @@ TEST(SmallestDetectable, AnEffectOfTwiceThatSizeIsDetected) {
   const DiagnosisSetup setup = simulant_setup();
   const Recording clean = record({}, setup, setup.soil.mean, {.day = 0, .outliers = 0}, 1);
   const Diagnosis silent = diagnose(clean, setup);
-  ASSERT_TRUE(silent.verdict == Verdict::kConsistent || silent.verdict == Verdict::kParameters);
+  ASSERT_TRUE(silent.verdict == Verdict::kConsistent || silent.verdict == Verdict::kParameters)
+      << silent.sentence;
   const std::map<std::string, std::string> kForms{
       {"front_bulldozing", "eta"}, {"lateral_digging", "kappa"}, {"sidewall_shear", "eta"}};
   for (const auto& [id, parameter] : kForms) {
@@ -52,7 +53,8 @@ TEST(SmallestDetectable, AZoneTwiceAsFarFromTheSoilAroundIsDetectedWhereverItLie
   const DiagnosisSetup setup = simulant_setup();
   const BedPlan plan{.day = 0, .outliers = 0, .positions = true};
   const Diagnosis silent = diagnose(record({}, setup, setup.soil.mean, plan, 1), setup);
-  ASSERT_TRUE(silent.verdict == Verdict::kConsistent || silent.verdict == Verdict::kParameters);
+  ASSERT_TRUE(silent.verdict == Verdict::kConsistent || silent.verdict == Verdict::kParameters)
+      << silent.sentence;
   const auto smallest = std::ranges::find(silent.smallest_detectable, "soil_zone",
                                           [](const auto& s) { return s.id; });
   ASSERT_NE(smallest, silent.smallest_detectable.end());

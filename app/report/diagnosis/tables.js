@@ -296,7 +296,8 @@ function detectableTable(host, section) {
   const rows = entries.map(([id, d]) => {
     const {name, unit} = nameAndUnit(d.parameter);
     const of = value => significant(value, 2) + (unit ? '\u00a0' + unit : '');
-    return [words(id), name, of(d.value), `${of(d.usual_range[0])} to ${of(d.usual_range[1])}`];
+    const smallest = d.value === null ? 'none of a usual size' : of(d.value);
+    return [words(id), name, smallest, `${of(d.usual_range[0])} to ${of(d.usual_range[1])}`];
   });
   host.append(scrolled(
       'Table of smallest detectable effects',
