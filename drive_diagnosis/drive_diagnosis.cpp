@@ -301,8 +301,7 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     result.effects = std::move(comparison.effects);
   }
   if (result.effects) {
-    std::vector<DriveFinding> differing =
-        differing_drives(drives, result.windows, *result.effects);
+    std::vector<DriveFinding> differing = differing_drives(drives, result.windows, *result.effects);
     // A fault of some drives looks like a smaller one of all of them, or like a zone.
     if (differing.empty()) {
       claim_effects(setup, drives, result);
