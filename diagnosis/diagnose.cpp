@@ -20,6 +20,7 @@
 #include "diagnosis/names/name_contest.h"
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
+#include "diagnosis/names/suspects.h"
 #include "diagnosis/recording/thresholds.h"
 #include "diagnosis/stages.h"
 #include "terramech/basics/interruption.h"
@@ -342,29 +343,6 @@ class Diagnosing {
     return true;
   }
 
-  /// Names without which a soil number would have to lie far from its tests, and that do as well
-  /// with that number near to them.
-  void list_suspects() {
-    constexpr std::size_t kMost = 3;
-    std::vector<Eigen::Index> far;
-    for (Eigen::Index i = 0; i < calibrated_.base().x.size(); ++i) {
-      if (std::abs(calibrated_.base().x[i]) > Thresholds::kSuspectPull) far.push_back(i);
-    }
-    if (far.empty()) return;
-    const double parameters = scored_as(Account::Kind::kParameters, scored_).score;
-    std::vector<const ScoredId*> singles;
-    for (const ScoredId& s : scored_) {
-      if (s.fit.candidate.effects.size() != 1) continue;
-      const bool near = std::ranges::all_of(
-          far, [&](Eigen::Index i) { return std::abs(s.fit.x[i]) < Thresholds::kUnsuspectPull; });
-      if (near && s.score > parameters - Thresholds::kAsGood_nats) singles.push_back(&s);
-    }
-    std::ranges::stable_sort(singles, std::greater{}, &ScoredId::score);
-    for (std::size_t i = 0; i < std::min(kMost, singles.size()); ++i) {
-      found_.suspects.push_back(singles[i]->id());
-    }
-  }
-
   /// Replicates that follow the run before are no clean bill, whatever their means do: the bed was
   /// not alike for them.
   void only_bed_memory() {
@@ -385,7 +363,7 @@ class Diagnosing {
       return;
     }
     weigh(scored_, PlainModel::kHolds);
-    if (!consistent_) list_suspects();
+    if (!consistent_) found_.suspects = suspects_of(calibrated_, scored_);
     found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
     take(calibrated_alone(calibrated_, options_.threads));
   }
