@@ -186,8 +186,8 @@ function mapOverlay(svg, frame) {
         .text(text);
   }
 
-  /// What numbers of the axes take.
-  const halfWidth_px = text => 6.5 * text.length / 2, HALF_HEIGHT_PX = 7;
+  /// To which the letters of a picture are drawn.
+  const ROUNDING_PX = 1;
 
   function drawAxes() {
     const [west, north] = frame.mapPoint([frame.left, frame.top]);
@@ -210,13 +210,17 @@ function mapOverlay(svg, frame) {
         .selectAll('text')
         // The map goes to the edge of its picture: half of a number at its end would be cut off.
         .attr('text-anchor', function(place_m) {
-          return x(place_m) + halfWidth_px(this.textContent) > frame.width ? 'end' : 'middle';
+          const half_px = this.getComputedTextLength() / 2 + ROUNDING_PX;
+          return x(place_m) + half_px > frame.width ? 'end' : 'middle';
         });
     axisGroups[1]
         .attr('transform', `translate(${frame.left},0)`)
         .call(d3.axisLeft(y).ticks(6).tickSize(4).tickFormat(plain(y)))
         .selectAll('text')
-        .attr('dy', north_m => (y(north_m) < frame.top + HALF_HEIGHT_PX ? '0.71em' : '0.32em'));
+        .attr('dy', function(north_m) {
+          const half_px = this.getBBox().height / 2 + ROUNDING_PX;
+          return y(north_m) - half_px < frame.top ? '0.95em' : '0.32em';
+        });
     const span_m = d3.tickStep(0, 130 / frame.pixelsPerMetre(), 1.5),
           length = span_m * frame.pixelsPerMetre();
     scaleBar.selectAll('*').remove();
