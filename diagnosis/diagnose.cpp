@@ -145,17 +145,19 @@ class Diagnosing {
     // soil numbers that fit some channels at the cost of another are not those of the soil
     const HeldOut proof = calibrated_.held_out({}, options_.threads);
     const std::string worse = worse_than_prior_means(calibrated_, proof);
-    if (worse.empty() || !has_clear_excess(calibrated_.bed(), proof) || !means_miss(proof)) return;
+    if (worse.empty() || !has_clear_excess(calibrated_.bed(), proof)) return;
+    if (!misses(proof, &ChannelFit::baseline_rmse)) return;
+    if (!misses(proof, &ChannelFit::calibrated_rmse)) return;
     found_.notes.push_back(worse);
     unfit_ = true;
     rejected_ = true;
   }
 
-  /// Whether the prior means miss some channel by more than one run scatters: nearer by, they may
-  /// be handed on though they misfit.
-  static bool means_miss(const HeldOut& proof) {
-    return std::ranges::any_of(proof.fit, [](const ChannelFit& fit) {
-      return std::pow(fit.baseline_rmse, 2) > 2 * std::pow(fit.noise_floor, 2);
+  /// Whether a model misses some held-out channel by more than one run scatters: nearer by, it may
+  /// be handed on though another predicts better.
+  static bool misses(const HeldOut& proof, double ChannelFit::*rmse) {
+    return std::ranges::any_of(proof.fit, [rmse](const ChannelFit& fit) {
+      return std::pow(fit.*rmse, 2) > 2 * std::pow(fit.noise_floor, 2);
     });
   }
 
