@@ -143,7 +143,7 @@ class Diagnosing {
       return;
     }
     // soil numbers that fit some channels at the cost of another are not those of the soil
-    const HeldOut proof = calibrated_.held_out({}, options_.threads);
+    const HeldOut& proof = calibrated_held_out();
     const std::string worse = worse_than_prior_means(calibrated_, proof);
     if (worse.empty() || !has_clear_excess(calibrated_.bed(), proof)) return;
     if (!misses(proof, &ChannelFit::baseline_rmse)) return;
@@ -151,6 +151,14 @@ class Diagnosing {
     found_.notes.push_back(worse);
     unfit_ = true;
     rejected_ = true;
+  }
+
+  /// What the calibrated model predicts on held-out conditions.
+  const HeldOut& calibrated_held_out() {
+    if (!calibrated_held_out_) {
+      calibrated_held_out_ = calibrated_.held_out({}, options_.threads);
+    }
+    return *calibrated_held_out_;
   }
 
   /// Whether a model misses some held-out channel by more than one run scatters: nearer by, it may
@@ -218,7 +226,7 @@ class Diagnosing {
                                 }});
     // it is scored beside a small remainder, and the tests have found one that is not small
     for (ScoredId& s : scored_) {
-      s.given_up = s.account.kind == Account::Kind::kNone && !consistent_;
+      if (s.account.kind == Account::Kind::kNone) s.given_up = !consistent_;
     }
     weigh(scored_, plain_model());
     found_.support = support_of(scored_, plain_model());
@@ -355,7 +363,7 @@ class Diagnosing {
     if (found_.where.empty()) {
       if (auto after = last_part_of(calibrated_.recording())) found_.where.push_back(*after);
     }
-    take(calibrated_alone(calibrated_, options_.threads));
+    take(calibrated_alone(calibrated_, calibrated_held_out(), options_.threads));
   }
 
   void nothing_is_missing() {
@@ -367,7 +375,7 @@ class Diagnosing {
     weigh(scored_, PlainModel::kHolds);
     if (!consistent_) found_.suspects = suspects_of(calibrated_, scored_);
     found_.verdict = consistent_ ? Verdict::kConsistent : Verdict::kParameters;
-    take(calibrated_alone(calibrated_, options_.threads));
+    take(calibrated_alone(calibrated_, calibrated_held_out(), options_.threads));
   }
 
   void take(Correction correction) {
@@ -411,6 +419,7 @@ class Diagnosing {
 
   const DiagnosisOptions& options_;
   const CalibratedRecording calibrated_;
+  std::optional<HeldOut> calibrated_held_out_;  // once it was asked for
   std::vector<Effect> effects_, effects_in_part_;
   std::vector<ScoredId> scored_;
   std::vector<ScoredCandidate> partial_ranking_;

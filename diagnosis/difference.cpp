@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "diagnosis/bed/compared_recordings.h"
@@ -34,6 +35,13 @@ struct Treatment {
   LackOfFit lack;
   std::unique_ptr<CappedContest> contest;
   std::vector<CappedName> names;
+  std::map<std::string, NameShare> shares;  // of those that were asked for
+
+  const NameShare& share_of(const CappedName& name, int threads) {
+    const auto known = shares.find(name.id);
+    if (known != shares.end()) return known->second;
+    return shares.emplace(name.id, name_share(*calibrated, name.fit, threads)).first->second;
+  }
 
   const CappedName* find(const std::string& id) const {
     const auto found = std::ranges::find(names, id, &CappedName::id);
@@ -150,14 +158,14 @@ class Differing {
 
   /// Why an id is not claimed; empty where it is.
   std::string objection_to(const std::string& id) {
-    for (const Treatment& t : treatments_) {
+    for (Treatment& t : treatments_) {
       const CappedName* name = t.find(id);
       if (name == nullptr) return "it has no forces";
       if (name->gain_nats < Thresholds::kOverRemainder_nats) {
         return fmt::format("with {} it gains {:.0f} nats over an unnamed remainder",
                            regoplan::name(t.base), name->gain_nats);
       }
-      const NameShare share = name_share(*t.calibrated, name->fit, options_.threads);
+      const NameShare& share = t.share_of(*name, options_.threads);
       if (share.share.low < Thresholds::kWorthANameAlone) {
         return fmt::format("with {} it explains {:.0f} % of the held-out difference",
                            regoplan::name(t.base), 100 * share.share.low);
@@ -174,7 +182,7 @@ class Differing {
 
   /// How often nameless differences let some name do as well as this one.
   double chance_of_name(const CappedName& name) {
-    const NameShare share = name_share(*primary().calibrated, name.fit, options_.threads);
+    const NameShare& share = primary().share_of(name, options_.threads);
     return chance_of(reached_, name.gain_nats, share.share.low);
   }
 
@@ -190,7 +198,7 @@ class Differing {
     }
     const bool leave_nothing = explained(left_by(primary().find(ids.front())->fit));
     const std::string doubt = objection_to_class(ids, leave_nothing);
-    return doubt.empty() ? likelier_than(ids) : doubt;
+    return doubt.empty() ? likelier_than(ids, found_.ranking) : doubt;
   }
 
   /// Ids by their gain over all treatments, the best first.
@@ -239,17 +247,6 @@ class Differing {
     }
     found_.verdict = Verdict::kUnexplained;
     no_name();
-  }
-
-  /// What is likelier than these names, though it may not stand; empty where nothing is.
-  std::string likelier_than(const std::vector<std::string>& ids) const {
-    double claimed = 0;
-    for (const ScoredCandidate& one : found_.ranking) {
-      if (std::ranges::find(ids, one.id) != ids.end()) claimed += one.probability;
-    }
-    if (claimed > Thresholds::kLikelierThanAll) return "";
-    return fmt::format("{} may stand, and something else is likelier: {}", fmt::join(ids, " or "),
-                       found_.ranking.front().id);
   }
 
   void claim(const NameClass& claimed) {

@@ -24,7 +24,7 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
       return fmt::format("Undecided: in {} something is otherwise that has no name.", of);
     }
     if (diagnosis.effects) {
-      return fmt::format("Undecided: in {} not the same is otherwise than the model has it.", of);
+      return fmt::format("Undecided: {} differ from the model, and not in the same way.", of);
     }
     return fmt::format("Undecided: nothing of {} could be compared with the model.", of);
   }

@@ -59,16 +59,16 @@ const SettingsNode* SettingsMapping::optional(std::string_view key) {
 const SettingsNode& SettingsMapping::required(std::string_view key) {
   if (const SettingsNode* value = optional(key)) return *value;
   // A misspelt key is the likeliest reason.
-  const SettingsEntry* likest = nullptr;
+  const SettingsEntry* nearest = nullptr;
   for (const SettingsEntry& entry : node_.mapping()) {
     if (asked_.contains(entry.key) || !may_misspell(entry.key, key)) continue;
-    if (!likest || edits_between(entry.key, key) < edits_between(likest->key, key)) {
-      likest = &entry;
+    if (!nearest || edits_between(entry.key, key) < edits_between(nearest->key, key)) {
+      nearest = &entry;
     }
   }
-  if (!likest) throw node_.error(fmt::format("{} is missing", key));
-  throw node_.error(fmt::format("{} is missing ({} on line {}: did you mean {}?)", key, likest->key,
-                                likest->line, key));
+  if (!nearest) throw node_.error(fmt::format("{} is missing", key));
+  throw node_.error(fmt::format("{} is missing ({} on line {}: did you mean {}?)", key,
+                                nearest->key, nearest->line, key));
 }
 
 double SettingsMapping::number(std::string_view key, const ValueRange& allowed) {

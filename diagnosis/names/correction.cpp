@@ -42,7 +42,9 @@ std::vector<Mechanism> mechanisms_of(const CalibratedRecording& calibrated,
   return mechanisms;
 }
 
+/// \param by_calibrated what the calibrated model predicts \param corrected what is handed out does
 std::vector<RunResidual> residuals_of(const CalibratedRecording& calibrated, const HeldOut& proof,
+                                      const Eigen::VectorXd& by_calibrated,
                                       const Eigen::VectorXd& corrected) {
   const TestBed& bed = calibrated.bed();
   const CondensedRecording& recording = calibrated.recording();
@@ -60,7 +62,7 @@ std::vector<RunResidual> residuals_of(const CalibratedRecording& calibrated, con
                              .measured = y,
                              .noise = run_deviation(recording.noise[c], y),
                              .baseline = means[row],
-                             .calibrated = calibrated.base().prediction[row],
+                             .calibrated = by_calibrated[row],
                              .corrected = corrected[row],
                              .held_out = proof.corrected[row],
                              .held_out_standard_deviation = proof.corrected_deviation[row]});
@@ -71,8 +73,10 @@ std::vector<RunResidual> residuals_of(const CalibratedRecording& calibrated, con
 }
 
 /// As correction_by(), whatever the proof says.
+/// \param by_calibrated what the calibrated model predicts, for comparison
 Correction handed_out(const CalibratedRecording& calibrated, const CandidateFit& fit,
-                      const std::vector<std::size_t>& settings, const HeldOut& proof) {
+                      const std::vector<std::size_t>& settings, const HeldOut& proof,
+                      const Eigen::VectorXd& by_calibrated) {
   const DiagnosisSetup& setup = calibrated.bed().setup;
   const std::vector<SoilCoordinate>& soil = calibrated.soil();
   Correction correction{.model = {.variant = setup.variant,
@@ -102,8 +106,12 @@ Correction handed_out(const CalibratedRecording& calibrated, const CandidateFit&
     corrected = with_remainder(calibrated, fit, settings, proof);
     correction.remainder.residual = calibrated.bed().measured() - corrected;
   }
-  correction.residuals = residuals_of(calibrated, proof, corrected);
+  correction.residuals = residuals_of(calibrated, proof, by_calibrated, corrected);
   return correction;
+}
+
+Correction calibrated_model(const CalibratedRecording& calibrated, const HeldOut& proof) {
+  return handed_out(calibrated, calibrated.base(), {}, proof, calibrated.base().prediction);
 }
 
 /// The recording with the soil known at its prior means.
@@ -136,12 +144,8 @@ Correction at_prior_means(const CalibratedRecording& calibrated, bool with_surfa
           ? 1 - (variances_off(known.bed(), proof.corrected) - rows) / of_calibrated.excess
           : 0;
   proof.excess = of_calibrated.excess;
-  Correction correction = handed_out(known, known.base(), settings, proof);
-  const std::vector<RunResidual> by_calibrated =
-      residuals_of(calibrated, proof, calibrated.base().prediction);
-  for (std::size_t i = 0; i < by_calibrated.size(); ++i) {
-    correction.residuals[i].calibrated = by_calibrated[i].calibrated;
-  }
+  Correction correction =
+      handed_out(known, known.base(), settings, proof, calibrated.base().prediction);
   correction.soil = calibrated.bed().setup.soil;
   correction.soil_pulls = calibrated.soil_pulls();
   for (SoilPull& pull : correction.soil_pulls) {
@@ -180,10 +184,10 @@ std::string worse_than_prior_means(const CalibratedRecording& calibrated, const 
       proof.families.by, name(loss->channel), loss->errors);
 }
 
-Correction calibrated_alone(const CalibratedRecording& calibrated, int threads) {
-  const HeldOut proof = calibrated.held_out({}, threads);
+Correction calibrated_alone(const CalibratedRecording& calibrated, const HeldOut& proof,
+                            int threads) {
   std::string worse = prior_means_for(calibrated, proof);
-  if (worse.empty()) return handed_out(calibrated, calibrated.base(), {}, proof);
+  if (worse.empty()) return calibrated_model(calibrated, proof);
   Correction correction = at_prior_means(calibrated, false, proof, threads);
   correction.refused = "the soil stays at its prior means: " + worse;
   return correction;
@@ -193,10 +197,12 @@ Correction correction_by(const CalibratedRecording& calibrated, const CandidateF
                          const std::vector<std::size_t>& remainder, const HeldOut& proof,
                          int threads) {
   std::string reason = no_better_than_calibrated(calibrated.bed(), proof);
-  if (reason.empty()) return handed_out(calibrated, fit, remainder, proof);
+  if (reason.empty()) {
+    return handed_out(calibrated, fit, remainder, proof, calibrated.base().prediction);
+  }
   const HeldOut plain = calibrated.held_out({}, proof.families, threads);
   const std::string worse = prior_means_for(calibrated, plain);
-  Correction correction = worse.empty() ? handed_out(calibrated, calibrated.base(), {}, plain)
+  Correction correction = worse.empty() ? calibrated_model(calibrated, plain)
                                         : at_prior_means(calibrated, false, plain, threads);
   correction.refused = worse.empty() ? std::move(reason) : reason + "; " + worse;
   return correction;

@@ -27,8 +27,10 @@ struct Correction {
 /// \param proof of the calibrated model
 std::string worse_than_prior_means(const CalibratedRecording& calibrated, const HeldOut& proof);
 
-/// The calibrated model, nothing added.
-Correction calibrated_alone(const CalibratedRecording& calibrated, int threads);
+/// The calibrated model, nothing added, or the prior means where it spoils what these predict.
+/// \param proof of the calibrated model
+Correction calibrated_alone(const CalibratedRecording& calibrated, const HeldOut& proof,
+                            int threads);
 
 /// A fitted candidate with the remainder added to it (settings of the discrepancy; empty: none), or
 /// the calibrated model where that does as well on held-out conditions.

@@ -94,6 +94,17 @@ std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names
   return ranking;
 }
 
+std::string likelier_than(const std::vector<std::string>& ids,
+                          const std::vector<ScoredCandidate>& ranking) {
+  double claimed = 0;
+  for (const ScoredCandidate& one : ranking) {
+    if (std::ranges::find(ids, one.id) != ids.end()) claimed += one.probability;
+  }
+  if (claimed > Thresholds::kLikelierThanAll) return "";
+  return fmt::format("{} may stand, and something else is likelier: {}", fmt::join(ids, " or "),
+                     ranking.front().id);
+}
+
 double chance_of(const std::vector<ByChance>& reached, double gain_nats, double share) {
   const auto beyond = std::ranges::count_if(reached, [&](const ByChance& world) {
     return world.gain_nats >= gain_nats && world.share >= share;

@@ -25,6 +25,11 @@ std::vector<NameStep> steps_of(const CalibratedRecording& calibrated, const Part
 /// `parameters`. \param chance_p probability that a nameless world gains as much
 std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names, double chance_p);
 
+/// What is likelier than all of these names together, though it may not stand; empty where nothing
+/// is.
+std::string likelier_than(const std::vector<std::string>& ids,
+                          const std::vector<ScoredCandidate>& ranking);
+
 /// How often a nameless world lets some name gain as much and explain as large a share, or more.
 double chance_of(const std::vector<ByChance>& reached, double gain_nats, double share);
 

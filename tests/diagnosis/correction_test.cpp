@@ -15,7 +15,8 @@ CondensedRecording recorded(const TrueWheel& truth) {
 }
 
 Correction corrected(const TrueWheel& truth) {
-  return calibrated_alone(CalibratedRecording(recorded(truth)), 2);
+  const CalibratedRecording calibrated(recorded(truth));
+  return calibrated_alone(calibrated, calibrated.held_out({}, 2), 2);
 }
 
 /// A pull that no soil gives: numbers that come near to it spoil the side force.

@@ -46,5 +46,14 @@ TEST(CappedRanking, WhatSomethingSpeaksAgainstWeighsNothing) {
   EXPECT_NEAR(whole(none_left), 1, 1e-9);
 }
 
+TEST(LikelierThan, IsWhateverLeavesNamesNoMoreThanHalfOfTheProbability) {
+  const std::vector<ScoredCandidate> ranking{
+      {"soil_change", 0.6}, {"grousers", 0.3}, {"multi_pass", 0.1}};
+  EXPECT_NE(likelier_than({"grousers", "multi_pass"}, ranking).find("likelier: soil_change"),
+            std::string::npos);
+  EXPECT_EQ(likelier_than({"soil_change"}, ranking), "");
+  EXPECT_EQ(likelier_than({"soil_change", "grousers"}, ranking), "");
+}
+
 }  // namespace
 }  // namespace regoplan
