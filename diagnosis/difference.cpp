@@ -25,8 +25,6 @@
 namespace regoplan {
 namespace {
 
-constexpr int kWorlds = 79;  // nameless differences
-
 /// The test and what it is compared with, under one setting of the base model.
 struct Treatment {
   SharedBase base = SharedBase::kPriorMeans;
@@ -150,9 +148,9 @@ class Differing {
       tell("scoring what may differ", 0.2 + 0.15 * static_cast<double>(&t - treatments_.data()));
     }
     tell("simulating nameless differences", 0.6);
-    reached_ =
-        primary().contest->by_chance(primary().names, kWorlds, options_.seed + 2, options_.threads);
-    found_.chance_nats = reached_by_chance(reached_);
+    by_chance_ = nats_by_chance(*primary().calibrated, *primary().contest, primary().names,
+                                options_.seed + 2, options_.threads);
+    found_.chance_nats = reached_by_chance(by_chance_);
     chance_p_ = chance_p();
   }
 
@@ -180,17 +178,13 @@ class Differing {
     return "";
   }
 
-  /// How often nameless differences let some name do as well as this one.
-  double chance_of_name(const CappedName& name) {
-    const NameShare& share = primary().share_of(name, options_.threads);
-    return chance_of(reached_, name.gain_nats, share.share.low);
-  }
-
   /// Why names that fit alike are not claimed; empty where they are. What makes one of them more
   /// than chance makes the class: its others are not denied for doing a little less.
   std::string objection_to_names(const std::vector<std::string>& ids) {
     double p = 1;
-    for (const std::string& id : ids) p = std::min(p, chance_of_name(*primary().find(id)));
+    for (const std::string& id : ids) {
+      p = std::min(p, chance_of(by_chance_, primary().find(id)->over_unexplained_nats));
+    }
     if (p > Thresholds::kByChance_p) {
       return fmt::format(
           "{}: nameless differences let some name do as well with a probability of {:.2f}",
@@ -277,7 +271,8 @@ class Differing {
 
   /// How often nameless differences let some name do as well as the first.
   double chance_p() {
-    return primary().names.empty() ? 1 : chance_of_name(primary().names.front());
+    const std::vector<CappedName>& names = primary().names;
+    return names.empty() ? 1 : chance_of(by_chance_, names.front().over_unexplained_nats);
   }
 
   /// No difference is proven: how likely none is goes by the setting that lets them differ least.
@@ -391,7 +386,7 @@ class Differing {
   ComparedRecordings compared_;
   std::vector<Effect> effects_;
   std::vector<Treatment> treatments_;
-  std::vector<ByChance> reached_;  // by names in nameless differences, the soil calibrated
+  std::vector<double> by_chance_;  // of names in nameless differences, the soil calibrated
   double chance_p_ = 1;            // that such differences let some name do as well as the first
   Diagnosis found_;
   Diagnosis complete_;  // the stages of it that are

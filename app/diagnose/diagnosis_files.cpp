@@ -47,6 +47,8 @@ Json claim_json(const Claim& claim) {
   for (const auto& [id, share] : claim.member_shares) members[id] = share_json(share);
   Json parameters = Json::object();
   for (const auto& [key, estimate] : claim.parameters) parameters[key] = estimate_json(estimate);
+  Json over_unexplained;
+  if (claim.over_unexplained_nats) over_unexplained = *claim.over_unexplained_nats;
   return {{"id", claim.id},
           {"form", claim.form},
           {"probability", claim.probability},
@@ -54,6 +56,7 @@ Json claim_json(const Claim& claim) {
           {"equivalent", claim.equivalent},
           {"channels", channels_json(claim.channels)},
           {"evidence_nats", claim.evidence_nats},
+          {"over_unexplained_nats", over_unexplained},
           {"share", share_json(claim.share)},
           {"member_shares", members}};
 }

@@ -43,6 +43,12 @@ def rows(found):
     yield "noise floor", {c: f["noise_floor"] for c, f in fit.items()}
 
 
+def over_unexplained(claim):
+    """What it has over a mismatch without a name; nothing of names after the first."""
+    nats = claim["over_unexplained_nats"]
+    return "" if nats is None else f", {nats:.0f} over a mismatch without a name"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("recording")
@@ -57,9 +63,9 @@ def main():
         alike = f" (or {', '.join(claim['equivalent'])})" if claim["equivalent"] else ""
         print(f"  {claim['id']}{alike}: {100 * share['explained']:.0f} % "
               f"({100 * share['low']:.0f} to {100 * share['high']:.0f} %), "
-              f"{claim['evidence_nats']:.0f} nats")
-    print(f"nameless worlds reach {found['chance_nats']:.0f} nats; held out by "
-          f"{found['held_out_by']}\n")
+              f"{claim['evidence_nats']:.0f} nats{over_unexplained(claim)}")
+    print(f"nameless worlds reach {found['chance_nats']:.0f} nats over a mismatch without a name; "
+          f"held out by {found['held_out_by']}\n")
     print("| model | " + " | ".join(f"{c} ({SCALES[c][0]})" for c in channels) + " |")
     print("|---" * (len(channels) + 1) + "|")
     for what, rmse in rows(found):

@@ -47,6 +47,8 @@ struct Claim {
   std::vector<std::string> equivalent;  ///< further ids that these data cannot tell apart
   std::vector<Channel> channels;        ///< in which it shows
   double evidence_nats = 0;             ///< over the best score without it
+  /// Beside a capped remainder: over a mismatch without a name.
+  std::optional<double> over_unexplained_nats;
   std::optional<Share> share;  ///< that it adds to those before it, where there is an excess
   std::map<std::string, Share> member_shares;  ///< of a class: what each id explains in its place
 
@@ -184,10 +186,11 @@ struct Diagnosis {
   std::vector<RunDifference> differences;  ///< with references only
   WheelModelSpec corrected_model;  ///< calibrated soil, the claim's mechanisms, or `generic`
   UncertainSoil corrected_soil;
-  std::vector<NameStep> names_added;    ///< of the claims, first to last
-  std::vector<std::string> suspects;    ///< names that would do instead of a soil number
-  double remainder_share = 0;           ///< of the excess misfit, which the claims leave
-  double chance_nats = 0;               ///< gain that one nameless world in forty reaches; 0: none
+  std::vector<NameStep> names_added;  ///< of the claims, first to last
+  std::vector<std::string> suspects;  ///< names that would do instead of a soil number
+  double remainder_share = 0;         ///< of the excess misfit, which the claims leave
+  /// What one nameless world in forty lets a name reach of that; 0: not needed.
+  double chance_nats = 0;
   std::vector<std::string> references;  ///< what the recording was compared with
   bool interrupted = false;
 };

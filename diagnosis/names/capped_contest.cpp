@@ -3,68 +3,35 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <random>
 
-#include "diagnosis/bed/whitening.h"
 #include "diagnosis/names/name_share.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
 
 namespace regoplan {
-namespace {
-
-/// Where evidence for a smooth misfit finds no longer scale than these, it may have one.
-DiscrepancyScales beyond_the_longest() {
-  const DiscrepancyScales& longest = discrepancy_scales().back();
-  return {.slip = 2 * longest.slip,
-          .slip_angle_rad = 2 * longest.slip_angle_rad,
-          .log_load = 2 * longest.log_load};
-}
-
-/// Factors of the covariances, noise and misfit, of worlds whose misfit is as large as this setting
-/// says and as smooth or smoother.
-std::vector<Eigen::LLT<Eigen::MatrixXd>> nameless_covariances(const TestBed& bed,
-                                                              const ChannelData& data,
-                                                              std::size_t setting) {
-  const DiscrepancySetting& found = discrepancy_settings()[setting];
-  if (found.amplitude == 0) return {Eigen::LLT<Eigen::MatrixXd>(data.noise)};
-  const double deviation = found.amplitude * data.scale;
-  const ConditionsAt at = conditions_of(bed, data);
-  std::vector<DiscrepancyScales> all = discrepancy_scales();
-  all.push_back(beyond_the_longest());
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> factors;
-  for (std::size_t k = found.scales; k < all.size(); ++k) {
-    factors.emplace_back(data.noise +
-                         deviation * deviation *
-                             discrepancy_kernels(all[k], data.channel, at, at, found.sides));
-  }
-  return factors;
-}
-
-}  // namespace
-
-CappedContest::CappedContest(const CalibratedRecording& calibrated) : calibrated_(calibrated) {
+CappedContest::Cap CappedContest::cap_for(const CalibratedRecording& calibrated) {
   const FitProblem problem = calibrated.problem();
-  const Cap cap = cap_for(problem.bed.measured() - calibrated.base().prediction);
-  alone_settings_ = cap.settings;
-  weights_ = cap.weights;
-  const auto alone = fit_candidate(
-      problem, {}, weights_, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.soil.size())));
-  alone_nats_ = alone->evidence.log_marginal;
-}
-
-CappedContest::Cap CappedContest::cap_for(const Eigen::VectorXd& residual) const {
-  const FitProblem problem = calibrated_.problem();
+  const Eigen::VectorXd recorded = problem.bed.measured() - calibrated.base().prediction;
   const Evidence free =
-      evidence_of(problem.bed, problem.discrepancy,
-                  {.residual = residual + calibrated_.base().jacobian * calibrated_.base().x,
-                   .jacobian = calibrated_.base().jacobian},
+      evidence_of(problem.bed, problem.discrepancy, linear_at(calibrated.base(), recorded),
                   Eigen::MatrixXd(problem.bed.size(), 0), SettingWeights::of_unexplained());
   std::vector<double> most;
   for (const std::size_t k : free.settings) {
     most.push_back(Thresholds::kCapShare * discrepancy_settings()[k].amplitude);
   }
   return {free.settings, SettingWeights::up_to(std::move(most))};
+}
+
+CappedContest::CappedContest(const CalibratedRecording& calibrated)
+    : calibrated_(calibrated),
+      cap_(cap_for(calibrated)),
+      nameless_(calibrated, cap_.settings, cap_.weights) {
+  const FitProblem problem = calibrated.problem();
+  const auto alone =
+      fit_candidate(problem, {}, cap_.weights,
+                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.soil.size())));
+  alone_nats_ = alone->evidence.log_marginal;
+  nameless_nats_ = nameless_.log_evidence(problem.bed.measured() - calibrated.base().prediction);
 }
 
 std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
@@ -74,7 +41,7 @@ std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
   parallel_for(effects.size(), threads, [&](std::size_t i) {
     Hypothesis candidate = beside == nullptr ? Hypothesis{} : beside->candidate;
     candidate.effects.push_back(effects[i]);
-    fits[i] = fit_candidate(problem, candidate, weights_, start_of(problem, candidate, beside));
+    fits[i] = fit_candidate(problem, candidate, cap_.weights, start_of(problem, candidate, beside));
   });
   std::map<std::string, std::vector<CandidateFit>> forms;
   std::map<std::string, std::size_t> tried;
@@ -87,6 +54,7 @@ std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,
     MarginalFit marginal = marginal_of(of_id, tried[id]);
     names.push_back({.id = id,
                      .gain_nats = marginal.log_marginal - alone_nats_,
+                     .over_unexplained_nats = marginal.log_marginal - nameless_nats_,
                      .fit = std::move(marginal.likeliest)});
   }
   std::ranges::stable_sort(names, std::greater{}, &CappedName::gain_nats);
@@ -117,75 +85,6 @@ CandidateFit CappedContest::best_predicting(const std::vector<CandidateFit>& for
     shares.push_back(share.share.low);
   }
   return *near[static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin())];
-}
-
-ByChance CappedContest::best_in_world(const std::vector<CappedName>& names,
-                                      const Eigen::VectorXd& world) const {
-  const FitProblem problem = calibrated_.problem();
-  const CandidateFit& base = calibrated_.base();
-  const Eigen::VectorXd at_base = world + base.jacobian * base.x;
-  const double alone =
-      evidence_of(problem.bed, problem.discrepancy,
-                  {.residual = at_base, .jacobian = base.jacobian}, problem.soil_free, weights_)
-          .log_marginal;
-  // what is left without a remainder, as name_share() has it
-  const NoiseFactors noise(problem.bed);
-  const std::vector<std::size_t> noise_only(problem.bed.channels.size(), 0);
-  const auto misfit_by = [&](const Linearised& model) {
-    const Posterior fit = posterior_of(problem.bed, problem.discrepancy, model, noise_only);
-    const Eigen::VectorXd left = model.residual - model.jacobian * fit.x;
-    return whitened(problem.bed, noise, left).squaredNorm();
-  };
-  const double misfit = misfit_by({.residual = at_base, .jacobian = base.jacobian});
-  const auto expected = static_cast<double>(problem.bed.size());
-  const double excess = misfit - expected;
-  const bool is_clear = excess > Thresholds::kClear_errors * std::sqrt(2 * expected);
-  ByChance best;
-  for (const CappedName& name : names) {
-    // what it adds, from nothing to twice its size, then the shapes in which it may err
-    const Eigen::VectorXd part = name.fit.prediction - base.prediction;
-    const Eigen::Index soil = base.jacobian.cols(), shape = name.fit.shape.cols();
-    const Eigen::Index own = name.fit.jacobian.cols() - soil;
-    Linearised model{.residual = at_base};
-    model.jacobian.resize(problem.bed.size(), soil + 1 + own + shape);
-    model.jacobian << base.jacobian, part, name.fit.jacobian.rightCols(own), name.fit.shape;
-    const Evidence evidence =
-        evidence_of(problem.bed, problem.discrepancy, model, problem.soil_free, weights_);
-    if (evidence.x[soil] < 0 && !is_instrument(name.id)) continue;  // the wrong way round
-    if (evidence.log_marginal - alone <= best.gain_nats) continue;
-    const double left =
-        misfit_by({.residual = at_base, .jacobian = model.jacobian.leftCols(soil + 1 + own)});
-    best = {evidence.log_marginal - alone, is_clear ? (misfit - left) / excess : 0};
-  }
-  return best;
-}
-
-std::vector<ByChance> CappedContest::by_chance(const std::vector<CappedName>& names, int worlds,
-                                               std::uint64_t seed, int threads) const {
-  const FitProblem problem = calibrated_.problem();
-  const TestBed& bed = problem.bed;
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  std::vector<std::vector<Eigen::LLT<Eigen::MatrixXd>>> covariances;
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    covariances.push_back(nameless_covariances(bed, bed.channels[c], alone_settings_[c]));
-  }
-  std::vector<Eigen::VectorXd> drawn;
-  for (std::size_t w = 0; w < static_cast<std::size_t>(worlds); ++w) {
-    Eigen::VectorXd world(bed.size());
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      const Eigen::Index n = bed.channels[c].mean.size();
-      Eigen::VectorXd z(n);
-      for (double& value : z) value = normal(random);
-      world.segment(bed.offset(c), n) = covariances[c][w % covariances[c].size()].matrixL() * z;
-    }
-    drawn.push_back(std::move(world));
-  }
-  std::vector<ByChance> reached(drawn.size());
-  parallel_for(drawn.size(), threads,
-               [&](std::size_t w) { reached[w] = best_in_world(names, drawn[w]); });
-  std::ranges::sort(reached, {}, &ByChance::gain_nats);
-  return reached;
 }
 
 }  // namespace regoplan

@@ -12,7 +12,6 @@ namespace regoplan {
 namespace {
 
 constexpr std::size_t kMostNames = 3;
-constexpr int kWorlds = 39;
 
 std::vector<double> weights_of(const std::vector<CappedName>& names) {
   std::vector<double> weights;
@@ -105,18 +104,6 @@ std::string likelier_than(const std::vector<std::string>& ids,
                      ranking.front().id);
 }
 
-double chance_of(const std::vector<ByChance>& reached, double gain_nats, double share) {
-  const auto beyond = std::ranges::count_if(reached, [&](const ByChance& world) {
-    return world.gain_nats >= gain_nats && world.share >= share;
-  });
-  return (1.0 + static_cast<double>(beyond)) / (1.0 + static_cast<double>(reached.size()));
-}
-
-double reached_by_chance(const std::vector<ByChance>& reached) {
-  if (reached.empty()) return 0;
-  return reached[reached.size() - 1 - reached.size() / 40].gain_nats;
-}
-
 PartialClaim first_claim(const CalibratedRecording& calibrated,
                          const std::vector<CappedName>& names, const std::vector<std::string>& ids,
                          double chance_p, int threads) {
@@ -126,6 +113,7 @@ PartialClaim first_claim(const CalibratedRecording& calibrated,
   PartialClaim result{.fit = find(ids.front())->fit};
   Claim claim = claim_for_last(calibrated, result.fit, ids);
   claim.evidence_nats = find(ids.front())->gain_nats;
+  claim.over_unexplained_nats = find(ids.front())->over_unexplained_nats;
   claim.probability = (1 - chance_p) * probability_of(names, ids);
   for (const std::string& id : ids) {
     claim.member_shares[id] = name_share(calibrated, find(id)->fit, threads).share;
@@ -219,13 +207,13 @@ void add_evidence(const CappedContest& contest, int threads, PartialClaim& claim
 std::optional<PartialClaim> class_by_shares(const CalibratedRecording& calibrated,
                                             const CappedContest& contest,
                                             const std::vector<Effect>& effects,
-                                            const std::vector<ByChance>& reached, int threads) {
+                                            const std::vector<CappedName>& names,
+                                            std::uint64_t seed, int threads) {
   auto claim = claim_by_shares(calibrated, effects, threads);
   if (!claim) return std::nullopt;
   add_evidence(contest, threads, *claim);
-  const Claim& first = claim->claims.front();
-  if (first.evidence_nats < Thresholds::kOverRemainder_nats) return std::nullopt;
-  const double p = chance_of(reached, first.evidence_nats, first.share->low);
+  if (claim->claims.front().evidence_nats < Thresholds::kOverRemainder_nats) return std::nullopt;
+  const double p = chance_of_share(calibrated, contest, names, seed, threads);
   for (Claim& one : claim->claims) one.probability = 1 - p;
   return claim;
 }
@@ -234,7 +222,7 @@ std::optional<PartialClaim> class_by_shares(const CalibratedRecording& calibrate
 /// may be there all the same: what does far worse does not take its place.
 /// \param names marked where they are refused
 PartialDecision by_evidence(const CalibratedRecording& calibrated, const CappedContest& contest,
-                            std::vector<CappedName>& names, const std::vector<ByChance>& reached,
+                            std::vector<CappedName>& names, const std::vector<double>& by_chance,
                             const std::vector<Effect>& effects, int threads) {
   PartialDecision decision;
   // what stands by itself, then what comes near the best of that
@@ -256,18 +244,17 @@ PartialDecision by_evidence(const CalibratedRecording& calibrated, const CappedC
     }
     if (ids.empty()) {
       top = name.gain_nats;
-      p = chance_of(reached, top, name_share(calibrated, name.fit, threads).share.low);
+      p = chance_of(by_chance, name.over_unexplained_nats);
     }
     ids.push_back(name.id);
   }
   decision.ranking = capped_ranking(names, p);
   if (ids.empty()) return decision;
   if (refused_fault - top > Thresholds::kOverOthers_nats) return decision;
-  if (ids.size() == 1 && p > Thresholds::kByChance_p) {
-    decision.refused = fmt::format(
-        "{} gains {:.0f} nats over an unnamed remainder; nameless worlds let some name do as well "
-        "with a probability of {:.2f}",
-        ids.front(), top, p);
+  if (p > (ids.size() == 1 ? Thresholds::kByChance_p : Thresholds::kLikelierThanAll)) {
+    decision.refused =
+        fmt::format("{}: nameless worlds let some name do as well with a probability of {:.2f}",
+                    fmt::join(ids, " or "), p);
     return decision;
   }
   decision.refused = objection_to_class(ids, false);
@@ -284,11 +271,11 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
   const CappedContest contest(calibrated);
   std::vector<CappedName> names = contest.score(effects, nullptr, threads);
   if (names.empty()) return {.ranking = capped_ranking({}, 1)};
-  const std::vector<ByChance> reached = contest.by_chance(names, kWorlds, seed, threads);
-  PartialDecision decision = by_evidence(calibrated, contest, names, reached, effects, threads);
-  decision.chance_nats = reached_by_chance(reached);
+  const std::vector<double> by_chance = nats_by_chance(calibrated, contest, names, seed, threads);
+  PartialDecision decision = by_evidence(calibrated, contest, names, by_chance, effects, threads);
+  decision.chance_nats = reached_by_chance(by_chance);
   if (decision.claim) return decision;
-  decision.claim = class_by_shares(calibrated, contest, effects, reached, threads);
+  decision.claim = class_by_shares(calibrated, contest, effects, names, seed, threads);
   if (decision.claim) {
     for (CappedName& name : names) {
       for (const Claim& claim : decision.claim->claims) {

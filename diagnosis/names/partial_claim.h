@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "diagnosis/findings/findings.h"
-#include "diagnosis/names/capped_contest.h"
 #include "diagnosis/names/claim.h"
 #include "diagnosis/names/name_share.h"
+#include "diagnosis/names/names_by_chance.h"
 
 namespace regoplan {
 
@@ -29,12 +29,6 @@ std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names
 /// is.
 std::string likelier_than(const std::vector<std::string>& ids,
                           const std::vector<ScoredCandidate>& ranking);
-
-/// How often a nameless world lets some name gain as much and explain as large a share, or more.
-double chance_of(const std::vector<ByChance>& reached, double gain_nats, double share);
-
-/// Gain that one nameless world in forty reaches.
-double reached_by_chance(const std::vector<ByChance>& reached);
 
 /// Why names that fit alike are no class; empty where they are. Names of wheel and instrument both
 /// are one only where they explain everything: an instrument that leaves something unexplained is

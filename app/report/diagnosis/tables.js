@@ -38,6 +38,13 @@ function intervalMark(value, low, high, from, to, limits = []) {
 const NATS =
     'A nat is the natural logarithm of odds: 1 makes them 2.7 times as high, 3 are 20 to 1.';
 
+/// How a claim scored beside an unnamed remainder does against that remainder alone, and chance.
+function overUnexplained({over_unexplained_nats: nats}) {
+  if (nats === null) return '';
+  return `, over a mismatch without a name: ${fixed(nats, 1)} nats, where one nameless mismatch in ` +
+      `forty lets some name reach ${fixed(DIAGNOSIS.chance_nats, 1)}`;
+}
+
 /// What the mechanisms named in candidates are, each by the formula of its first form.
 function namesExplained(ids) {
   const names = [...new Set(ids.flatMap(id => id.split('+')))].filter(n => DIAGNOSIS.formulas[n]);
@@ -118,7 +125,7 @@ function claimList(host) {
             `Shows in ${
                 claim.channels.map(c => channelOf(c).title).join(', ') ||
                 UNKNOWN}; evidence over the best score without it: ${
-                fixed(claim.evidence_nats, 1)} nats. ${NATS}${
+                fixed(claim.evidence_nats, 1)} nats${overUnexplained(claim)}. ${NATS}${
                 claim.equivalent.length ? ' These data cannot tell the names above apart.' :
                                           ''}`)));
   }
