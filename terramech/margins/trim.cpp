@@ -122,6 +122,8 @@ std::optional<SteadyManoeuvre::Residual> SteadyManoeuvre::residual(const Point& 
     carried = carried && load > 0 && std::isfinite(motion.vx_mps);
     if (!carried) return;
     motion.rim_speed_mps = rim_speed_mps(i, at, steered[i], load, motion);
+    carried = std::isfinite(motion.rim_speed_mps);  // a step of Newton's method may end anywhere
+    if (!carried) return;
     const WheelForces forces = laws_[i].forces(load, motion);
     carried = has_forces(forces.status);
     of_side.add(mount, steered[i], forces);

@@ -18,6 +18,7 @@ using named_soils::firm_regolith;
 using named_soils::home_gravity_mps2;
 using named_soils::kEarth_mps2;
 using named_soils::kMoon_mps2;
+using named_soils::loose_regolith;
 using named_soils::soft_patch;
 
 inline TrimLimits limits_of(const Vehicle& vehicle) {

@@ -269,6 +269,28 @@ TEST(StateMargins, OfATurnOnTheSpotEndWhereScrubIsBeyondTheWheels) {
   EXPECT_LT(traction(vehicle), 0);  // no trim: dragged at 51 deg, it spins
 }
 
+TEST(StateMargins, OfASkidSteeredVehicleAreAnswersAlsoWhereItCanHardlyClimb) {
+  Vehicle vehicle = preset_vehicle("curiosity");
+  vehicle.steering = Steering::kSkid;
+  for (WheelMount& wheel : vehicle.wheels) wheel.steered = false;
+  vehicle.steer_angle_max_rad = 0;
+  vehicle.slip_angle_max_rad = 45 * kDegree;
+  const VehicleOnSoil on(vehicle, loose_regolith(), home_gravity_mps2("curiosity"));
+  const VehicleDynamics dynamics(on.vehicle, on.soil_laws, Plane{}, on.gravity_mps2);
+  const SolvedSupply supply(on.vehicle, on.sharing, on.soil_laws, limits_of(on.vehicle));
+  for (const double curvature_1pm : {0.0, 0.05}) {
+    const VehicleState state = dynamics.rolling_state(0, 0, 0, 0.04, curvature_1pm);
+    for (int left_deg = 10; left_deg <= 24; left_deg += 2) {
+      for (const double forward_deg : {15, 20}) {
+        const GroundPatch patch =
+            patch_with(std::tan(forward_deg * kDegree), std::tan(left_deg * kDegree));
+        EXPECT_NO_THROW(supply.answer(question_of(dynamics, state, patch)))
+            << forward_deg << " deg uphill, " << left_deg << " deg across, " << curvature_1pm;
+      }
+    }
+  }
+}
+
 TEST(StateMargins, DipsPressAndCrestsLift) {
   const Driving lrv("lrv");
   const VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, 3, 0.05);
