@@ -225,8 +225,8 @@ def diagnose(recording: _Table | _File, setup: _Settings | _File, *,
              threads: int | None = ..., out: _File | None = ..., force: bool = ...,
              progress: _Progress | None = ...) -> Diagnosis: ...
 def drive(scenario: _Settings | _File, path: _Table | Candidate | _File, *,
-          follower: str | Callable[[SimpleNamespace], Sequence[float]] | None = ..., truth: _Settings | _File | None = ...,
-          sensors: str | _Settings | _File | None = ...,
+          follower: str | Callable[[SimpleNamespace], Sequence[float] | Mapping[str, float]] | None = ...,
+          truth: _Settings | _File | None = ..., sensors: str | _Settings | _File | None = ...,
           model: _Settings | _File | Wheel | None = ..., deviation_max_m: float | None = ...,
           seed: int | None = ..., out: _File | None = ..., force: bool = ...,
           progress: _Progress | None = ...) -> Drive: ...

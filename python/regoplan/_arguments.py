@@ -20,6 +20,8 @@ def numbers(name, value):
         array = np.asarray(value)
     except (ValueError, TypeError) as bad:
         raise InputError(f"{name}: {bad}") from None
+    if array.dtype.kind == "O" and getattr(getattr(value, "dtype", None), "kind", "O") in "iuf":
+        array = value.to_numpy(dtype=np.float64, na_value=np.nan)  # pandas' nullable numbers
     if array.dtype.kind not in "iuf":
         raise InputError(
             f"{name}: dtype {array.dtype} is not valid (allowed: real numbers: float or integer)"

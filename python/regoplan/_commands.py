@@ -107,7 +107,8 @@ def drive(scenario, path, *, follower=None, truth=None, sensors=None, model=None
         As one of ``evaluate``.
     follower : ``compensated`` (default), ``pursuit`` or callable, optional
         A function of your own is asked before every step: ``follower(view)`` gives
-        ``(speed_mps, curvature_1pm)``, with ``crab_rad`` behind them where the vehicle crabs.
+        ``(speed_mps, curvature_1pm)``, with ``crab_rad`` behind them where the vehicle crabs, or
+        a dict of these.
         ``view`` has ``time_s, x_m, y_m, yaw_rad, forward_mps, offset_m, path_speed_mps, ...``
         (docs/drive.md). What it raises ends the drive.
     truth : dict or file name, optional

@@ -3,6 +3,7 @@
 import json
 import os
 import threading
+from collections.abc import Iterable, Mapping
 from types import SimpleNamespace
 
 from . import _arguments
@@ -52,15 +53,18 @@ class OwnFollower:
                     return
 
 
+_NAMES = ("speed_mps", "curvature_1pm", "crab_rad")
+
+
 def _command(answer):
-    """``(speed_mps, curvature_1pm)``, with ``crab_rad`` or without, as the program reads it."""
-    names = ("speed_mps", "curvature_1pm", "crab_rad")
-    try:
-        values = tuple(answer)
-    except TypeError:
-        values = ()
-    if len(values) not in (2, 3):
+    """``(speed_mps, curvature_1pm)``, with ``crab_rad`` or without, or a dict of these, as the
+    program reads it."""
+    if isinstance(answer, Mapping):
+        given = dict(answer)
+    else:
+        values = tuple(answer) if isinstance(answer, Iterable) else ()
+        given = dict(zip(_NAMES, values)) if len(values) <= len(_NAMES) else {}
+    if not set(_NAMES[:2]) <= set(given) <= set(_NAMES):
         raise InputError("follower: its answer is not valid (allowed: (speed_mps, curvature_1pm) "
-                         "or (speed_mps, curvature_1pm, crab_rad))")
-    return {name: _arguments.finite(f"follower: {name}", value)
-            for name, value in zip(names, values)}
+                         "or (speed_mps, curvature_1pm, crab_rad), or a dict of these)")
+    return {name: _arguments.finite(f"follower: {name}", value) for name, value in given.items()}

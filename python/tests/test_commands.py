@@ -116,10 +116,17 @@ def test_a_drive_asks_a_follower_of_ones_own(scenario, planned):
     assert driven.cross_track_max_m < 1
     assert asked[0] == 0 and asked == sorted(asked) and len(asked) > 50
 
+    # As docs/drive.md has the answer: by names.
+    named = regoplan.drive(scenario, planned.candidates[0], follower=lambda view: dict(
+        zip(("speed_mps", "curvature_1pm"), own(view))))
+    assert named.cross_track_rms_m == driven.cross_track_rms_m
+
     with pytest.raises(ZeroDivisionError):
         regoplan.drive(scenario, planned.candidates[0], follower=lambda view: (1 / 0, 0))
     with pytest.raises(regoplan.InputError, match="its answer is not valid"):
         regoplan.drive(scenario, planned.candidates[0], follower=lambda view: None)
+    with pytest.raises(regoplan.InputError, match="its answer is not valid"):
+        regoplan.drive(scenario, planned.candidates[0], follower=lambda view: {"speed_mps": 1})
     with pytest.raises(regoplan.InputError, match="curvature_1pm: 99"):
         regoplan.drive(scenario, planned.candidates[0], follower=lambda view: (0.1, 99))
 

@@ -268,3 +268,8 @@ def test_frames_have_the_columns_of_the_program(wheel):
     assert np.all(channels.rut_left_m >= 0) and wheel.forces(100, 0.1, 0.1).rut_left_m is None
     series = wheel.forces(pandas.Series([100.0, 200.0]), 0.1, 0.1)
     assert np.array_equal(series.fx_n, frame.fx_n)
+    for dtype in ("Float64", "Int64"):  # pandas' own, which know of missing numbers
+        loads = pandas.Series([100, 200], dtype=dtype)
+        assert np.array_equal(wheel.forces(loads, 0.1, 0.1).fx_n, frame.fx_n)
+    with pytest.raises(regoplan.InputError, match=r"load_n\[1\]: nan"):
+        wheel.forces(pandas.Series([100, None], dtype="Float64"), 0.1, 0.1)
