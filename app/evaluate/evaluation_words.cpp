@@ -58,7 +58,8 @@ std::string influence_text(const std::optional<SoilSpread>& spread, std::size_t 
     text += fmt::format("{}{} of {} {:.0f} %", text.empty() ? "" : ", ", influence.parameter,
                         influence.soil, 100 * influence.share);
   }
-  return text.empty() ? "soil numbers known" : text;
+  if (!text.empty()) return text;
+  return spread->draws == 0 ? "soil numbers known" : "no uncertain number";
 }
 
 }  // namespace regoplan

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 #include <set>
@@ -25,6 +26,30 @@ std::vector<VehicleState> states_at(const std::vector<VehicleState>& states,
   std::vector<VehicleState> chosen;
   for (const std::size_t i : places) chosen.push_back(states[i]);
   return chosen;
+}
+
+/// On each uncertain soil by itself, as one that is weaker than its mean may bind where none does
+/// at the means, and on all others together.
+std::vector<std::size_t> decisive_on_each_soil(const TerrainMap& map,
+                                               const std::vector<VehicleState>& states,
+                                               const std::vector<PathMargins>& at_mean) {
+  constexpr int kKnown = -1;
+  std::map<int, std::vector<std::size_t>> by_soil;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const int soil = map.soil_index(states[i].x_m, states[i].y_m).value_or(kKnown);
+    const bool varies = soil != kKnown && is_uncertain(map.soils()[static_cast<std::size_t>(soil)]);
+    by_soil[varies ? soil : kKnown].push_back(i);
+  }
+  std::vector<std::size_t> decisive;
+  for (const auto& [soil, indices] : by_soil) {
+    std::vector<PathMargins> margins;
+    for (const std::size_t i : indices) margins.push_back(at_mean[i]);
+    for (const std::size_t k : decisive_places(states_at(states, indices), margins)) {
+      decisive.push_back(indices[k]);
+    }
+  }
+  std::ranges::sort(decisive);
+  return decisive;
 }
 
 /// Fills in quantiles, probability and influences from the margins of every draw.
@@ -157,7 +182,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
                        const std::vector<PathMargins>& at_mean, const SpreadSettings& settings) {
   const int draws = settings.draws, threads = settings.threads;
   assert(states.size() == at_mean.size() && !states.empty() && draws > 1);
-  const std::vector<std::size_t> places = decisive_places(states, at_mean);
+  const std::vector<std::size_t> places = decisive_on_each_soil(problem.map, states, at_mean);
   const std::vector<VehicleState> decisive = states_at(states, places);
   const SoilNumbers numbers = uncertain_numbers(problem, decisive);
   SoilSpread spread{.places = static_cast<int>(places.size())};

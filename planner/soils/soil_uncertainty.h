@@ -78,11 +78,12 @@ struct SpreadSettings {
   std::stop_token stop = {};  ///< what it interrupts is worth nothing
 };
 
-/// The spread over `draws` draws of the soils. The margins are judged at the places where each is
-/// smallest at the mean soils. A quadratic surrogate in the soil numbers is made from the first
-/// draws, checked on the next, and used where its error is small; otherwise the wheel model judges
-/// every draw, of which there are then at most `kDirectDrawsMax`.
-/// \param states along the path \param at_mean their margins at the mean soils, of the same size
+/// The spread over `draws` draws of the soils. The margins are judged, on every uncertain soil that
+/// the states stand on, at the places where each is smallest at the mean soils. A quadratic
+/// surrogate in the soil numbers is made from the first draws, checked on the next, and used where
+/// its error is small; otherwise the wheel model judges every draw, of which there are then at most
+/// `kDirectDrawsMax`. \param states along the path \param at_mean their margins at the mean soils,
+/// of the same size
 SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,
                        const std::vector<PathMargins>& at_mean, const SpreadSettings& settings);
 

@@ -113,6 +113,41 @@ TEST(SoilUncertainty, TheSurrogateIsOnTheSafeSideOfTheWheelModel) {
   EXPECT_NEAR(spread.margin.p50, exact.p50, 0.02);
 }
 
+TEST(SoilUncertainty, AnUncertainSoilCountsThoughAKnownOneBindsAtTheMeans) {
+  // West of x = 30 regolith that may be far weaker than its mean, east of it a known, weaker one.
+  UncertainSoil west = firm_regolith(), east = firm_regolith();
+  west.standard_deviation.friction_angle_rad = 6 * kTestDegree;
+  east.mean.friction_angle_rad -= 3 * kTestDegree;
+  const TerrainMap ground = one_soil_map(60, west, flat);
+  ClassRaster classes{.frame = ground.elevation().frame, .code = {}};
+  for (int i = 0; i < 120 * 120; ++i) classes.code.push_back(i % 120 < 60 ? 1 : 2);
+  const PlanningProblem problem =
+      lrv_problem({ground.elevation(),
+                   classes,
+                   SoilCatalogue{.soils = {{"west", "test", west}, {"east", "test", east}},
+                                 .classes = {{1, 0}, {2, 1}},
+                                 .unmapped = {}},
+                   {}});
+  const World world(problem, WorldUse::kVerdict, 1);
+  std::vector<VehicleState> states;
+  for (int i = 0; i < 16; ++i) {
+    states.push_back(world.dynamics().rolling_state(12 + 2.5 * i, 25, 0, 2.5, 1.0 / 12));
+  }
+  const std::vector<PathMargins> at_mean = margins_on(problem, states, {west.mean, east.mean});
+  constexpr int kDraws = 40;
+  const SoilSpread spread = soil_spread(problem, states, at_mean, {.draws = kDraws, .threads = 2});
+  std::vector<double> everywhere;
+  for (int i = 0; i < kDraws; ++i) {
+    everywhere.push_back(
+        smallest_of(margins_on(problem, states, soil_draw(problem, 1, i))).smallest());
+  }
+  const Quantiles exact = quantiles_of(everywhere);
+  ASSERT_LT(exact.p05, smallest_of(at_mean).smallest() - 0.02);
+  EXPECT_EQ(spread.draws, kDraws);
+  EXPECT_NEAR(spread.margin.p05, exact.p05, 1e-3);
+  EXPECT_EQ(spread.margin.p95, exact.p95);  // of the known soil
+}
+
 TEST(SoilUncertainty, QuantilesRiseAndTheProbabilityLiesInItsInterval) {
   const Judged j = judged(uncertain_regolith());
   const SoilSpread spread =
