@@ -67,26 +67,29 @@ std::vector<DriveFinding> off_in_the_middle(const std::vector<DriveRecording>& d
   return findings;
 }
 
-/// Whether a zone leaves next to nothing of its drive outside, while other drives lie outside.
-bool is_all_of_a_drive(const SoilZoneFound& zone, const std::vector<DriveWindow>& windows) {
+/// Whether the zones of a drive leave next to nothing of it outside, while other drives lie
+/// outside: one for each soil of the map that it crosses.
+bool are_all_of_a_drive(const std::vector<SoilZoneFound>& zones, std::size_t drive,
+                        const std::vector<DriveWindow>& windows) {
   constexpr double kNearlyAll = 0.9;
   std::size_t of_drive = 0, within = 0;
   for (std::size_t i = 0; i < windows.size(); ++i) {
-    if (windows[i].drive != zone.drive) continue;
+    if (windows[i].drive != drive) continue;
     ++of_drive;
-    if (i >= zone.first && i <= zone.last) ++within;
+    within += std::ranges::any_of(zones, [i, drive](const SoilZoneFound& zone) {
+      return zone.drive == drive && i >= zone.first && i <= zone.last;
+    });
   }
-  return of_drive < windows.size() &&
+  return of_drive > 0 && of_drive < windows.size() &&
          static_cast<double>(within) >= kNearlyAll * static_cast<double>(of_drive);
 }
 
-DriveFinding zone_all_along(const std::vector<DriveRecording>& drives, const SoilZoneFound& zone) {
+DriveFinding zones_all_along(const DriveRecording& drive) {
   return {.id = "drives_differ",
-          .drive = drives[zone.drive].drive_id,
+          .drive = drive.drive_id,
           .text =
               "another soil would have to lie along all of this drive and of no other: the "
-              "vehicle may have been otherwise in it, by a payload or a fault",
-          .value = zone.ends_s - zone.starts_s};
+              "vehicle may have been otherwise in it, by a payload or a fault"};
 }
 
 }  // namespace
@@ -95,10 +98,12 @@ std::vector<DriveFinding> differing_drives(const std::vector<DriveRecording>& dr
                                            const std::vector<DriveWindow>& windows,
                                            const VehicleEffects& effects) {
   std::vector<DriveFinding> findings = off_in_the_middle(drives, windows, effects.compared);
+  std::vector<SoilZoneFound> zones;
   for (const VehicleFinding& finding : effects.found) {
-    if (finding.zone && is_all_of_a_drive(*finding.zone, windows)) {
-      findings.push_back(zone_all_along(drives, *finding.zone));
-    }
+    if (finding.zone) zones.push_back(*finding.zone);
+  }
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    if (are_all_of_a_drive(zones, i, windows)) findings.push_back(zones_all_along(drives[i]));
   }
   return findings;
 }

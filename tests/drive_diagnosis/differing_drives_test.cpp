@@ -44,20 +44,33 @@ TEST(DifferingDrives, AWheelThatDragsInAllIsNamed) {
   EXPECT_EQ(diagnosis.claims[0].id, "wheel_drag");
 }
 
-/// Two drives of twenty windows, and a zone over some of them.
-std::vector<DriveFinding> differing_by_zone(std::size_t first, std::size_t last) {
-  const std::vector<DriveRecording> drives{{.drive_id = "a"}, {.drive_id = "b"}};
+struct Windows {
+  std::size_t first = 0, last = 0;
+};
+
+/// Two drives of twenty windows and one of none, and zones over some of the second's.
+std::vector<DriveFinding> differing_by_zones(const std::vector<Windows>& zones) {
+  const std::vector<DriveRecording> drives{{.drive_id = "a"}, {.drive_id = "b"}, {.drive_id = "c"}};
   std::vector<DriveWindow> windows(40);
   for (std::size_t i = 20; i < windows.size(); ++i) windows[i].drive = 1;
   VehicleEffects effects;
-  effects.found.push_back(
-      {.id = "soil_zone", .zone = SoilZoneFound{.drive = 1, .first = first, .last = last}});
+  for (const auto& [first, last] : zones) {
+    effects.found.push_back(
+        {.id = "soil_zone", .zone = SoilZoneFound{.drive = 1, .first = first, .last = last}});
+  }
   return differing_drives(drives, windows, effects);
 }
 
 TEST(DifferingDrives, AZoneAlongNearlyAllOfOneOfThemMayBeItsVehicle) {
-  EXPECT_EQ(differing_by_zone(21, 39).size(), 1u);
-  EXPECT_EQ(differing_by_zone(21, 35).size(), 0u);
+  EXPECT_EQ(differing_by_zones({{21, 39}}).size(), 1u);
+  EXPECT_EQ(differing_by_zones({{21, 35}}).size(), 0u);
+}
+
+TEST(DifferingDrives, ZonesOnEachSoilAlongNearlyAllOfOneOfThemMayBeItsVehicle) {
+  const auto differing = differing_by_zones({{20, 29}, {31, 39}});
+  ASSERT_EQ(differing.size(), 1u);
+  EXPECT_EQ(differing[0].drive, "b");
+  EXPECT_EQ(differing_by_zones({{20, 24}, {35, 39}}).size(), 0u);
 }
 
 /// Two drives of twenty windows whose residuals are told.
