@@ -1,6 +1,7 @@
 #include "drive_diagnosis/drive_diagnosis.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -269,6 +270,45 @@ void mend_sides(const DriveSetup& setup, const DriveDiagnosisOptions& options,
        .mended = true});
 }
 
+/// Of several drives, those that the vehicle's model is not held against, and those that lack a
+/// channel which others have: it is then compared of none.
+void tell_what_drives_lack(const std::vector<DriveRecording>& drives, const Vehicle& vehicle,
+                           DriveDiagnosis& result) {
+  std::vector<bool> is_compared(drives.size(), false);
+  for (const std::size_t window : result.effects->compared.front().windows) {
+    is_compared[result.windows[window].drive] = true;
+  }
+  std::vector<std::string> channels{"pitch_rad", "roll_rad"};
+  for (const WheelMount& wheel : vehicle.wheels) {
+    channels.push_back(fmt::format("torque_{}_nm", wheel.name));
+  }
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    if (!is_compared[i]) {
+      result.findings.push_back(
+          {.id = "not_compared",
+           .drive = drives[i].drive_id,
+           .text = "no window of it could be held against the vehicle's model, which takes rim "
+                   "speeds and steering on the map's ground: what is said is of the other drives"});
+      continue;
+    }
+    std::vector<std::string> lacks;
+    for (const std::string& channel : channels) {
+      bool others_have = false;
+      for (std::size_t k = 0; k < drives.size(); ++k) {
+        others_have = others_have || (is_compared[k] && drives[k].channel(channel));
+      }
+      if (others_have && !drives[i].channel(channel)) lacks.push_back(channel);
+    }
+    if (lacks.empty()) continue;
+    result.findings.push_back(
+        {.id = "channel_missing",
+         .drive = drives[i].drive_id,
+         .text = fmt::format("as this drive lacks {}, none is compared of any drive: the others "
+                             "may show more without it",
+                             fmt::join(lacks, ", "))});
+  }
+}
+
 /// What the windows of all drives say together.
 void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
              const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
@@ -301,6 +341,7 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     result.effects = std::move(comparison.effects);
   }
   if (result.effects) {
+    tell_what_drives_lack(drives, *setup.vehicle, result);
     std::vector<DriveFinding> differing = differing_drives(drives, result.windows, *result.effects);
     // A fault of some drives looks like a smaller one of all of them, or like a zone.
     if (differing.empty()) {

@@ -93,11 +93,22 @@ std::optional<LeftOut> WindowComparison::add(std::size_t window,
   return {};
 }
 
+bool WindowComparison::has_input(std::size_t drive) const {
+  return std::ranges::any_of(windows_, [&](const DriveWindow& window) {
+    return window.drive == drive && input_of(drives_[drive], window, vehicle_, gravity_mps2_);
+  });
+}
+
 void WindowComparison::choose_channels() {
   channels_ = {"speed_mps", "left_mps", "yaw_rate_rad_s"};
-  const auto everywhere = [this](const std::string& name) {
+  // What a drive lacks whose windows are not compared, as one without rim speeds, is no loss.
+  std::vector<const DriveRecording*> with_input;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (has_input(i)) with_input.push_back(&drives_[i]);
+  }
+  const auto everywhere = [&](const std::string& name) {
     return std::ranges::all_of(
-        drives_, [&](const DriveRecording& drive) { return drive.channel(name) != nullptr; });
+        with_input, [&](const DriveRecording* drive) { return drive->channel(name) != nullptr; });
   };
   has_attitude_ = everywhere("pitch_rad") && everywhere("roll_rad");
   if (has_attitude_) {

@@ -155,6 +155,7 @@ class WindowComparison {
   void shift(WindowInput& input, std::size_t window, std::size_t which, double deviations) const;
   Eigen::VectorXd vector_of(const WindowPrediction& prediction) const;
   std::optional<Eigen::VectorXd> measured_in(std::size_t window) const;
+  bool has_input(std::size_t drive) const;
   void choose_channels();
   std::vector<double> sample_stds(const std::string& channel) const;
   std::vector<double> mean_stds(const std::string& channel,

@@ -73,6 +73,34 @@ TEST(DifferingDrives, ZonesOnEachSoilAlongNearlyAllOfOneOfThemMayBeItsVehicle) {
   EXPECT_EQ(differing_by_zones({{20, 24}, {35, 39}}).size(), 0u);
 }
 
+/// The recording without the channels whose names begin so.
+DriveRecording without(DriveRecording recording, const std::vector<std::string>& beginnings) {
+  std::erase_if(recording.channels, [&](const DriveChannel& channel) {
+    return std::ranges::any_of(
+        beginnings, [&](const std::string& name) { return channel.name.starts_with(name); });
+  });
+  return recording;
+}
+
+TEST(DifferingDrives, ADriveThatCannotBeComparedHidesNothingOfAnother) {
+  const DriveDiagnosis diagnosis = diagnosed_together(
+      {of_drive("dragging", 2, 7), without(of_drive("poses", 1, 0), {"wheel_speed", "torque"})});
+  ASSERT_FALSE(diagnosis.claims.empty());
+  EXPECT_EQ(diagnosis.claims[0].id, "wheel_drag");
+  const auto told = std::ranges::find(diagnosis.findings, "not_compared", &DriveFinding::id);
+  ASSERT_NE(told, diagnosis.findings.end());
+  EXPECT_EQ(told->drive, "poses");
+}
+
+TEST(DifferingDrives, AChannelThatOneOfThemLacksIsToldToBeComparedOfNone) {
+  const DriveDiagnosis diagnosis = diagnosed_together(
+      {of_drive("dragging", 2, 7), without(of_drive("silent", 1, 0), {"torque"})});
+  const auto told = std::ranges::find(diagnosis.findings, "channel_missing", &DriveFinding::id);
+  ASSERT_NE(told, diagnosis.findings.end());
+  EXPECT_EQ(told->drive, "silent");
+  EXPECT_NE(told->text.find("torque_"), std::string::npos) << told->text;
+}
+
 /// Two drives of twenty windows whose residuals are told.
 std::vector<DriveFinding> differing(const std::function<double(std::size_t)>& residual) {
   const std::vector<DriveRecording> drives{{.drive_id = "a"}, {.drive_id = "b"}};
