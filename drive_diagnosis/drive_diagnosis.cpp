@@ -4,7 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "drive_diagnosis/comparison/swapped_sides.h"
 #include "drive_diagnosis/comparison/torque_sign.h"
@@ -199,6 +203,29 @@ std::vector<bool> leave_doubtful_tracks_out(const DriveSetup& setup,
   return left_out;
 }
 
+/// Columns of wheels that the vehicle does not have, as of names that are spelt otherwise, would be
+/// left unused without a word.
+void tell_unknown_wheels(const Vehicle& vehicle, DriveRecording& drive) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOfWheels{
+      {{"wheel_speed_", "_rad_s"}, {"steer_", "_rad"}, {"torque_", "_nm"}, {"sinkage_", "_m"}}};
+  std::set<std::string> known, unknown;
+  for (const WheelMount& wheel : vehicle.wheels) known.insert(wheel.name);
+  for (const auto& [quantity, unit] : kOfWheels) {
+    for (const DriveChannel* channel : channels_of(drive, quantity)) {
+      const std::string wheel = channel->name.substr(
+          quantity.size(), channel->name.size() - quantity.size() - unit.size());
+      const bool is_side = quantity == "wheel_speed_" && (wheel == "left" || wheel == "right");
+      if (!is_side && !known.contains(wheel)) unknown.insert(wheel);
+    }
+  }
+  if (unknown.empty()) return;
+  drive.findings.push_back(
+      {.id = "unknown_wheel",
+       .drive = drive.drive_id,
+       .text = fmt::format("columns of {} are not used: the vehicle's wheels are {}",
+                           fmt::join(unknown, ", "), fmt::join(known, ", "))});
+}
+
 void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
                   const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
   const double speed_max_mps = setup.vehicle ? setup.vehicle->speed_max_mps : 10;
@@ -209,6 +236,7 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
                        static_cast<double>(i) / static_cast<double>(drives.size()));
     }
     throw_if_stopped(options.stop);
+    if (setup.vehicle) tell_unknown_wheels(*setup.vehicle, drives[i]);
     // Windows hold the means of the channels that a drive has when they are read.
     if (setup.uncertain.motor_constant) {
       tell_torques(setup.uncertain.motor_constant->value, drives[i]);

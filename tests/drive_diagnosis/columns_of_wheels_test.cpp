@@ -1,6 +1,7 @@
 // What columns of wheels are called and in what unit changes nothing that is found.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -25,6 +26,21 @@ DriveDiagnosis diagnosed(DriveRecording drive, const UncertainVehicle& uncertain
 }
 
 const UncertainVehicle kFourNewtonMetresAnAmpere{.motor_constant = DriveEstimate{4, 0.04}};
+
+TEST(ColumnsOfWheels, OfAWheelThatTheVehicleDoesNotHaveAreTold) {
+  DriveRecording drive = sound_drive();
+  for (DriveChannel& channel : drive.channels) {
+    if (channel.name == "torque_front_left_nm") channel.name = "torque_fl_nm";
+  }
+  const DriveDiagnosis diagnosis = diagnosed(std::move(drive));
+  const auto told = std::ranges::find(diagnosis.findings, "unknown_wheel", &DriveFinding::id);
+  ASSERT_NE(told, diagnosis.findings.end());
+  EXPECT_EQ(told->text,
+            "columns of fl are not used: the vehicle's wheels are front_left, front_right, "
+            "rear_left, rear_right");
+  const std::vector<DriveFinding> of_sound = diagnosed(sound_drive()).findings;
+  EXPECT_EQ(std::ranges::count(of_sound, "unknown_wheel", &DriveFinding::id), 0);
+}
 
 TEST(ColumnsOfWheels, CurrentsSayWhatTorquesSay) {
   DriveRecording drive = sound_drive();
