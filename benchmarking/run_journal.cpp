@@ -219,6 +219,30 @@ JournalContents merged(const std::vector<JournalContents>& parts) {
   return all;
 }
 
+std::vector<RunKey> missing_runs(const JournalContents& contents) {
+  std::set<RunKey> held;
+  std::set<std::string> experiments, planners;
+  std::set<std::uint64_t> seeds;
+  for (const JournalOrigin& origin : contents.origins) {
+    for (const SuitePlanner& planner : origin.planners) planners.insert(planner.label);
+  }
+  for (const RunRecord& run : contents.runs) {
+    held.insert(run.key);
+    experiments.insert(run.key.experiment);
+    seeds.insert(run.key.seed);
+  }
+  std::vector<RunKey> missing;
+  for (const std::string& experiment : experiments) {
+    for (const std::string& planner : planners) {
+      for (const std::uint64_t seed : seeds) {
+        const RunKey key{.experiment = experiment, .planner = planner, .seed = seed};
+        if (!held.contains(key)) missing.push_back(key);
+      }
+    }
+  }
+  return missing;
+}
+
 std::string journal_text(const JournalContents& contents) {
   std::string text;
   const auto add_line = [&](const nlohmann::json& line) {

@@ -64,6 +64,10 @@ JournalContents read_journal(const std::filesystem::path& folder);
 /// \throws InputError where they were written under different bounds, planners or scenarios
 JournalContents merged(const std::vector<JournalContents>& parts);
 
+/// The runs that `contents` lacks: of every experiment that it has a run of, those of a planner
+/// with a seed that other runs have. None where a whole suite has ended.
+std::vector<RunKey> missing_runs(const JournalContents& contents);
+
 /// The file of a journal that holds `contents`.
 std::string journal_text(const JournalContents& contents);
 

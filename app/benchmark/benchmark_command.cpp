@@ -158,7 +158,17 @@ ExitStatus run_merge(const BenchmarkOptions& options) {
                      ")");
   }
   for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
-  const SuiteResults results{.journal = merged(parts)};
+  JournalContents whole = merged(parts);
+  const std::vector<RunKey> missing = missing_runs(whole);
+  if (!missing.empty()) {
+    const RunKey& first = missing.front();
+    notify(fmt::format("{} of {} runs are missing (the first: {}, {}, seed {}): a shard has not "
+                       "come to its end; its command goes on from where it was",
+                       missing.size(), missing.size() + whole.runs.size(), first.experiment,
+                       first.planner, first.seed),
+           options.quiet);
+  }
+  const SuiteResults results{.journal = std::move(whole), .interrupted = !missing.empty()};
   write_benchmark_files(results, {}, options.out);
   // Last, since a folder that holds one is merged.
   StagedFiles journal(options.out);

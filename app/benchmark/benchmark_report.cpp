@@ -122,8 +122,8 @@ std::vector<std::string> lead_sentences(const JournalContents& contents, const T
   std::vector<std::string> sentences;
   if (interrupted) {
     sentences.emplace_back(
-        "The suite was interrupted: these are the runs that had ended by then. The same command "
-        "goes on from here.");
+        "The suite was interrupted: these are the runs that had ended by then. The same command, "
+        "or that of the shard, goes on from there.");
   }
   const RunBounds& bounds = contents.origins.front().bounds;
   sentences.push_back(fmt::format(

@@ -140,8 +140,28 @@ TEST(BenchmarkProgram, ShardsMergeIntoWhatOneMachineFinds) {
   const ProgramRun merge = run_program(
       folder, fmt::format("benchmark merge {} --out '{}'", parts, folder.path("merged")));
   ASSERT_EQ(merge.status, 0) << merge.errors;
+  EXPECT_EQ(merge.errors, "");
+  EXPECT_EQ(nlohmann::json::parse(folder.read("merged/benchmark.json")).at("interrupted"), false);
   EXPECT_EQ(count_runs(folder.path("merged/benchmark.db")), 18);
   EXPECT_EQ(outcomes(folder, "merged"), outcomes(folder, "whole"));
+}
+
+TEST(BenchmarkProgram, AMergeSaysThatAShardHasNotCome) {
+  const ScratchFolder folder;
+  write_suite(folder, 2);
+  for (const int shard : {1, 3}) {
+    ASSERT_EQ(run_program(folder, benchmark_arguments(folder, fmt::format("part{}", shard),
+                                                      fmt::format("--shard {}/3 --quiet", shard)))
+                  .status,
+              0);
+  }
+  const ProgramRun merge =
+      run_program(folder, fmt::format("benchmark merge '{}' '{}' --out '{}'", folder.path("part1"),
+                                      folder.path("part3"), folder.path("merged")));
+  ASSERT_EQ(merge.status, 0) << merge.errors;
+  EXPECT_NE(merge.errors.find("4 of 12 runs are missing (the first: "), std::string::npos)
+      << merge.errors;
+  EXPECT_EQ(nlohmann::json::parse(folder.read("merged/benchmark.json")).at("interrupted"), true);
 }
 
 TEST(BenchmarkProgram, ASweepIsAnExperimentForEachValue) {

@@ -45,6 +45,19 @@ TEST_F(Journal, HoldsAfterReopeningWhatItHeldBefore) {
   EXPECT_FALSE(journal.holds({.experiment = "a", .planner = "RRT", .seed = 2}));
 }
 
+TEST_F(Journal, MissesTheRunsThatOthersOfTheirExperimentHave) {
+  JournalContents contents{.origins = {made_up_origin()}, .runs = {}};  // of RRT and SST
+  for (const char* planner : {"RRT", "SST"}) {
+    for (const std::uint64_t seed : {1, 4}) {
+      contents.runs.push_back(verified_run("a", planner, seed, 0.5, 30));
+    }
+  }
+  EXPECT_TRUE(missing_runs(contents).empty());
+  contents.runs.pop_back();
+  const RunKey last{.experiment = "a", .planner = "SST", .seed = 4};
+  EXPECT_EQ(missing_runs(contents), std::vector{last});
+}
+
 TEST_F(Journal, TakesALineThatAKillCutShortForNeverBegun) {
   {
     RunJournal journal(folder_, made_up_origin());
