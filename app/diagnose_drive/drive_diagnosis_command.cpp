@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "app/command/progress_line.h"
 #include "app/diagnose_drive/corrected_files.h"
@@ -74,9 +75,10 @@ DriveDiagnosisRun diagnosed(const DriveDiagnosisCommand& command) {
     run.drive_files.push_back(drive.file);
     run.drive_rows.push_back(drive.rows_read);
   }
-  if (!drives.front().ignored.empty()) {
-    notify(fmt::format("{}: {} not used", drives.front().file,
-                       fmt::join(drives.front().ignored, ", ")),
+  std::set<std::vector<std::string>> told;  // of files alike once
+  for (const DriveRecording& drive : drives) {
+    if (drive.ignored.empty() || !told.insert(drive.ignored).second) continue;
+    notify(fmt::format("{}: {} not used", drive.file, fmt::join(drive.ignored, ", ")),
            command.quiet);
   }
   const std::stop_token stop = stop_on_interrupt();

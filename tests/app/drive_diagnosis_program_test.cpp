@@ -168,6 +168,20 @@ TEST_F(DriveDiagnosisProgram, ADriveThatStandsIsToldToGoOn) {
       << said.output;
 }
 
+TEST_F(DriveDiagnosisProgram, ColumnsThatAreNotUsedAreToldOfEveryFileThatHasOthers) {
+  const auto written = [&](const std::string& name, const std::string& column) {
+    std::string rows = "time_s,x_m,y_m," + column;
+    for (int i = 0; i < 40; ++i) rows += fmt::format("\n{},{},{},0", i, 20 + i, name.size());
+    return "'" + folder_.write(name, rows + "\n") + "' ";
+  };
+  const ProgramRun said = run("diagnose " + written("a.csv", "odour") + written("bb.csv", "odour") +
+                              written("ccc.csv", "yaw_degrees") + "--scenario '" +
+                              folder_.path("s.yaml") + "' --out '" + folder_.path("said") + "'");
+  EXPECT_NE(said.errors.find("a.csv: odour not used\n"), std::string::npos) << said.errors;
+  EXPECT_EQ(said.errors.find("bb.csv: odour"), std::string::npos) << said.errors;
+  EXPECT_NE(said.errors.find("ccc.csv: yaw_degrees not used\n"), std::string::npos) << said.errors;
+}
+
 TEST_F(DriveDiagnosisProgram, ADriveTooShortToCompareIsUndecidedNotConsistent) {
   std::string path = "x_m,y_m,speed_mps\n20,30,0\n35,30,1.2\n";
   folder_.write("short.csv", path);
