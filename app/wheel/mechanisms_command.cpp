@@ -306,6 +306,7 @@ Command add_mechanisms_command(CLI::App& program) {
       ->type_name("FILE.yaml")
       ->excludes(id);
   add_output_flags(*parser, options->json, options->quiet);
+  parser->get_option("--model")->excludes(parser->get_option("--json"));
   return {parser, [options] { return run_mechanisms(*options); }};
 }
 

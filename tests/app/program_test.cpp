@@ -237,6 +237,15 @@ TEST_F(Program, FiguresOfTheWheelAreNoTable) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path("figures")));
 }
 
+TEST_F(Program, TheMechanismsOfAModelFileHaveNoJson) {
+  folder_.write("model.yaml", kSimulantModel);
+  EXPECT_EQ(run("mechanisms --model" + quoted("model.yaml")).status, 0);
+  const ProgramRun told = run("mechanisms --json --model" + quoted("model.yaml"));
+  EXPECT_EQ(told.status, 1);
+  EXPECT_EQ(told.output, "");
+  EXPECT_NE(told.errors.find("--model excludes --json"), std::string::npos) << told.errors;
+}
+
 TEST_F(Program, WheelNeverOverwritesItsInput) {
   folder_.write("m.yaml", kSimulantModel);
   folder_.write("c.csv", "load_n,slip_ratio,slip_angle_deg\n64.7,0.3,12\n");
