@@ -44,6 +44,8 @@ std::string summary(const EvaluationResult& result) {
                         driven_text(e, energy_text(e.tracking.energy_j)), e.name);
     if (e.refusal) text += fmt::format("{:>13} {}\n", "why:", sentence(*e.refusal));
     if (!e.spread) continue;
+    const std::string doubt = too_doubtful_text(path);
+    if (!doubt.empty()) text += fmt::format("{:>13} {}\n", "but:", doubt);
     if (!e.spread->influences.empty() && e.spread->influences.front().share > 0.01) {
       const SoilInfluence& most = e.spread->influences.front();
       text += fmt::format("{:>13} {} of {}: {:.0f} % of the margin's variance\n",

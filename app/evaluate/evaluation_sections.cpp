@@ -39,9 +39,10 @@ std::string table_row(const EvaluatedPath& path) {
 
 std::string course_html(const EvaluatedPath& path) {
   const PathEvaluation& e = path.evaluation;
-  const std::string verdict = e.feasible
-                                  ? "is feasible at the mean soils"
-                                  : "is not feasible at the mean soils: " + sentence(*e.refusal);
+  std::string verdict = e.feasible ? "is feasible at the mean soils"
+                                   : "is not feasible at the mean soils: " + sentence(*e.refusal);
+  const std::string doubt = too_doubtful_text(path);
+  if (!doubt.empty()) verdict += ", but " + doubt;
   const std::string margins =
       e.spread ? fmt::format(
                      "<p>Smallest margin at the mean soils {:.3f}: {}.</p>"

@@ -62,4 +62,14 @@ std::string influence_text(const std::optional<SoilSpread>& spread, std::size_t 
   return spread->draws == 0 ? "soil numbers known" : "no uncertain number";
 }
 
+std::string too_doubtful_text(const EvaluatedPath& path) {
+  const PathEvaluation& e = path.evaluation;
+  const double asked = path.limits.probability_min;
+  if (!e.feasible || !e.spread || e.spread->feasible.low >= asked) return "";
+  return fmt::format(
+      "plan would not count it: shown to hold in {:.1f} % of the draws "
+      "(limits.probability_min: at least {:.4g} %)",
+      100 * e.spread->feasible.low, 100 * asked);
+}
+
 }  // namespace regoplan

@@ -84,6 +84,27 @@ TEST_F(Evaluate, SaysWhatTheMeanSoilsDecideAndWhatTheDrawsTell) {
   EXPECT_EQ(page.find("too few draws to tell"), std::string::npos);
 }
 
+TEST_F(Evaluate, SaysWherePlanWouldNotCountAPathForItsProbability) {
+  const std::string path = file("good.csv", "x_m,y_m,speed_mps\n8,20,0\n20,20,1\n30,21,0\n");
+  std::string text = folder_.read("scenario.yaml");
+  const std::size_t at = text.find("friction_angle_deg: ") + 20;
+  const std::size_t end = text.find_first_of(",\n}", at);
+  text.replace(at, end - at, "{mean: " + text.substr(at, end - at) + ", std: 1}");
+  folder_.write("scenario.yaml", text + "\nlimits: {probability_min: 0.7}\n");
+  const auto drawn = [&](int draws) {
+    return run_program(folder_, "evaluate '" + folder_.path("scenario.yaml") + "' " + path +
+                                    " --out '" + folder_.path("out") + "' --draws " +
+                                    std::to_string(draws));
+  };
+  const ProgramRun few = drawn(4);  // which show at most .51
+  ASSERT_EQ(few.status, 0) << few.errors;
+  EXPECT_NE(few.output.find("but: plan would not count it: shown to hold in "), std::string::npos)
+      << few.output;
+  EXPECT_NE(folder_.read("out/report.html").find(", but plan would not count it"),
+            std::string::npos);
+  EXPECT_EQ(drawn(100).output.find("plan would not count it"), std::string::npos);
+}
+
 TEST_F(Evaluate, WhatWasNeverDrawnOrDrivenIsNoNumber) {
   const ProgramRun run = evaluate(file("away.csv", "x_m,y_m\n-30,20\n-10,20\n"));
   EXPECT_EQ(run.status, 2) << run.errors;
