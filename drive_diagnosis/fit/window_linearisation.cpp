@@ -1,5 +1,7 @@
 #include "drive_diagnosis/fit/window_linearisation.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace regoplan {
@@ -71,17 +73,24 @@ LinearisedWindows WindowLinearisation::linearised(PredictedWindows here, const C
 bool WindowLinearisation::is_carried(const PredictedWindows& here, const ContestFit& fit,
                                      const std::vector<WindowZone>& zones) const {
   const WindowQuestion about{deviation_of(fit), zones};
-  const auto changes = [&](std::size_t zone, std::size_t number) {
+  const auto changes = [&](const WindowSet& windows, std::size_t zone, std::size_t number) {
     if (!here.windows.zones[zone][number].isZero(0)) return true;
     const std::vector<Eigen::MatrixXd> there =
-        comparison_.predicted(anew_, {with_one_more(about, zone, numbers_[number])},
+        comparison_.predicted(windows, {with_one_more(about, zone, numbers_[number])},
                               here.windows.base, here.motions, stop_);
     return there.front() != here.windows.base;
   };
+  const auto any_changes = [&](const WindowSet& windows, std::size_t zone) {
+    for (std::size_t k = 0; k < numbers_.size(); ++k) {
+      if (changes(windows, zone, k)) return true;
+    }
+    return false;
+  };
+  // Windows that have no motion take many times as long, and are seldom needed.
+  WindowSet balanced;
+  std::ranges::set_difference(anew_, here.windows.unbalanced, std::back_inserter(balanced));
   for (std::size_t z = 0; z < zones.size(); ++z) {
-    bool any = false;
-    for (std::size_t k = 0; k < numbers_.size() && !any; ++k) any = changes(z, k);
-    if (!any) return false;
+    if (!any_changes(balanced, z) && !any_changes(here.windows.unbalanced, z)) return false;
   }
   return true;
 }
