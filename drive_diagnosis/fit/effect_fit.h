@@ -133,6 +133,7 @@ class EffectFit {
   void settle_zone(EffectFound& zone);
   WindowSet windows_far_from_linear(const LinearisedWindows& here) const;
   Settled likeliest_soil(const Settled& start, EffectFound& zone);
+  bool has_motions_in_last_zone();
   Settled settled_with_edges(EffectFound& zone);
   Settled settled_from_here(int steps_most = 10);
   double step();

@@ -48,6 +48,8 @@ EffectFit::Settled EffectFit::likeliest_soil(const Settled& start, EffectFound& 
     take_edges(placed);
     go_on_from(start);
     fit_.zones.back() = weakness * weaker;
+    // From a soil that hardly carries the vehicle no step leads to one that does.
+    if (weakness > 0 && !has_motions_in_last_zone()) continue;
     Settled settled = settled_with_edges(placed);
     // The map's soil is the answer where none of all says anything.
     if (!best.fit.zones.empty() && settled.nats >= best.nats) continue;
@@ -55,6 +57,20 @@ EffectFit::Settled EffectFit::likeliest_soil(const Settled& start, EffectFound& 
     zone = placed;
   }
   return best;
+}
+
+/// Whether the model has a motion in half of the windows of the zone that was added last, or more.
+bool EffectFit::has_motions_in_last_zone() {
+  const PredictedWindows here = linearisation_.predicted(fit_, zones(), shifts_);
+  const WindowSet& unbalanced = here.windows.unbalanced;
+  const auto& share = contest_.zones_known.back().share;
+  std::size_t windows = 0, without = 0;
+  for (std::size_t i = 0; i < comparison_.size(); ++i) {
+    if (share[i] < 0.5) continue;
+    ++windows;
+    without += std::ranges::binary_search(unbalanced, i);
+  }
+  return 2 * without <= windows;
 }
 
 /// Soil and edges of the zone that was added last, in turn: an edge that is off by half a window
