@@ -189,7 +189,8 @@ struct Diagnosis {
   std::vector<NameStep> names_added;  ///< of the claims, first to last
   std::vector<std::string> suspects;  ///< names that would do instead of a soil number
   double remainder_share = 0;         ///< of the excess misfit, which the claims leave
-  /// What one nameless world in forty lets a name reach of that; 0: not needed.
+  /// The over_unexplained_nats that one nameless world in forty lets some name reach; 0: not
+  /// needed.
   double chance_nats = 0;
   std::vector<std::string> references;  ///< what the recording was compared with
   bool interrupted = false;

@@ -51,9 +51,9 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
                        PartialClaim& claim);
 
 /// A claim for what stands beside a remainder of a recording's misfit, if anything does. A single
-/// name must do better than it may by chance (Thresholds::kByChance_p); a class of names that
-/// fit alike need not, as none of them is claimed alone; nor a class by shares (claim_by_shares),
-/// which is tried where nothing stands by its evidence.
+/// name must do better than names do by chance (Thresholds::kByChance_p); a class of names that fit
+/// alike must only be likelier than that, as none of them is claimed alone. A class by shares
+/// (claim_by_shares) is tried where nothing stands by its evidence.
 struct PartialDecision {
   std::optional<PartialClaim> claim;
   std::vector<ScoredCandidate> ranking;
