@@ -29,6 +29,9 @@ class CalibratedRecording {
   /// The calibrated model, without effects and discrepancy.
   const CandidateFit& base() const { return base_; }
 
+  /// What was measured less what it predicts, over all channels.
+  Eigen::VectorXd residual() const { return bed().measured() - base_.prediction; }
+
   FitProblem problem() const { return {bed(), soil_, discrepancy_, soil_free_}; }
   /// The soil's priors widened kWideSoil times, for the verdict `parameters`.
   FitProblem wide_problem() const { return {bed(), wide_soil_, discrepancy_, soil_free_}; }

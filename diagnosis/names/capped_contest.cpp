@@ -11,10 +11,9 @@
 namespace regoplan {
 CappedContest::Cap CappedContest::cap_for(const CalibratedRecording& calibrated) {
   const FitProblem problem = calibrated.problem();
-  const Eigen::VectorXd recorded = problem.bed.measured() - calibrated.base().prediction;
-  const Evidence free =
-      evidence_of(problem.bed, problem.discrepancy, linear_at(calibrated.base(), recorded),
-                  Eigen::MatrixXd(problem.bed.size(), 0), SettingWeights::of_unexplained());
+  const Evidence free = evidence_of(
+      problem.bed, problem.discrepancy, linear_at(calibrated.base(), calibrated.residual()),
+      Eigen::MatrixXd(problem.bed.size(), 0), SettingWeights::of_unexplained());
   std::vector<double> most;
   for (const std::size_t k : free.settings) {
     most.push_back(Thresholds::kCapShare * discrepancy_settings()[k].amplitude);
@@ -31,7 +30,7 @@ CappedContest::CappedContest(const CalibratedRecording& calibrated)
       fit_candidate(problem, {}, cap_.weights,
                     Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.soil.size())));
   alone_nats_ = alone->evidence.log_marginal;
-  nameless_nats_ = nameless_.log_evidence(problem.bed.measured() - calibrated.base().prediction);
+  nameless_nats_ = nameless_.log_evidence(calibrated.residual());
 }
 
 std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,

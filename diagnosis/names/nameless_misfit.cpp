@@ -80,8 +80,7 @@ NamelessMisfit::NamelessMisfit(const CalibratedRecording& calibrated,
       settings_(std::move(settings)),
       capped_(capped),
       sinkage_columns_(sinkage_columns(calibrated)) {
-  const std::vector<double> sinking =
-      sinking_nats(calibrated.bed().measured() - calibrated.base().prediction);
+  const std::vector<double> sinking = sinking_nats(calibrated.residual());
   sinkage_spread_ = kSinkageSpreads[static_cast<std::size_t>(std::ranges::max_element(sinking) -
                                                              sinking.begin())];
 }

@@ -102,8 +102,7 @@ double chance_of_share(const CalibratedRecording& calibrated, const CappedContes
   std::vector<double> shares(worlds.size());
   parallel_for(worlds.size(), threads,
                [&](std::size_t w) { shares[w] = best_share(calibrated, names, worlds[w]); });
-  const Eigen::VectorXd recorded = calibrated.bed().measured() - calibrated.base().prediction;
-  return chance_of(shares, best_share(calibrated, names, recorded));
+  return chance_of(shares, best_share(calibrated, names, calibrated.residual()));
 }
 
 double chance_of(const std::vector<double>& by_chance, double reached) {
