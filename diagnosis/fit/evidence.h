@@ -4,23 +4,9 @@
 #include <vector>
 
 #include "diagnosis/bed/discrepancy.h"
+#include "diagnosis/fit/setting_weights.h"
 
 namespace regoplan {
-
-/// Log prior weights over discrepancy_settings(), the same for every channel.
-struct SettingWeights {
-  std::vector<double> log_weight;
-  /// Largest amplitude that counts, per channel; empty: all count.
-  std::vector<double> most_amplitude = {};
-
-  bool excludes(std::size_t channel, std::size_t setting) const;
-
-  static SettingWeights of_named();        ///< small discrepancies likelier, large ones possible
-  static SettingWeights of_none();         ///< at most one run's noise
-  static SettingWeights of_unexplained();  ///< any, small or large
-  /// Every amplitude up to the cap of its channel alike.
-  static SettingWeights up_to(std::vector<double> most_amplitude);
-};
 
 /// A linear model of the data: measured - prediction(0) = jacobian x + discrepancy + noise.
 struct Linearised {
@@ -60,5 +46,28 @@ Eigen::MatrixXd smooth_functions(const TestBed& bed);
 /// \param soil_free the soil's directions (soil_directions), of which the discrepancy keeps clear
 Evidence evidence_of(const TestBed& bed, const Discrepancy& discrepancy, const Linearised& linear,
                      const Eigen::MatrixXd& soil_free, const SettingWeights& weights);
+
+/// Residuals of one bed, a column each, whitened under every setting that counts.
+class WhitenedResiduals {
+ public:
+  WhitenedResiduals(const TestBed& bed, const Discrepancy& discrepancy,
+                    const Eigen::MatrixXd& residuals, const SettingWeights& weights);
+
+  const Eigen::MatrixXd& at(std::size_t channel, std::size_t setting) const {
+    return at_[channel][setting];
+  }
+  std::size_t count() const { return count_; }
+
+ private:
+  std::vector<std::vector<Eigen::MatrixXd>> at_;
+  std::size_t count_;
+};
+
+/// The same of many residuals under one model, whose columns are worked out once for all of them.
+/// \param residuals whitened under all settings that have a weight
+std::vector<Evidence> evidence_of(const TestBed& bed, const Discrepancy& discrepancy,
+                                  const WhitenedResiduals& residuals,
+                                  const Eigen::MatrixXd& jacobian, const Eigen::MatrixXd& soil_free,
+                                  const SettingWeights& weights);
 
 }  // namespace regoplan

@@ -11,9 +11,12 @@
 namespace regoplan {
 CappedContest::Cap CappedContest::cap_for(const CalibratedRecording& calibrated) {
   const FitProblem problem = calibrated.problem();
-  const Evidence free = evidence_of(
-      problem.bed, problem.discrepancy, linear_at(calibrated.base(), calibrated.residual()),
-      Eigen::MatrixXd(problem.bed.size(), 0), SettingWeights::of_unexplained());
+  const CandidateFit& base = calibrated.base();
+  const Linearised alone{.residual = beforehand(base, calibrated.residual()),
+                         .jacobian = base.jacobian};
+  const Evidence free =
+      evidence_of(problem.bed, problem.discrepancy, alone, Eigen::MatrixXd(problem.bed.size(), 0),
+                  SettingWeights::of_unexplained());
   std::vector<double> most;
   for (const std::size_t k : free.settings) {
     most.push_back(Thresholds::kCapShare * discrepancy_settings()[k].amplitude);
@@ -30,7 +33,10 @@ CappedContest::CappedContest(const CalibratedRecording& calibrated)
       fit_candidate(problem, {}, cap_.weights,
                     Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.soil.size())));
   alone_nats_ = alone->evidence.log_marginal;
-  nameless_nats_ = nameless_.log_evidence(calibrated.residual());
+  const WhitenedResiduals recorded(problem.bed, problem.discrepancy,
+                                   beforehand(calibrated.base(), calibrated.residual()),
+                                   SettingWeights::of_unexplained());
+  nameless_nats_ = nameless_.log_evidence(recorded).front();
 }
 
 std::vector<CappedName> CappedContest::score(const std::vector<Effect>& effects,

@@ -70,8 +70,8 @@ Eigen::MatrixXd sinkage_columns(const CalibratedRecording& calibrated) {
 
 }  // namespace
 
-Linearised linear_at(const CandidateFit& base, const Eigen::VectorXd& residual) {
-  return {.residual = residual + base.jacobian * base.x, .jacobian = base.jacobian};
+Eigen::MatrixXd beforehand(const CandidateFit& base, const Eigen::MatrixXd& residuals) {
+  return residuals.colwise() + base.jacobian * base.x;
 }
 
 NamelessMisfit::NamelessMisfit(const CalibratedRecording& calibrated,
@@ -80,42 +80,48 @@ NamelessMisfit::NamelessMisfit(const CalibratedRecording& calibrated,
       settings_(std::move(settings)),
       capped_(capped),
       sinkage_columns_(sinkage_columns(calibrated)) {
-  const std::vector<double> sinking = sinking_nats(calibrated.residual());
-  sinkage_spread_ = kSinkageSpreads[static_cast<std::size_t>(std::ranges::max_element(sinking) -
-                                                             sinking.begin())];
+  const FitProblem problem = calibrated.problem();
+  const WhitenedResiduals recorded(problem.bed, problem.discrepancy,
+                                   beforehand(calibrated.base(), calibrated.residual()), capped_);
+  Eigen::Index likeliest = 0;
+  sinking_nats(recorded).row(0).maxCoeff(&likeliest);
+  sinkage_spread_ = kSinkageSpreads[static_cast<std::size_t>(likeliest)];
 }
 
-std::vector<double> NamelessMisfit::sinking_nats(const Eigen::VectorXd& residual) const {
+Eigen::MatrixXd NamelessMisfit::sinking_nats(const WhitenedResiduals& residuals) const {
   const FitProblem problem = calibrated_.problem();
-  Linearised sinking = linear_at(calibrated_.base(), residual);
-  const Eigen::Index soil = sinking.jacobian.cols(), own = sinkage_columns_.cols();
-  sinking.jacobian.conservativeResize(Eigen::NoChange, soil + own);
-  std::vector<double> nats;
-  for (const double spread : kSinkageSpreads) {
-    sinking.jacobian.rightCols(own) = spread * sinkage_columns_;
-    nats.push_back(
-        evidence_of(problem.bed, problem.discrepancy, sinking, problem.soil_free, capped_)
-            .log_marginal);
+  const Eigen::MatrixXd& soil = calibrated_.base().jacobian;
+  Eigen::MatrixXd columns(soil.rows(), soil.cols() + sinkage_columns_.cols());
+  columns.leftCols(soil.cols()) = soil;
+  Eigen::MatrixXd nats(residuals.count(), kSinkageSpreads.size());
+  for (std::size_t s = 0; s < kSinkageSpreads.size(); ++s) {
+    columns.rightCols(sinkage_columns_.cols()) = kSinkageSpreads.at(s) * sinkage_columns_;
+    const std::vector<Evidence> all = evidence_of(problem.bed, problem.discrepancy, residuals,
+                                                  columns, problem.soil_free, capped_);
+    for (std::size_t r = 0; r < all.size(); ++r) {
+      nats(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(s)) = all[r].log_marginal;
+    }
   }
   return nats;
 }
 
-double NamelessMisfit::log_evidence(const Eigen::VectorXd& residual) const {
+std::vector<double> NamelessMisfit::log_evidence(const WhitenedResiduals& residuals) const {
   const FitProblem problem = calibrated_.problem();
-  const double surfaces =
-      evidence_of(problem.bed, problem.discrepancy, linear_at(calibrated_.base(), residual),
-                  problem.soil_free, SettingWeights::of_unexplained())
-          .log_marginal;
-  const std::vector<double> sinking = sinking_nats(residual);
-  const double top = std::max(surfaces, std::ranges::max(sinking));
-  double sum = std::exp(surfaces - top);
-  for (const double one : sinking) {
-    sum += std::exp(one - top) / static_cast<double>(sinking.size());
+  const std::vector<Evidence> surfaces =
+      evidence_of(problem.bed, problem.discrepancy, residuals, calibrated_.base().jacobian,
+                  problem.soil_free, SettingWeights::of_unexplained());
+  const Eigen::MatrixXd sinking = sinking_nats(residuals);
+  std::vector<double> nats;
+  for (std::size_t r = 0; r < surfaces.size(); ++r) {
+    const double surface = surfaces[r].log_marginal;
+    const auto sinkages = sinking.row(static_cast<Eigen::Index>(r)).array();
+    const double top = std::max(surface, sinkages.maxCoeff());
+    nats.push_back(top + std::log((std::exp(surface - top) + (sinkages - top).exp().mean()) / 2));
   }
-  return top + std::log(sum / 2);
+  return nats;
 }
 
-std::vector<Eigen::VectorXd> NamelessMisfit::worlds(std::uint64_t seed) const {
+Eigen::MatrixXd NamelessMisfit::worlds(std::uint64_t seed) const {
   const TestBed& bed = calibrated_.bed();
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -129,17 +135,16 @@ std::vector<Eigen::VectorXd> NamelessMisfit::worlds(std::uint64_t seed) const {
     covariances.push_back(nameless_covariances(bed, bed.channels[c], settings_[c]));
   }
   const NoiseFactors noise(bed);
-  std::vector<Eigen::VectorXd> worlds;
+  Eigen::MatrixXd worlds = Eigen::MatrixXd::Zero(bed.size(), kWorlds);
   for (std::size_t w = 0; w < kWorlds; ++w) {
     const bool is_sinking = w % 2 == 1;
-    Eigen::VectorXd world = Eigen::VectorXd::Zero(bed.size());
+    auto world = worlds.col(static_cast<Eigen::Index>(w));
     if (is_sinking) world = sinkage_spread_ * sinkage_columns_ * draw(sinkage_columns_.cols());
     for (std::size_t c = 0; c < bed.channels.size(); ++c) {
       const Eigen::Index n = bed.channels[c].mean.size();
       const auto& factor = is_sinking ? noise(c) : covariances[c][w / 2 % covariances[c].size()];
       world.segment(bed.offset(c), n) += factor.matrixL() * draw(n);
     }
-    worlds.push_back(std::move(world));
   }
   return worlds;
 }

@@ -7,8 +7,9 @@
 
 namespace regoplan {
 
-/// A residual of the base model, linear in the soil about the base fit.
-Linearised linear_at(const CandidateFit& base, const Eigen::VectorXd& residual);
+/// Residuals of the base model, a column each, where its soil would be as beforehand: linear about
+/// the base fit.
+Eigen::MatrixXd beforehand(const CandidateFit& base, const Eigen::MatrixXd& residuals);
 
 /// A misfit without a name: a smooth surface over the conditions on each channel, as large as it
 /// need be; or sinkages without a law that the forces follow, beside a capped surface. One is as
@@ -20,15 +21,17 @@ class NamelessMisfit {
   NamelessMisfit(const CalibratedRecording& calibrated, std::vector<std::size_t> settings,
                  const SettingWeights& capped);
 
-  /// Of a residual of the base model at its fit.
-  double log_evidence(const Eigen::VectorXd& residual) const;
+  /// Of every residual of the base model.
+  /// \param residuals beforehand(), whitened under all settings
+  std::vector<double> log_evidence(const WhitenedResiduals& residuals) const;
 
-  /// Residuals of worlds with noise whose misfit has no name: in turn surfaces as large as the
-  /// recording's, as smooth and smoother, and sinkages.
-  std::vector<Eigen::VectorXd> worlds(std::uint64_t seed) const;
+  /// Residuals of the base model at its fit, a column each, in worlds with noise whose misfit has
+  /// no name: in turn surfaces as large as the recording's, as smooth and smoother, and sinkages.
+  Eigen::MatrixXd worlds(std::uint64_t seed) const;
 
  private:
-  std::vector<double> sinking_nats(const Eigen::VectorXd& residual) const;  // by kSinkageSpreads
+  /// By kSinkageSpreads, one a column, of every residual.
+  Eigen::MatrixXd sinking_nats(const WhitenedResiduals& residuals) const;
 
   const CalibratedRecording& calibrated_;
   std::vector<std::size_t> settings_;

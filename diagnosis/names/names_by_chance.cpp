@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/bed/whitening.h"
 #include "diagnosis/recording/thresholds.h"
@@ -11,69 +12,72 @@ namespace regoplan {
 namespace {
 
 /// After the soil's columns what the name adds, from nothing to twice its size, then its numbers.
-Linearised named_in(const CandidateFit& base, const CappedName& name,
-                    const Eigen::VectorXd& world) {
-  Linearised model = linear_at(base, world);
-  const Eigen::Index soil = base.jacobian.cols();
-  const Eigen::Index own = name.fit.jacobian.cols() - soil;
-  model.jacobian.resize(world.size(), soil + 1 + own);
-  model.jacobian << base.jacobian, name.fit.prediction - base.prediction,
-      name.fit.jacobian.rightCols(own);
-  return model;
+Eigen::MatrixXd columns_with(const CandidateFit& base, const CappedName& name) {
+  const Eigen::Index soil = base.jacobian.cols(), own = name.fit.jacobian.cols() - soil;
+  Eigen::MatrixXd columns(base.jacobian.rows(), soil + 1 + own);
+  columns << base.jacobian, name.fit.prediction - base.prediction, name.fit.jacobian.rightCols(own);
+  return columns;
 }
 
 bool is_the_wrong_way_round(const CappedName& name, double size) {
   return size < 0 && !is_instrument(name.id);
 }
 
-/// Over a misfit without a name.
-double best_nats(const CalibratedRecording& calibrated, const CappedContest& contest,
-                 const std::vector<CappedName>& names, const Eigen::VectorXd& world) {
-  const FitProblem problem = calibrated.problem();
-  const CandidateFit& base = calibrated.base();
-  const auto evidence = [&](const Linearised& model) {
-    return evidence_of(problem.bed, problem.discrepancy, model, problem.soil_free,
-                       contest.weights());
-  };
-  double best = evidence(linear_at(base, world)).log_marginal;
-  for (const CappedName& name : names) {
-    Linearised model = named_in(base, name, world);
-    const Eigen::Index numbers = model.jacobian.cols(), shape = name.fit.shape.cols();
-    model.jacobian.conservativeResize(Eigen::NoChange, numbers + shape);
-    model.jacobian.rightCols(shape) = name.fit.shape;
-    const Evidence named = evidence(model);
-    if (is_the_wrong_way_round(name, named.x[base.jacobian.cols()])) continue;
-    best = std::max(best, named.log_marginal);
+/// Log marginal likelihoods of a name in worlds; of none where its size is the wrong way round.
+std::vector<std::optional<double>> named_nats(const FitProblem& problem, const CandidateFit& base,
+                                              const CappedName& name, const SettingWeights& weights,
+                                              const WhitenedResiduals& worlds) {
+  Eigen::MatrixXd columns = columns_with(base, name);
+  const Eigen::Index numbers = columns.cols(), shape = name.fit.shape.cols();
+  columns.conservativeResize(Eigen::NoChange, numbers + shape);
+  columns.rightCols(shape) = name.fit.shape;
+  std::vector<std::optional<double>> nats;
+  for (const Evidence& one :
+       evidence_of(problem.bed, problem.discrepancy, worlds, columns, problem.soil_free, weights)) {
+    const bool counts = !is_the_wrong_way_round(name, one.x[base.jacobian.cols()]);
+    nats.push_back(counts ? std::optional(one.log_marginal) : std::nullopt);
   }
-  return best - contest.nameless().log_evidence(world);
+  return nats;
 }
 
-/// Of the excess misfit; nothing where there is none.
-double best_share(const CalibratedRecording& calibrated, const std::vector<CappedName>& names,
-                  const Eigen::VectorXd& world) {
-  const FitProblem problem = calibrated.problem();
+/// Least squares against the noise alone, the numbers standard normal beforehand.
+struct NoiseFit {
+  Eigen::MatrixXd x;       // a column a residual
+  Eigen::VectorXd misfit;  // squared, whitened
+};
+
+NoiseFit fit_to_noise(const TestBed& bed, const NoiseFactors& noise, const Eigen::MatrixXd& columns,
+                      const Eigen::MatrixXd& residuals) {
+  const Eigen::MatrixXd j = whitened(bed, noise, columns);
+  Eigen::MatrixXd precision = j.transpose() * j;
+  precision.diagonal().array() += 1;
+  NoiseFit fit{.x = precision.llt().solve(j.transpose() * residuals)};
+  fit.misfit = (residuals - j * fit.x).colwise().squaredNorm().transpose();
+  return fit;
+}
+
+/// Of the excess misfit of every residual, by the soil and the names alone, as name_share() has it;
+/// nothing where there is none.
+std::vector<double> best_shares(const CalibratedRecording& calibrated,
+                                const std::vector<CappedName>& names,
+                                const Eigen::MatrixXd& residuals) {
+  const TestBed& bed = calibrated.bed();
   const CandidateFit& base = calibrated.base();
-  const NoiseFactors noise(problem.bed);
-  // by the soil and the names alone, as name_share() has it
-  const std::vector<std::size_t> noise_only(problem.bed.channels.size(), 0);
-  const auto fit = [&](const Linearised& model) {
-    return posterior_of(problem.bed, problem.discrepancy, model, noise_only).x;
-  };
-  const auto misfit = [&](const Linearised& model, const Eigen::VectorXd& x) {
-    const Eigen::VectorXd left = model.residual - model.jacobian * x;
-    return whitened(problem.bed, noise, left).squaredNorm();
-  };
-  const Linearised alone = linear_at(base, world);
-  const double whole = misfit(alone, fit(alone));
-  const auto expected = static_cast<double>(problem.bed.size());
-  const double excess = whole - expected;
-  if (excess <= Thresholds::kClear_errors * std::sqrt(2 * expected)) return 0;
-  double best = 0;
+  const NoiseFactors noise(bed);
+  const Eigen::MatrixXd white = whitened(bed, noise, beforehand(base, residuals));
+  const Eigen::VectorXd whole = fit_to_noise(bed, noise, base.jacobian, white).misfit;
+  const auto expected = static_cast<double>(bed.size());
+  const double least = Thresholds::kClear_errors * std::sqrt(2 * expected);
+  std::vector<double> best(static_cast<std::size_t>(residuals.cols()));
   for (const CappedName& name : names) {
-    const Linearised model = named_in(base, name, world);
-    const Eigen::VectorXd x = fit(model);
-    if (is_the_wrong_way_round(name, x[base.jacobian.cols()])) continue;
-    best = std::max(best, (whole - misfit(model, x)) / excess);
+    const NoiseFit named = fit_to_noise(bed, noise, columns_with(base, name), white);
+    for (Eigen::Index w = 0; w < residuals.cols(); ++w) {
+      const double excess = whole[w] - expected;
+      if (excess <= least || is_the_wrong_way_round(name, named.x(base.jacobian.cols(), w)))
+        continue;
+      double& share = best[static_cast<std::size_t>(w)];
+      share = std::max(share, (whole[w] - named.misfit[w]) / excess);
+    }
   }
   return best;
 }
@@ -84,10 +88,24 @@ std::vector<double> nats_by_chance(const CalibratedRecording& calibrated,
                                    const CappedContest& contest,
                                    const std::vector<CappedName>& names, std::uint64_t seed,
                                    int threads) {
-  const std::vector<Eigen::VectorXd> worlds = contest.nameless().worlds(seed);
-  std::vector<double> nats(worlds.size());
-  parallel_for(worlds.size(), threads,
-               [&](std::size_t w) { nats[w] = best_nats(calibrated, contest, names, worlds[w]); });
+  const FitProblem problem = calibrated.problem();
+  const CandidateFit& base = calibrated.base();
+  const WhitenedResiduals worlds(problem.bed, problem.discrepancy,
+                                 beforehand(base, contest.nameless().worlds(seed)),
+                                 SettingWeights::of_unexplained());
+  std::vector<std::vector<std::optional<double>>> named(names.size());
+  parallel_for(names.size(), threads, [&](std::size_t i) {
+    named[i] = named_nats(problem, base, names[i], contest.weights(), worlds);
+  });
+  const std::vector<Evidence> alone =
+      evidence_of(problem.bed, problem.discrepancy, worlds, base.jacobian, problem.soil_free,
+                  contest.weights());
+  std::vector<double> nats = contest.nameless().log_evidence(worlds);
+  for (std::size_t w = 0; w < nats.size(); ++w) {
+    double best = alone[w].log_marginal;
+    for (const auto& name : named) best = std::max(best, name[w].value_or(best));
+    nats[w] = best - nats[w];
+  }
   std::ranges::sort(nats);
   return nats;
 }
@@ -97,12 +115,9 @@ double reached_by_chance(const std::vector<double>& nats) {
 }
 
 double chance_of_share(const CalibratedRecording& calibrated, const CappedContest& contest,
-                       const std::vector<CappedName>& names, std::uint64_t seed, int threads) {
-  const std::vector<Eigen::VectorXd> worlds = contest.nameless().worlds(seed);
-  std::vector<double> shares(worlds.size());
-  parallel_for(worlds.size(), threads,
-               [&](std::size_t w) { shares[w] = best_share(calibrated, names, worlds[w]); });
-  return chance_of(shares, best_share(calibrated, names, calibrated.residual()));
+                       const std::vector<CappedName>& names, std::uint64_t seed) {
+  return chance_of(best_shares(calibrated, names, contest.nameless().worlds(seed)),
+                   best_shares(calibrated, names, calibrated.residual()).front());
 }
 
 double chance_of(const std::vector<double>& by_chance, double reached) {

@@ -213,7 +213,7 @@ std::optional<PartialClaim> class_by_shares(const CalibratedRecording& calibrate
   if (!claim) return std::nullopt;
   add_evidence(contest, threads, *claim);
   if (claim->claims.front().evidence_nats < Thresholds::kOverRemainder_nats) return std::nullopt;
-  const double p = chance_of_share(calibrated, contest, names, seed, threads);
+  const double p = chance_of_share(calibrated, contest, names, seed);
   for (Claim& one : claim->claims) one.probability = 1 - p;
   return claim;
 }

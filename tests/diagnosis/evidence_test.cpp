@@ -84,6 +84,28 @@ TEST(Evidence, ADiscrepancyKeptOffTheSoilLeavesTheSoilAsItIsWithout) {
   EXPECT_NEAR(kept_off, without, 0.1 * without);
 }
 
+TEST(Evidence, OfManyResidualsIsThatOfEach) {
+  const TestBed bed = small_bed(20);
+  const Discrepancy discrepancy(bed);
+  const Linearised model = some_model(bed);
+  const Eigen::MatrixXd directions = soil_directions(bed, 30 * model.jacobian);
+  Eigen::MatrixXd residuals(bed.size(), 3);
+  residuals << model.residual, 4 * model.residual.reverse(), 9 * model.jacobian.col(0);
+  const SettingWeights weights = SettingWeights::of_unexplained();
+  const std::vector<Evidence> all =
+      evidence_of(bed, discrepancy, WhitenedResiduals(bed, discrepancy, residuals, weights),
+                  model.jacobian, directions, weights);
+  ASSERT_EQ(all.size(), 3U);
+  for (Eigen::Index r = 0; r < residuals.cols(); ++r) {
+    const Evidence one =
+        evidence_of(bed, discrepancy, {residuals.col(r), model.jacobian}, directions, weights);
+    const Evidence& of_many = all[static_cast<std::size_t>(r)];
+    EXPECT_NEAR(of_many.log_marginal, one.log_marginal, 1e-9);
+    EXPECT_EQ(of_many.settings, one.settings);
+    EXPECT_TRUE(of_many.x.isApprox(one.x, 1e-9));
+  }
+}
+
 TEST(Discrepancy, OfTheSideForceIsOddAndVanishesStraightAhead) {
   const DiscrepancyScales scales;
   const Condition left{.load_n = 60, .slip_angle_rad = 0.2};
