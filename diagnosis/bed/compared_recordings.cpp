@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "diagnosis/recording/replicates.h"
 #include "terramech/basics/input_error.h"
 
 namespace regoplan {
@@ -61,97 +62,147 @@ int leave_foreign_passes_out(const std::vector<Reference>& references, Recording
   return static_cast<int>(foreign);
 }
 
-bool lacks_replicates(const ChannelNoise& noise) {
-  return noise.source == NoiseSource::kNeighbours;
+/// What runs of a channel scatter by, and how many replicates say so.
+struct RunScatter {
+  double deviation = 0;
+  int degrees_of_freedom = 0;
+};
+
+/// A recording that is compared, and what others tell of its noise.
+struct Compared {
+  std::string name;  // of a reference
+  Recording recording;
+  DiagnosisSetup setup;  // its own
+  std::map<Channel, RunScatter> lent = {};
+  CondensedRecording condensed = {};
+
+  bool states(Channel channel) const { return setup.noise_standard_deviation.contains(channel); }
+  bool lacks_replicates() const {
+    return std::ranges::any_of(condensed.noise, [](const ChannelNoise& noise) {
+      return noise.source == NoiseSource::kNeighbours;
+    });
+  }
+};
+
+void condense_with_lent(Compared& one, const std::stop_token& stop) {
+  DiagnosisSetup with = one.setup;
+  for (const auto& [channel, told] : one.lent) {
+    if (with.noise_standard_deviation.try_emplace(channel, told.deviation).second)
+      with.noise_lent.insert(channel);
+  }
+  try {
+    one.condensed = condense(one.recording, with, kFewestToCompare, stop);
+  } catch (const InputError& bad) {
+    if (one.name.empty()) throw;
+    throw InputError(fmt::format("reference {}: {}", one.name, bad.what()));
+  }
 }
 
-/// One run scatters alike on all: who has no replicates learns it from the others, as it is at
-/// their usual signal where it grows with that, and as all of them together tell it.
-/// \param borrower which of them borrows; none where it is not among them
-void lend_noise(const std::vector<CondensedRecording>& from, std::optional<std::size_t> borrower,
-                DiagnosisSetup& to) {
-  struct Told {
-    double weight = 0, variance = 0;
-  };
-  std::map<Channel, Told> told;
-  for (std::size_t r = 0; r < from.size(); ++r) {
-    if (r == borrower) continue;
-    for (std::size_t c = 0; c < from[r].noise.size(); ++c) {
-      const ChannelNoise& noise = from[r].noise[c];
-      if (lacks_replicates(noise)) continue;
-      const double weight = std::max(1, noise.degrees_of_freedom);
-      told[noise.channel].weight += weight;
-      told[noise.channel].variance +=
-          weight * std::pow(usual_deviation(noise, from[r].adjusted[c]), 2);
+/// As recordings with replicates tell it, at their usual signal where it grows with that.
+std::optional<RunScatter> told_by_replicates(const std::vector<Compared>& all, Channel channel) {
+  double weight = 0, variance = 0;
+  int most = 0;
+  for (const Compared& one : all) {
+    for (std::size_t c = 0; c < one.condensed.noise.size(); ++c) {
+      const ChannelNoise& noise = one.condensed.noise[c];
+      const bool tells = noise.source == NoiseSource::kReplicates || one.states(channel);
+      if (noise.channel != channel || !tells) continue;
+      const double own = std::max(1, noise.degrees_of_freedom);
+      weight += own;
+      variance += own * std::pow(usual_deviation(noise, one.condensed.adjusted[c]), 2);
+      most = std::max(most, noise.degrees_of_freedom);
     }
   }
-  for (const auto& [channel, by] : told) {
-    to.noise_standard_deviation.try_emplace(channel, std::sqrt(by.variance / by.weight));
-  }
+  if (weight == 0) return std::nullopt;
+  return RunScatter{std::sqrt(variance / weight), most};
 }
 
-/// References condensed, each with the scatter of the others where it has no replicates.
-std::vector<CondensedRecording> condensed(const std::vector<Reference>& references,
-                                          const std::vector<Channel>& channels,
-                                          const std::stop_token& stop) {
-  const auto condensed_with = [&](const Reference& reference, const DiagnosisSetup& setup) {
-    try {
-      return condense(restricted(reference.recording, channels), setup, kFewestToCompare, stop);
-    } catch (const InputError& bad) {
-      throw InputError(fmt::format("reference {}: {}", reference.name, bad.what()));
+/// As the few replicates of each tell it together, where they are enough then.
+std::optional<RunScatter> told_together(const std::vector<Compared>& all, Channel channel) {
+  double squares = 0;
+  int contrasts = 0;
+  for (const Compared& one : all) {
+    for (std::size_t c = 0; c < one.condensed.noise.size(); ++c) {
+      if (one.condensed.noise[c].channel != channel) continue;
+      const std::vector<double>& value = one.condensed.adjusted[c];
+      const Replicates replicates = replicates_of(one.condensed.bed.conditions, value);
+      contrasts += replicates.contrasts;
+      for (const std::vector<std::size_t>& group : replicates.groups) {
+        double mean = 0;
+        for (const std::size_t run : group) mean += value[run] / static_cast<double>(group.size());
+        for (const std::size_t run : group) squares += std::pow(value[run] - mean, 2);
+      }
     }
-  };
-  std::vector<CondensedRecording> alone;
-  for (const Reference& reference : references) {
-    alone.push_back(condensed_with(reference, reference.setup));
   }
-  std::vector<CondensedRecording> all = alone;
-  for (std::size_t r = 0; r < references.size(); ++r) {
-    if (references.size() == 1 || std::ranges::none_of(alone[r].noise, lacks_replicates)) continue;
-    DiagnosisSetup setup = references[r].setup;
-    lend_noise(alone, r, setup);
-    all[r] = condensed_with(references[r], setup);
+  if (contrasts < kEnoughReplicates || squares == 0) return std::nullopt;
+  return RunScatter{std::sqrt(squares / contrasts), contrasts};
+}
+
+/// One run scatters alike on all: who has no replicates, or too few, learns it from the others.
+std::map<Channel, RunScatter> lent_by(const std::vector<Compared>& all,
+                                      const std::vector<Channel>& channels) {
+  std::map<Channel, RunScatter> lent;
+  for (const Channel channel : channels) {
+    auto told = told_by_replicates(all, channel);
+    if (!told) told = told_together(all, channel);
+    if (told) lent.emplace(channel, *told);
   }
-  return all;
+  return lent;
+}
+
+/// Noise that was lent is known as well as the lenders' replicates tell it, not exactly.
+void lend_doubt(Compared& to) {
+  for (ChannelNoise& noise : to.condensed.noise) {
+    const auto told = to.lent.find(noise.channel);
+    if (noise.source != NoiseSource::kSetup || to.states(noise.channel) || told == to.lent.end())
+      continue;
+    noise.degrees_of_freedom = std::max(noise.degrees_of_freedom, told->second.degrees_of_freedom);
+  }
 }
 
 /// The scatter of both together, where one of them by chance shows less.
-void pool_noise(std::vector<CondensedRecording*> recordings) {
-  for (std::size_t c = 0; c < recordings.front()->noise.size(); ++c) {
+void pool_noise(std::vector<Compared>& all) {
+  for (std::size_t c = 0; c < all.front().condensed.noise.size(); ++c) {
     double sum = 0, degrees = 0;
-    for (const CondensedRecording* one : recordings) {
-      const ChannelNoise& noise = one->noise[c];
+    for (const Compared& one : all) {
+      const ChannelNoise& noise = one.condensed.noise[c];
       sum += noise.degrees_of_freedom * noise.constant * noise.constant;
       degrees += noise.degrees_of_freedom;
     }
     if (degrees == 0) continue;
     const double pooled = std::sqrt(sum / degrees);
-    for (CondensedRecording* one : recordings) {
-      ChannelNoise& noise = one->noise[c];
+    for (Compared& one : all) {
+      ChannelNoise& noise = one.condensed.noise[c];
       if (noise.constant >= pooled) continue;
       const double factor = pooled / noise.constant;
       noise.constant *= factor;
       noise.proportional *= factor;
       noise.day_offset *= factor;
       noise.day_gain *= factor;
-      one->bed.channels[c].noise *= factor * factor;
-      one->bed.channels[c].scale *= factor;
+      one.condensed.bed.channels[c].noise *= factor * factor;
+      one.condensed.bed.channels[c].scale *= factor;
     }
   }
 }
 
-/// Noise that was lent is known as well as the lender's replicates tell it, not exactly.
-/// \param own noise that the test's setup itself states
-void lend_doubt(const std::vector<CondensedRecording>& references,
-                const std::map<Channel, double>& own, CondensedRecording& test) {
-  for (ChannelNoise& noise : test.noise) {
-    if (noise.source != NoiseSource::kSetup || own.contains(noise.channel)) continue;
-    for (const CondensedRecording& reference : references) {
-      const auto lender = std::ranges::find(reference.noise, noise.channel, &ChannelNoise::channel);
-      if (lender == reference.noise.end()) continue;
-      noise.degrees_of_freedom = std::max(noise.degrees_of_freedom, lender->degrees_of_freedom);
-    }
+/// Condensed, each with the scatter of the others where it has no replicates.
+/// \param all the references, then the test
+void condense_alike(const std::vector<Channel>& channels, const std::stop_token& stop,
+                    std::vector<Compared>& all) {
+  Compared test = std::move(all.back());
+  all.pop_back();
+  for (Compared& reference : all) condense_with_lent(reference, stop);
+  test.lent = lent_by(all, channels);
+  condense_with_lent(test, stop);
+  all.push_back(std::move(test));
+  const std::map<Channel, RunScatter> lent = lent_by(all, channels);
+  for (Compared& one : all) {
+    if (!one.lacks_replicates()) continue;
+    one.lent = lent;
+    condense_with_lent(one, stop);
   }
+  pool_noise(all);
+  for (Compared& one : all) lend_doubt(one);
 }
 
 std::string foreign_passes_note(int runs) {
@@ -169,14 +220,15 @@ ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup
   const std::vector<Channel> channels = common_channels(test, references);
   ComparedRecordings compared{.recording = restricted(test, channels)};
   const int foreign = leave_foreign_passes_out(references, compared.recording);
-  DiagnosisSetup test_setup = setup;
-  compared.references = condensed(references, channels, stop);
-  lend_noise(compared.references, std::nullopt, test_setup);
-  compared.test = condense(compared.recording, test_setup, kFewestToCompare, stop);
-  std::vector<CondensedRecording*> all{&compared.test};
-  for (CondensedRecording& reference : compared.references) all.push_back(&reference);
-  pool_noise(all);
-  lend_doubt(compared.references, setup.noise_standard_deviation, compared.test);
+  std::vector<Compared> all;
+  for (const Reference& reference : references) {
+    all.push_back({reference.name, restricted(reference.recording, channels), reference.setup});
+  }
+  all.push_back({"", compared.recording, setup});
+  condense_alike(channels, stop, all);
+  compared.test = std::move(all.back().condensed);
+  all.pop_back();
+  for (Compared& reference : all) compared.references.push_back(std::move(reference.condensed));
   compared.notes = test.warnings;
   compared.notes.insert(compared.notes.end(), compared.test.notes.begin(),
                         compared.test.notes.end());

@@ -80,10 +80,13 @@ double span_of(const Recording& recording, Channel channel) {
   return high - low;
 }
 
-std::string setup_note(const Recording& recording, const ChannelNoise& noise) {
+std::string given_note(const Recording& recording, const DiagnosisSetup& setup,
+                       const ChannelNoise& noise) {
+  const bool lent = setup.noise_lent.contains(noise.channel);
   std::string text =
-      fmt::format("{}: no replicates; noise {:.3g} from the setup, days by half of it (assumed)",
-                  name(noise.channel), noise.constant);
+      fmt::format("{}: too few replicates; noise {:.3g} from {}, days by half of it (assumed)",
+                  name(noise.channel), noise.constant,
+                  lent ? "the replicates of the series that are compared" : "the setup");
   const double span = span_of(recording, noise.channel);
   if (noise.constant > span) {
     text +=
@@ -92,11 +95,12 @@ std::string setup_note(const Recording& recording, const ChannelNoise& noise) {
   return text;
 }
 
-std::string noise_note(const Recording& recording, const ChannelNoise& noise) {
+std::string noise_note(const Recording& recording, const DiagnosisSetup& setup,
+                       const ChannelNoise& noise) {
   const std::string channel(name(noise.channel));
   switch (noise.source) {
     case NoiseSource::kSetup:
-      return setup_note(recording, noise);
+      return given_note(recording, setup, noise);
     case NoiseSource::kNeighbours:
       return fmt::format(
           "{}: too few replicates, and no setup, tell the noise; {:.3g} was taken from "
@@ -398,7 +402,7 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   if (result.noise.empty()) throw InputError("recording: no channel is measured");
   share_day_offsets(result.noise);
   for (std::size_t c = 0; c < result.noise.size(); ++c) {
-    result.notes.push_back(noise_note(recording, result.noise[c]));
+    result.notes.push_back(noise_note(recording, setup, result.noise[c]));
     bed.channels.push_back(
         means_of(result.day, bed.conditions, result.noise[c], result.adjusted[c]));
   }

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "diagnosis/recording/recording.h"
@@ -18,6 +19,8 @@ struct DiagnosisSetup {
   double gravity_mps2 = 9.80665;
   UncertainSoil soil;                                  ///< what independent soil tests say
   std::map<Channel, double> noise_standard_deviation;  ///< where there are no replicates
+  /// Those of the numbers above that replicates of other series tell, not the setup.
+  std::set<Channel> noise_lent = {};
 };
 
 /// A recording of the same rig and soil without the effect that is looked for.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "synthetic_bed.h"
@@ -46,6 +47,39 @@ TEST(ReadAlike, WhoHasNoReplicatesTakesTheScatterOfThoseThatHaveThem) {
     EXPECT_EQ(own.degrees_of_freedom, lender.degrees_of_freedom);  // as sure as the lender, no more
     EXPECT_NEAR(own.constant, lender.constant, 0.5 * lender.constant);
   }
+}
+
+TEST(ReadAlike, AReferenceWithoutReplicatesTakesTheScatterOfTheTest) {
+  const ComparedRecordings compared = alike(sound(1, 4), sound(2, 1));
+  for (std::size_t c = 0; c < compared.test.noise.size(); ++c) {
+    const ChannelNoise &lender = compared.test.noise[c], &own = compared.references[0].noise[c];
+    EXPECT_EQ(own.source, NoiseSource::kSetup);
+    EXPECT_NEAR(own.constant, lender.constant, 0.5 * lender.constant);
+  }
+}
+
+/// So many conditions were run twice, the others once.
+Recording with_few_replicates(std::uint64_t seed, std::size_t replicates) {
+  Recording recording = sound(seed, 2);
+  recording.runs.resize(recording.runs.size() / 2 + replicates);
+  return recording;
+}
+
+TEST(ReadAlike, ReplicatesThatAreTooFewInEachTellTheScatterTogether) {
+  const Recording test = with_few_replicates(1, 5), reference = with_few_replicates(2, 5);
+  const DiagnosisSetup setup = simulant_setup();
+  constexpr std::array kTrue{1.0, 1.0, 0.09, 5e-4};  // as BedPlan has it
+  const CondensedRecording alone = condense(test, setup);
+  const ComparedRecordings compared = alike(test, reference);
+  ASSERT_EQ(compared.test.noise.size(), kTrue.size());
+  for (std::size_t c = 0; c < alone.noise.size(); ++c) {
+    EXPECT_NE(compared.test.noise[c].source, NoiseSource::kNeighbours);
+    EXPECT_NE(compared.references[0].noise[c].source, NoiseSource::kNeighbours);
+    EXPECT_NEAR(compared.test.noise[c].constant, kTrue.at(c), 0.5 * kTrue.at(c));
+  }
+  EXPECT_TRUE(std::ranges::any_of(alone.noise, [](const ChannelNoise& noise) {
+    return noise.source == NoiseSource::kNeighbours;
+  }));
 }
 
 TEST(ReadAlike, ReferencesAreTheSameInWhateverOrderTheyAreGiven) {
