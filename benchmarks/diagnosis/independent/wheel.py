@@ -73,6 +73,7 @@ class WheelWithEffects:
                             * (1 - .8 * size("soil_zone") * zone)
                             * np.clip(1 - size("cohesion_drift") * in_time, .02, None))
         self.friction_rad = soil["friction_angle_deg"] * DEGREE
+        self.rim_friction = np.tan(self.friction_rad)
         self.exponent, self.density = soil["n"], soil["density_kgpm3"]
         self.rear = soil["lambda"] + size("rear_contact") * driving * (1 - .3 * driving)
         self.peak = np.clip(soil["a0"] + soil["a1"] * self.slip
@@ -99,10 +100,16 @@ class WheelWithEffects:
     def _normal_stress(self, at, front, back):
         peak = self.peak[:, None] * front
         mirrored = front - (at - back) / np.maximum(peak - back, 1e-9) * (front - peak)
-        depth = np.maximum(np.cos(np.where(at >= peak, at, mirrored)) - np.cos(front), 0)
+        where = np.where(at >= peak, at, mirrored)
+        depth = np.maximum(np.cos(where) - np.cos(front)
+                           - self._carried_off_m(where, front) / self.radius_m[:, None], 0)
         stress = (self.radius_m ** self.exponent * self.bearing)[:, None] * depth ** self.exponent
         below_m = np.maximum(self.radius_m[:, None] * depth - .01, 0)
         return stress * (1 + self.size("layered_soil") * below_m / (below_m + .01))
+
+    def _carried_off_m(self, _at, _front):
+        """Soil that is gone before the wheel presses it, for wheels that carry some away."""
+        return 0
 
     def _mobilised(self, travel_m, modulus_m):
         share = 1 - np.exp(-np.abs(travel_m) / modulus_m[:, None])
@@ -110,22 +117,23 @@ class WheelWithEffects:
         return np.sign(travel_m) * share * (1 - self.size("shear_hump") * far ** 2 / (1 + far ** 2))
 
     def _shear(self, at, front, stress):
+        """Stress along the rim, across it, and the one that turns the wheel by its radius."""
         lugs = self.size("grousers")
         radius, ratio = self.radius_m[:, None], self.ratio[:, None]
         limit = (self.cohesion_pa[:, None] * (1 + 6 * lugs)
-                 + stress * np.tan(self.friction_rad) * (1 + 1.2 * lugs))
+                 + stress * self.rim_friction * (1 + 1.2 * lugs))
         along = self._mobilised(
             radius * (front - at - ratio * (np.sin(front) - np.sin(at))) * (1 + 4 * lugs),
             self.kx_m)
         across = self._mobilised(radius * self.lateral[:, None] * (front - at), self.ky_m)
         together = np.hypot(along, across)
         cut = 1 - self.size("coupled_shear") * (1 - 1 / np.maximum(together, 1))
-        return limit * along * cut, limit * across * cut
+        return limit * along * cut, limit * across * cut, limit * along * cut
 
     def _lift_n(self, sinkage_m):
         at, front, back, width = self._contact(sinkage_m)
         stress = self._normal_stress(at, front, back)
-        along, _ = self._shear(at, front, stress)
+        along, _, _ = self._shear(at, front, stress)
         return (self.radius_m * self.width_m
                 * ((along * np.sin(at) + stress * np.cos(at)) * width).sum(1))
 
@@ -163,12 +171,12 @@ class WheelWithEffects:
         sinkage_m = self.sinkage_m()
         at, front, back, width = self._contact(sinkage_m)
         stress = self._normal_stress(at, front, back)
-        along, across = self._shear(at, front, stress)
+        along, across, turning = self._shear(at, front, stress)
         area = self.radius_m * self.width_m
         fx_n = area * ((along * np.cos(at) - stress * np.sin(at)) * width).sum(1)
         fy_n = (np.sign(self.runs.slip_angle_rad)
                 * (area * (across * width).sum(1) + self._bulldozing_n(at, front, back, width)))
-        torque_nm = self.radius_m * area * (along * width).sum(1)
+        torque_nm = self.radius_m * area * (turning * width).sum(1)
 
         driving = np.maximum(self.slip, 0)
         passive = np.tan(np.pi / 4 + self.friction_rad / 2) ** 2
