@@ -28,6 +28,8 @@ LEAST_RUNS, MOST_RUNS = 12, 60
 # A difference whose chi-square is less cannot be told: it is about what 10 nats ask for beside two
 # or three numbers that are fitted, and what the reference leaves uncertain takes its part.
 WEAK_CHI_SQUARE = 50
+# Degrees of freedom in both series together below which replicates hardly tell the noise.
+FEW_REPLICATES = 8
 
 EFFECTS = ("grousers", "slip_sinkage", "soil_change", "flank_friction", "side_surcharge",
            "multipass", "sensor_gain", "sensor_bias")
@@ -81,6 +83,15 @@ class Pair:
     sinkage_way: str       # "excavated" or "imposed"
     fault: tuple           # of the test's instrument: id, channel, size; () for none
     lugs_rule: str
+    conditions: str        # of the test: "same", "fewer" or "shifted" ones
+    day_scatter: float     # in deviations of noise
+
+
+def replicates_of(runs):
+    """Degrees of freedom that replicates leave to the scatter of a run."""
+    conditions = {(round(slip, 2), round(angle / DEGREE), round(load / runs.load_n.mean(), 1))
+                  for slip, angle, load in zip(runs.slip_ratio, runs.slip_angle_rad, runs.load_n)}
+    return len(runs.load_n) - len(conditions)
 
 
 def signed(chance, low, high):
@@ -121,18 +132,19 @@ def runs_of(chance, order, load_n, wheel_pass, both_sides):
 
 
 def draw_series(chance, kind, load_n):
-    """Runs of reference and test, in a third of the pairs at other conditions."""
+    """Runs of reference and test, in a third of the pairs at other conditions; and at which."""
     grid = draw_grid(chance, kind)
-    other = grid
+    other, conditions = grid, "same"
     if chance.random() < .33:
         kept = chance.permutation(len(grid))[:max(LEAST_RUNS, int(.7 * len(grid)))]
         shift = chance.choice((0, .05))
+        conditions = "shifted" if shift else "fewer"
         other = [(load, slip + shift, angle) for load, slip, angle in (grid[at] for at in kept)]
     both_sides = chance.random() < .2
     ways = chance.choice(("none", "some", "all"), 2, p=(.2, .45, .35))
     return (runs_of(chance, draw_order(chance, grid, ways[0]), load_n, 1, both_sides),
             runs_of(chance, draw_order(chance, other, ways[1]), load_n,
-                    2 if kind == "multipass" else 1, both_sides))
+                    2 if kind == "multipass" else 1, both_sides), conditions)
 
 
 def draw_shared(chance):
@@ -202,7 +214,7 @@ def draw_pair(chance, kind):
     soil = {key: mean * (1 + .8 * SPREAD[key] * np.clip(chance.normal(), -2, 2))
             for key, mean in tests.items()}
     load_n = wheel[0] * wheel[1] * chance.uniform(5e3, 9e3)
-    reference, test = draw_series(chance, kind, load_n)
+    reference, test, conditions = draw_series(chance, kind, load_n)
     noise = (chance.uniform(.012, .04) * load_n, chance.uniform(.01, .03) * load_n,
              chance.uniform(.01, .03) * load_n * wheel[0], chance.uniform(.0004, .0012))
     both = joined(reference, test)
@@ -219,7 +231,8 @@ def draw_pair(chance, kind):
                 reference, test, noise, draw_shared(chance),
                 draw_fields(chance, both, 1, 5, (2, 3, 4)), effects,
                 draw_fields(chance, both, 3, 15, (1, 2, 3, 4)) if kind == "nameless"
-                else [None] * len(CHANNELS), None, "", fault, rule)
+                else [None] * len(CHANNELS), None, "", fault, rule, conditions,
+                chance.uniform(0, .5))
     if kind == "nameless_sinkage":
         pair.sinkage_field = (SmoothField(chance, both, False), chance.uniform(3, 15))
         pair.sinkage_way = str(chance.choice(("excavated", "imposed")))
@@ -269,10 +282,20 @@ def test_values(pair, effects=None):
     return values
 
 
+def days_of(count):
+    """A series takes three days."""
+    return (np.arange(count) * 3) // count
+
+
 def chi_square_of(pair, values, plain):
-    """By channel; noise is that of the test's run and of a run of the reference."""
-    return [float(np.sum((value - other) ** 2) / (2 * noise ** 2))
-            for value, other, noise in zip(values, plain, pair.noise)]
+    """By channel. The noise is that of the test's run and of one run of the reference, and what
+    days are off by: those of the test each by its own, those of the reference in the mean."""
+    day = np.eye(3)[days_of(len(values[0]))]
+    covariance = (2 * np.eye(len(day))
+                  + pair.day_scatter ** 2 * (day @ day.T + np.ones((len(day), len(day))) / 3))
+    return [float(off @ np.linalg.solve(covariance, off))
+            for off in ((value - other) / noise
+                        for value, other, noise in zip(values, plain, pair.noise))]
 
 
 def is_physical(pair, values, deepest):
@@ -300,15 +323,15 @@ def draw(seed, kind):
     return None
 
 
-def noisy(chance, pair, values, heavy, day_scatter):
+def noisy(chance, pair, values, heavy):
     """Channels as measured and the day of each run; days of a series are its own."""
     count = len(values[0])
-    days = (np.arange(count) * 3) // count
+    days = days_of(count)
     measured = []
     for value, noise in zip(values, pair.noise):
         scatter = (chance.standard_t(5, count) / np.sqrt(5 / 3) if heavy
                    else chance.normal(size=count))
-        measured.append(value + noise * (scatter + day_scatter * chance.normal(size=3)[days]))
+        measured.append(value + noise * (scatter + pair.day_scatter * chance.normal(size=3)[days]))
     return measured, days
 
 
@@ -329,7 +352,6 @@ def write_pair(folder, seed, kind):
         return False
     chance, pair, chi_square, parts = drawn
     heavy, tells_days = chance.random() < .3, chance.random() < .5
-    day_scatter = chance.uniform(0, .5)
     has_torque = chance.random() < .85 or bool(pair.fault)
     # Half of the pairs with lugs say so; all others say nothing of lugs.
     tells_lugs = kind == "grousers" and seed % 2 == 0
@@ -337,7 +359,7 @@ def write_pair(folder, seed, kind):
     for name, runs, values, first_day in (
             ("reference", pair.reference, values_of(pair, pair.reference, pair.soil, {}), 1),
             ("test", pair.test, test_values(pair), 4)):
-        measured, days = noisy(chance, pair, values, heavy, day_scatter)
+        measured, days = noisy(chance, pair, values, heavy)
         extra = {"day": first_day + days} if tells_days else {}
         if kind == "multipass":
             extra["pass"] = runs.wheel_pass
@@ -350,9 +372,15 @@ def write_pair(folder, seed, kind):
         write_series(folder / f"{name}.csv", runs, shown, extra)
     lines = [f"  {key}: {{mean: {mean:.7g}, std: {mean * SPREAD[key]:.6g}}}\n"
              for key, mean in pair.tests.items()]
+    # Who has hardly a replicate has in half of the pairs another way to know the scatter of a run.
+    replicates = [replicates_of(pair.reference), replicates_of(pair.test)]
+    told = ""
+    if sum(replicates) < FEW_REPLICATES and chance.random() < .5:
+        told = "noise:\n" + "".join(f"  {channel}: {noise * chance.uniform(.85, 1.2):.6g}\n"
+                                    for channel, noise in zip(CHANNELS, pair.noise))
     (folder / "setup.yaml").write_text(
         f"model: ishigami2007\nwheel: {{radius_m: {pair.wheel[0]}, width_m: {pair.wheel[1]}}}\n"
-        f"gravity_mps2: 9.80665\nsoil:\n{''.join(lines)}", encoding="utf-8")
+        f"gravity_mps2: 9.80665\nsoil:\n{''.join(lines)}{told}", encoding="utf-8")
     shown = [value for channel, value in zip(CHANNELS, chi_square)
              if has_torque or channel != "torque_nm"]
     (folder / "truth.json").write_text(json.dumps({
@@ -361,8 +389,12 @@ def write_pair(folder, seed, kind):
         "too_weak": kind != "same" and sum(shown) < WEAK_CHI_SQUARE,
         "effects": pair.effects, "fault": [str(part) for part in pair.fault],
         "lugs_told": tells_lugs, "lugs_rule": pair.lugs_rule, "lugs_chi_square_alone": parts,
+        "conditions": pair.conditions,
+        "replicates": replicates,
         "sinkage_way": pair.sinkage_way, "shared": pair.shared,
-        "day_scatter": day_scatter, "runs": [len(pair.reference.load_n), len(pair.test.load_n)],
+        "noise": dict(zip(CHANNELS, pair.noise)), "noise_told": bool(told),
+        "day_scatter": pair.day_scatter,
+        "runs": [len(pair.reference.load_n), len(pair.test.load_n)],
         "changed_soil": {key: pair.other_soil[key] / pair.soil[key] for key in pair.soil
                          if pair.other_soil[key] != pair.soil[key]}}, indent=1), encoding="utf-8")
     return True

@@ -14,7 +14,7 @@ import pathlib
 import subprocess
 
 from campaign import wilson
-from pairs import EFFECTS, KINDS, write_pair
+from pairs import EFFECTS, FEW_REPLICATES, KINDS, write_pair
 
 COLUMNS = ("right", "wrong", "silent", "too weak", "too weak, wrong")
 
@@ -42,8 +42,8 @@ def diagnose(arguments, name):
 
 
 def outcome(truth, said):
-    """One of COLUMNS. What is claimed beside a right name spoils it. Where nothing has a name, right
-    is to claim none; that nothing differs is right to be said of `same` only, and silent else."""
+    """One of COLUMNS. What is claimed beside a right name spoils it. Where nothing has a name,
+    right is to claim none; that nothing differs is right of `same` only, and silent else."""
     classes = [{claim["id"], *claim["equivalent"]} for claim in said["mechanisms"]]
     accepted = set(truth["accepted"])
     wrong = (any(not names & accepted for names in classes) if truth["kind"] in EFFECTS
@@ -59,10 +59,17 @@ def outcome(truth, said):
     return "right" if right else "silent"
 
 
+def group_of(truth):
+    """What a difference can be told by: where the test was driven, and what tells the noise."""
+    noise = ("replicates" if sum(truth["replicates"]) >= FEW_REPLICATES
+             else "noise told" if truth["noise_told"] else "few replicates")
+    return f"{truth['conditions']} conditions, {noise}"
+
+
 def described(truth, said, ranked=5):
     """What the truth is, what was said and what came near."""
     lines = [f"  truth: chi-square {truth['chi_square']:.0f}, "
-             f"{'too weak, ' if truth['too_weak'] else ''}runs {truth['runs']}"]
+             f"{'too weak, ' if truth['too_weak'] else ''}runs {truth['runs']}, {group_of(truth)}"]
     if truth["kind"] == "grousers":
         alone = ", ".join(f"{part} {value:.0f}"
                           for part, value in truth["lugs_chi_square_alone"].items())
@@ -75,7 +82,8 @@ def described(truth, said, ranked=5):
                      f"{claim['probability']:.2f}, {claim.get('evidence_nats') or 0:.1f} nats, "
                      f"over a mismatch without a name {'-' if over is None else f'{over:.1f}'}")
     top = ", ".join(f"{entry['id']} {entry['probability']:.2f} "
-                    f"({entry.get('evidence_nats') or 0:.1f})" for entry in said["ranking"][:ranked])
+                    f"({entry.get('evidence_nats') or 0:.1f})"
+                    for entry in said["ranking"][:ranked])
     return lines + [f"  ranking (nats): {top}"]
 
 
@@ -102,11 +110,14 @@ def main():
 
     counts = collections.defaultdict(collections.Counter)
     verdicts = collections.defaultdict(collections.Counter)
+    groups = collections.defaultdict(collections.Counter)
     for name, said in results.items():
         truth = json.loads((arguments.folder / name / "truth.json").read_text(encoding="utf-8"))
         kind, found = truth["kind"], outcome(truth, said)
         counts[kind][found] += 1
         verdicts[kind][said["verdict"]] += 1
+        if kind != "same":
+            groups[group_of(truth)][found] += 1
         if "wrong" in found or (arguments.silent and found == "silent"):
             print(f"{name}: {found}, {said['verdict']}", *described(truth, said), sep="\n")
 
@@ -116,7 +127,11 @@ def main():
         of = sum(counts[kind][column] for column in COLUMNS[:3])
         said = ", ".join(f"{verdict} {count}" for verdict, count in verdicts[kind].most_common())
         print(f"| {kind} | {' | '.join(str(counts[kind][column]) for column in COLUMNS)} | "
-              f"{wilson(counts[kind]['right'], of)} | {wilson(counts[kind]['wrong'], of)} | {said} |")
+              f"{wilson(counts[kind]['right'], of)} | {wilson(counts[kind]['wrong'], of)} | "
+              f"{said} |")
+    print(f"\n| all that differ | {' | '.join(COLUMNS)} |\n|{'---|' * (len(COLUMNS) + 1)}")
+    for group, found in sorted(groups.items()):
+        print(f"| {group} | {' | '.join(str(found[column]) for column in COLUMNS)} |")
     if missing := [f"{kind}-{seed}" for name, (kind, seed) in zip(drawn, cases) if name is None]:
         print(f"none of 200 draws could be driven: {', '.join(missing)}")
 

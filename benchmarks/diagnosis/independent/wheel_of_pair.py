@@ -6,8 +6,8 @@ Lugs do three things here, each with a weight of its own, 0 to leave it out:
 - `lug_block`: a share of the soil between lugs is carried round as part of the wheel and shears on
   soil along the circle of the tips (Bekker 1960; Wong, Theory of Ground Vehicles).
 - `lug_passive`: each lug in the soil pushes a wedge before it. Its factors are those of a vertical
-  blade by equilibrium of the wedge, the failure plane being the one that resists least (McKyes 1985);
-  after `lug_way` heights of a lug two thirds of it resist.
+  blade by equilibrium of the wedge, the failure plane being the one that resists least (McKyes
+  1985); after `lug_way` heights of a lug two thirds of it resist.
 - `lug_carry`: soil that lugs carry backwards is gone before the rim presses it, so that the wheel
   stands deeper with the same pressure.
 """
