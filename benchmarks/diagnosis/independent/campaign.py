@@ -31,7 +31,7 @@ def wilson(right, of):
     middle, half = share + z * z / (2 * of), z * math.sqrt(share * (1 - share) / of
                                                             + z * z / (4 * of * of))
     low, high = ((middle + sign * half) / (1 + z * z / of) for sign in (-1, 1))
-    return f"{100 * low:.0f}-{100 * high:.0f}"
+    return f"{100 * max(0, low):.0f}-{100 * high:.0f}"
 
 
 def draw(arguments, stratum, index):
