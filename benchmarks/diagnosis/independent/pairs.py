@@ -233,6 +233,9 @@ def draw_pair(chance, kind):
                 draw_fields(chance, both, 3, 15, (1, 2, 3, 4)) if kind == "nameless"
                 else [None] * len(CHANNELS), None, "", fault, rule, conditions,
                 chance.uniform(0, .5))
+    if kind == "grousers":
+        # Two in three wheels have lugs between which soil can slide out sideways.
+        pair.effects["lug_side_grip"] = chance.choice((0, 0, 1)) * chance.uniform(.3, 1)
     if kind == "nameless_sinkage":
         pair.sinkage_field = (SmoothField(chance, both, False), chance.uniform(3, 15))
         pair.sinkage_way = str(chance.choice(("excavated", "imposed")))

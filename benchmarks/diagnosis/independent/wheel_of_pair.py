@@ -4,7 +4,9 @@ lugs made of soil mechanics instead of factors.
 Lugs do three things here, each with a weight of its own, 0 to leave it out:
 
 - `lug_block`: a share of the soil between lugs is carried round as part of the wheel and shears on
-  soil along the circle of the tips (Bekker 1960; Wong, Theory of Ground Vehicles).
+  soil along the circle of the tips (Bekker 1960; Wong, Theory of Ground Vehicles). Lugs across the
+  rim hold it round, not sideways: only `lug_side_grip` of it, as where the cells are closed at the
+  sides, is held there as well; the rest slides out along the rim.
 - `lug_passive`: each lug in the soil pushes a wedge before it. Its factors are those of a vertical
   blade by equilibrium of the wedge, the failure plane being the one that resists least (McKyes
   1985); after `lug_way` heights of a lug two thirds of it resist.
@@ -91,9 +93,9 @@ class WheelOfPair(WheelWithEffects):
         wedges = self._wedges_pa(travel_m, stress)
         # Soil before a lug never resists more than the block that it is a part of.
         wedges = np.clip(along + wedges, -whole, whole) - along
-        loose = 1 - block
+        loose, held = 1 - block, block * self.size("lug_side_grip")
         return (loose * (along + wedges) + block * of_block,
-                loose * across + block * sideways,
+                (1 - held) * across + held * sideways,
                 loose * (turning + wedges * (1 + height_m / (2 * radius_m)))
                 + block * of_block * larger)
 
