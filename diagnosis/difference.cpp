@@ -41,7 +41,7 @@ struct Treatment {
     return shares.emplace(name.id, name_share(*calibrated, name.fit, threads)).first->second;
   }
 
-  const CappedName* find(const std::string& id) const {
+  const CappedName* find(std::string_view id) const {
     const auto found = std::ranges::find(names, id, &CappedName::id);
     return found == names.end() ? nullptr : &*found;
   }
@@ -57,6 +57,8 @@ double probability_of_no_difference(double p) {
   const double odds = bayes_factor(p) / bayes_factor(Thresholds::kDifference_p);
   return odds / (1 + odds);
 }
+
+constexpr std::string_view kLugs = "grousers";
 
 class Differing {
  public:
@@ -114,7 +116,7 @@ class Differing {
   void choose_effects(const DiagnosisSetup& setup, const std::vector<Reference>& references) {
     TestBed both = compared_.test.bed;
     Recording columns = compared_.recording;
-    bool same_lugs = setup.lug_height_m.has_value();
+    bool same_lugs = setup.lug_height_m.has_value(), told_lugs = same_lugs;
     for (const CondensedRecording& reference : compared_.references) {
       both.conditions.insert(both.conditions.end(), reference.bed.conditions.begin(),
                              reference.bed.conditions.end());
@@ -122,9 +124,11 @@ class Differing {
     for (const Reference& reference : references) {
       columns.columns.pass = columns.columns.pass || reference.recording.columns.pass;
       same_lugs = same_lugs && reference.setup.lug_height_m == setup.lug_height_m;
+      told_lugs = told_lugs && reference.setup.lug_height_m.has_value();
     }
     effects_ = effects_for(both, columns, EffectsOf::kDifference);
-    if (same_lugs) std::erase_if(effects_, [](const Effect& e) { return e.id == "grousers"; });
+    if (same_lugs) std::erase_if(effects_, [](const Effect& e) { return e.id == kLugs; });
+    lugs_differ_ = told_lugs && !same_lugs;
   }
 
   Treatment treat(SharedBase base) {
@@ -148,10 +152,29 @@ class Differing {
       tell("scoring what may differ", 0.2 + 0.15 * static_cast<double>(&t - treatments_.data()));
     }
     tell("simulating nameless differences", 0.6);
-    by_chance_ = nats_by_chance(*primary().calibrated, *primary().contest, primary().names,
-                                options_.seed + 2, options_.threads);
-    found_.chance_nats = reached_by_chance(by_chance_);
-    chance_p_ = chance_p();
+    const auto reached_by = [&](const std::vector<CappedName>& names) {
+      return nats_by_chance(*primary().calibrated, *primary().contest, names, options_.seed + 2,
+                            options_.threads);
+    };
+    any_by_chance_ = reached_by(primary().names);
+    const CappedName* lugs = primary().find(kLugs);
+    if (lugs_differ_ && lugs != nullptr) {
+      lugs_by_chance_ = reached_by({*lugs});
+      found_.notes.push_back(
+          "test and reference tell different lugs: whether chance does as well as grousers is "
+          "asked "
+          "of grousers alone, not of the best of all names");
+    }
+    if (primary().names.empty()) return;
+    const CappedName& first = primary().names.front();
+    found_.chance_nats = reached_by_chance(by_chance(first.id));
+    chance_p_ = chance_of(by_chance(first.id), first.over_unexplained_nats);
+  }
+
+  /// Over a difference without a name, in worlds where it has none: of the best of all names, or of
+  /// one that is told beforehand to differ.
+  const std::vector<double>& by_chance(const std::string& id) const {
+    return id == kLugs && !lugs_by_chance_.empty() ? lugs_by_chance_ : any_by_chance_;
   }
 
   /// Why an id is not claimed; empty where it is.
@@ -183,7 +206,7 @@ class Differing {
   std::string objection_to_names(const std::vector<std::string>& ids) {
     double p = 1;
     for (const std::string& id : ids) {
-      p = std::min(p, chance_of(by_chance_, primary().find(id)->over_unexplained_nats));
+      p = std::min(p, chance_of(by_chance(id), primary().find(id)->over_unexplained_nats));
     }
     if (p > Thresholds::kByChance_p) {
       return fmt::format(
@@ -268,12 +291,6 @@ class Differing {
                        Thresholds::kDifference_p);
   }
   static bool explained(const LackOfFit& left) { return left.f <= left.critical; }
-
-  /// How often nameless differences let some name do as well as the first.
-  double chance_p() {
-    const std::vector<CappedName>& names = primary().names;
-    return names.empty() ? 1 : chance_of(by_chance_, names.front().over_unexplained_nats);
-  }
 
   /// No difference is proven: how likely none is goes by the setting that lets them differ least.
   void consistent() {
@@ -386,8 +403,10 @@ class Differing {
   ComparedRecordings compared_;
   std::vector<Effect> effects_;
   std::vector<Treatment> treatments_;
-  std::vector<double> by_chance_;  // of names in nameless differences, the soil calibrated
-  double chance_p_ = 1;            // that such differences let some name do as well as the first
+  bool lugs_differ_ = false;           // as test and references tell
+  std::vector<double> any_by_chance_;  // of the best name in nameless differences
+  std::vector<double> lugs_by_chance_;
+  double chance_p_ = 1;  // that such differences let some name do as well as the first
   Diagnosis found_;
   Diagnosis complete_;  // the stages of it that are
 };

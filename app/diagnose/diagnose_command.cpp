@@ -63,9 +63,12 @@ Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options
   try {
     const DiagnosisSetup setup = setup_with(run.setup.setup, run.recording.wheel);
     if (run.references.empty()) return diagnose(run.recording.recording, setup, options);
+    DiagnosisSetup without_lugs = run.setup.setup;
+    without_lugs.lug_height_m.reset();
+    without_lugs.lug_count.reset();
     std::vector<Reference> references;
     for (const RecordingFile& file : run.references) {
-      references.push_back({file.file, file.recording, setup_with(run.setup.setup, file.wheel)});
+      references.push_back({file.file, file.recording, setup_with(without_lugs, file.wheel)});
     }
     return diagnose_difference(run.recording.recording, setup, references, options);
   } catch (const InputError& bad) {

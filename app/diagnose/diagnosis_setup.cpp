@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/settings/model_settings.h"
 #include "app/settings/settings_mapping.h"
 #include "app/settings/soil_settings.h"
+#include "terramech/mechanisms/mechanism.h"
 #include "terramech/parameters/gravity_range.h"
 
 namespace regoplan {
@@ -22,7 +25,27 @@ std::map<Channel, double> read_noise(const SettingsNode& node) {
   });
 }
 
+/// A wheel that may have lugs.
+void read_wheel(const SettingsNode& node, DiagnosisSetup& setup) {
+  setup.wheel = read_mapping(node, [&](SettingsMapping& mapping) {
+    if (const SettingsNode* height = mapping.optional("lug_height_m")) {
+      setup.lug_height_m = height->number(of_lugs("lug_height_m"));
+    }
+    if (const SettingsNode* count = mapping.optional("lug_count")) {
+      const auto most = static_cast<std::int64_t>(of_lugs("lugs").max);
+      setup.lug_count = static_cast<int>(count->integer(0, most));
+    }
+    return read_wheel(mapping);
+  });
+}
+
 }  // namespace
+
+ValueRange of_lugs(std::string_view parameter) {
+  const MechanismForm& lugs = form_of({.id = "grousers", .form = "passive_pressure"});
+  const auto range = std::ranges::find(lugs.parameters, parameter, &MechanismParameter::name);
+  return {.min = range->least, .max = range->most};
+}
 
 SetupSettings read_setup(const SettingsNode& node) {
   return read_mapping(node, [](SettingsMapping& mapping) {
@@ -30,7 +53,7 @@ SetupSettings read_setup(const SettingsNode& node) {
     DiagnosisSetup& setup = settings.setup;
     setup.variant = read_variant(mapping.required("model"));
     const SettingsNode& wheel = mapping.required("wheel");
-    setup.wheel = read_wheel(wheel);
+    read_wheel(wheel, setup);
     constexpr double kLargest_m = 5;  // the usual mistake is millimetres
     for (const auto& [key, value] :
          {std::pair{"radius_m", setup.wheel.radius_m}, std::pair{"width_m", setup.wheel.width_m}}) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/settings/settings_node.h"
@@ -16,9 +17,15 @@ struct SetupSettings {
   std::vector<std::string> warnings;     ///< numbers whose unit is doubtful, a sentence each
 };
 
-/// Reads `{model, wheel: {radius_m, width_m}, gravity_mps2, soil: {<soil keys>}, soil_name, noise:
+/// What lugs can be, as their mechanism has it.
+/// \param parameter `lug_height_m` or `lugs`
+ValueRange of_lugs(std::string_view parameter);
+
+/// Reads `{model, wheel: {radius_m, width_m, lug_height_m, lug_count}, gravity_mps2, soil: {<soil
+/// keys>}, soil_name, noise:
 /// {<channel>: standard deviation}, mechanisms: []}`: a model file will do, as long as it has no
-/// mechanisms. Noise counts where a recording has no replicates.
+/// mechanisms. Lugs are those of the test, not of references. Noise counts where a recording has no
+/// replicates.
 SetupSettings read_setup(const SettingsNode& node);
 SetupSettings read_setup_file(const std::string& file);
 

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "app/diagnose/copied_runs.h"
+#include "app/diagnose/diagnosis_setup.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/mechanisms/mechanism.h"
@@ -166,13 +167,6 @@ std::optional<double> one_for_all(const RecordingFile& read, std::string_view co
   const std::optional<double> value = parse_number(read.cells[0][index]);
   if (!value || !allowed.contains(*value)) throw refuse(0, allowed.text());
   return value;
-}
-
-/// What lugs can be, as the mechanism has it.
-ValueRange of_lugs(std::string_view parameter) {
-  const MechanismForm& lugs = form_of({.id = "grousers", .form = "passive_pressure"});
-  const auto range = std::ranges::find(lugs.parameters, parameter, &MechanismParameter::name);
-  return {.min = range->least, .max = range->most};
 }
 
 RecordedWheel recorded_wheel(const RecordingFile& read) {

@@ -49,12 +49,14 @@ WheelVariant read_variant(const SettingsNode& node) {
 }
 
 Wheel read_wheel(const SettingsNode& node) {
-  return read_mapping(node, [](SettingsMapping& mapping) {
-    const Wheel wheel{.radius_m = mapping.number("radius_m", kAbove0),
-                      .width_m = mapping.number("width_m", kAbove0)};
-    validate(wheel);
-    return wheel;
-  });
+  return read_mapping(node, [](SettingsMapping& mapping) { return read_wheel(mapping); });
+}
+
+Wheel read_wheel(SettingsMapping& keys) {
+  const Wheel wheel{.radius_m = keys.number("radius_m", kAbove0),
+                    .width_m = keys.number("width_m", kAbove0)};
+  validate(wheel);
+  return wheel;
 }
 
 ModelSettings read_model(const SettingsNode& node) {

@@ -38,5 +38,7 @@ std::string variant_name(WheelVariant variant);
 
 /// Reads a wheel `{radius_m, width_m}`.
 Wheel read_wheel(const SettingsNode& node);
+/// The same of a mapping that has other keys beside.
+Wheel read_wheel(SettingsMapping& keys);
 
 }  // namespace regoplan

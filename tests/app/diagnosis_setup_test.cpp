@@ -40,6 +40,16 @@ TEST(DiagnosisSetup, NoiseIsOfAChannelAndAbove0) {
             std::string::npos);
 }
 
+TEST(DiagnosisSetup, AWheelMayHaveLugs) {
+  const std::string with = "radius_m: 0.09, lug_height_m: 0.01, lug_count: 18";
+  const SetupSettings read = setup(replaced(kSimulantModel, "radius_m: 0.09", with));
+  EXPECT_EQ(read.setup.lug_height_m, 0.01);
+  EXPECT_EQ(read.setup.lug_count, 18);
+  EXPECT_FALSE(setup(std::string(kSimulantModel)).setup.lug_height_m);
+  EXPECT_EQ(setup_error("radius_m: 0.09", "radius_m: 0.09, lug_height_m: 10"),
+            "s.yaml:2: wheel.lug_height_m: 10 is not valid (allowed: 0 to 0.2)");
+}
+
 TEST(DiagnosisSetup, WhatCannotBeIsAnErrorWithItsLine) {
   EXPECT_EQ(setup_error("radius_m: 0.09", "radius_m: 90"),
             "s.yaml:2: wheel.radius_m: 90 is not valid (allowed: above 0 to 5); suspected: mm");

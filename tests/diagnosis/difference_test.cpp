@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "synthetic_bed.h"
 #include "terramech/basics/input_error.h"
@@ -130,6 +131,52 @@ TEST(Difference, OfWhatATurnedSensorDoesToBothIsNoneWhicheverSideEachWasDriven) 
                             {{"reference", record({}, setup, soil, plan, seed + 100), setup}});
     EXPECT_EQ(found.verdict, Verdict::kConsistent) << found.sentence;
   }
+}
+
+/// A test that pulls and is driven as a wheel with lugs is, against one without.
+Diagnosis of_lugs(std::optional<double> test_height_m, std::optional<double> reference_height_m) {
+  DiagnosisSetup setup = simulant_setup(), smooth = setup;
+  setup.lug_height_m = test_height_m;
+  smooth.lug_height_m = reference_height_m;
+  const BedPlan plan{.slips = {-0.3, 0, 0.2, 0.4, 0.7},
+                     .angles_deg = {0, 8, 16},
+                     .loads_n = {64.7},
+                     .conditions = 15,
+                     .replicates = 3};
+  TrueWheel lugs = shared_shortcoming();
+  const auto shared = lugs.fx_n;
+  lugs.fx_n = [shared](const WheelRun& run, double h) {
+    return shared(run, h) + 9 * (1 - std::exp(-5 * std::max(run.slip_ratio, 0.0)));
+  };
+  lugs.torque_nm = [](const WheelRun& run, double) {
+    return 0.9 * (1 - std::exp(-5 * std::max(run.slip_ratio, 0.0)));
+  };
+  return diagnose_difference(
+      record(lugs, setup, setup.soil.mean, plan, 21), setup,
+      {{"reference", record(shared_shortcoming(), smooth, setup.soil.mean, plan, 22), smooth}});
+}
+
+bool asks_of_lugs_alone(const Diagnosis& found) {
+  return std::ranges::any_of(found.notes, [](const std::string& note) {
+    return note.starts_with("test and reference tell different lugs");
+  });
+}
+
+TEST(Difference, OfLugsThatAreToldIsAskedForBeforehand) {
+  const Diagnosis told = of_lugs(0.01, 0), untold = of_lugs({}, {});
+  EXPECT_TRUE(asks_of_lugs_alone(told));
+  EXPECT_FALSE(asks_of_lugs_alone(untold));
+  EXPECT_GT(probability_of(told, "grousers"), 0);
+  // one name reaches less by chance than the best of all
+  EXPECT_LT(told.chance_nats, untold.chance_nats);
+}
+
+TEST(Difference, OfLugsNeedsBothToTellThem) {
+  const Diagnosis same = of_lugs(0.01, 0.01);
+  EXPECT_TRUE(std::ranges::none_of(
+      same.ranking, [](const ScoredCandidate& one) { return one.id == "grousers"; }));
+  EXPECT_FALSE(asks_of_lugs_alone(same));
+  EXPECT_FALSE(asks_of_lugs_alone(of_lugs(0.01, {})));
 }
 
 TEST(Difference, IsNotMadeOfOutliersThatNoReplicateTells) {
