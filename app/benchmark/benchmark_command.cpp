@@ -14,6 +14,7 @@
 #include "app/benchmark/benchmark_main.h"
 #include "app/benchmark/benchmark_report.h"
 #include "app/command/command.h"
+#include "app/command/kept_page_notice.h"
 #include "app/command/plan_options.h"
 #include "app/command/program_run.h"
 #include "app/command/suite_progress_line.h"
@@ -129,6 +130,7 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
   const Shard shard = shard_of(options.shard);
   const Suite suite = read_suite(options.suite, names_of(options.own));
   require_results_fit(options.out, benchmark_file_names());
+  notify_of_kept_page(options.out, "benchmark", options.quiet);
   const ReadScenarios read = read_scenarios(suite);
   const std::stop_token stop = stop_on_interrupt();
   const auto problem_of = [&suite](std::size_t scenario, std::size_t point) {
@@ -152,6 +154,7 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
 
 ExitStatus run_merge(const BenchmarkOptions& options) {
   require_results_fit(options.out, benchmark_file_names());
+  notify_of_kept_page(options.out, "benchmark", options.quiet);
   std::vector<JournalContents> parts;
   if (std::filesystem::exists(options.out.path / kJournalName)) {
     throw InputError(options.out.path.string() + ": holds a benchmark already (" + kJournalName +

@@ -175,7 +175,8 @@ std::string benchmark_report(const SuiteResults& results, const ScenarioMaps& ma
     list.push_back(json_of(experiment));
     list.back()["scenario"] = scenario_of(experiment.name);
   }
-  return render({.title = "Benchmark " + origin.suite,
+  return render({.command = "benchmark",
+                 .title = "Benchmark " + origin.suite,
                  .headline = headline(results, totals),
                  .lead = lead_sentences(results.journal, totals, results.interrupted),
                  .body_html = report_assets::kBenchmarkHtml,

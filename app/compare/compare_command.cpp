@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command/command.h"
+#include "app/command/kept_page_notice.h"
 #include "app/command/plan_options.h"
 #include "app/compare/comparison_report.h"
 #include "app/io/staged_files.h"
@@ -74,6 +75,7 @@ ExitStatus run(const CompareOptions& options) {
   if (!options.folder.path.empty()) {
     require_other_folder(options);
     require_results_fit(options.folder, {"comparison.json", "report.html"});
+    notify_of_kept_page(options.folder, "compare", options.quiet);
   }
   const ComparedResult a = read_compared_result(options.a), b = read_compared_result(options.b);
   const Comparison comparison = compared(a, b);

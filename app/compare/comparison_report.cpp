@@ -62,7 +62,8 @@ std::string comparison_report(const ComparedResult& a, const ComparedResult& b,
     data["entries"][i]["paths"] = {{"a", pair.a ? path_json(pair.a->path) : Json()},
                                    {"b", pair.b ? path_json(pair.b->path) : Json()}};
   }
-  return render({.title = fmt::format("Two results: {}", name(a.kind)),
+  return render({.command = "compare",
+                 .title = fmt::format("Two results: {}", name(a.kind)),
                  .headline = comparison_headline(a, b, comparison),
                  .lead = {"A: " + short_name(a), "B: " + short_name(b)},
                  .body_html = report_assets::kCompareHtml,

@@ -145,7 +145,8 @@ std::string loop_report(const ClosedLoop& loop, const PlanningProblem& known) {
   for (const DriveClaim& claim : loop.diagnosis.diagnosis.claims) {
     lead.push_back(fmt::format("{}: {}.", claim.id, claim.text));
   }
-  return render({.title = "Plan, drive, diagnosis, plan again",
+  return render({.command = "demo",
+                 .title = "Plan, drive, diagnosis, plan again",
                  .headline = loop_headline(loop),
                  .lead = lead,
                  .body_html = report_assets::kLoopHtml,

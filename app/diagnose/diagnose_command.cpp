@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/command/command.h"
+#include "app/command/kept_page_notice.h"
 #include "app/command/plan_options.h"
 #include "app/command/progress_line.h"
 #include "app/diagnose/diagnosis_files.h"
@@ -142,6 +143,7 @@ ExitStatus run_diagnosis(const Options& options) {
   }
 
   require_results_fit(options.folder, diagnosis_file_names());
+  notify_of_kept_page(options.folder, "diagnose", options.quiet);
   const std::stop_token stop = stop_on_interrupt();
   {
     ProgressLine line(options.quiet);

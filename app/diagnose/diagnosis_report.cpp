@@ -191,7 +191,8 @@ std::string diagnosis_report(const DiagnosisRun& run) {
     lead.push_back(verdict_sentence(run.diagnosis.verdict, !run.references.empty()));
   lead.push_back(basis_sentence(run));
   return render(
-      {.title = fmt::format("Diagnosis of {}",
+      {.command = "diagnose",
+       .title = fmt::format("Diagnosis of {}",
                             std::filesystem::path(run.recording.file).filename().string()),
        .headline = diagnosis_headline(run),
        .lead = lead,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/command/kept_page_notice.h"
 #include "app/command/progress_line.h"
 #include "app/diagnose_drive/corrected_files.h"
 #include "app/diagnose_drive/drive_diagnosis_files.h"
@@ -118,6 +119,7 @@ void write_drive_diagnosis(const DriveDiagnosisRun& run, const ResultFolder& fol
 
 ExitStatus run_drive_diagnosis(const DriveDiagnosisCommand& command) {
   require_writable_folder(command.folder);
+  notify_of_kept_page(command.folder, "diagnose", command.quiet);
   const DriveDiagnosisRun run = diagnosed(command);
   write_drive_diagnosis(run, command.folder);
   if (command.json) {

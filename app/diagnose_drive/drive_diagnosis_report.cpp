@@ -130,7 +130,8 @@ std::string drive_diagnosis_report(const DriveDiagnosisRun& run) {
   }
   if (const auto nearest = nearest_text(run.diagnosis)) lead.push_back(*nearest + ".");
   for (const std::string& withheld : withheld_texts(run)) lead.push_back(withheld + ".");
-  return render({.title = "Diagnosis of drives",
+  return render({.command = "diagnose",
+                 .title = "Diagnosis of drives",
                  .headline = drive_diagnosis_headline(run),
                  .lead = lead,
                  .body_html = report_assets::kDrivesHtml,

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/command/command.h"
+#include "app/command/kept_page_notice.h"
 #include "app/command/plan_options.h"
 #include "app/command/progress_line.h"
 #include "app/drive/drive_run.h"
@@ -101,6 +102,7 @@ ExitStatus run(const Options& options) {
                      .settings = settings_of(options, problem, pipe)};
   const TrueWorld world = true_world(problem, record);
   require_results_fit(options.folder, drive_result_names(record.page));
+  notify_of_kept_page(options.folder, "drive", options.quiet);
   for (const std::string& notice : scenario.notices) notify(notice, options.quiet);
   for (const std::string& notice : given.notices) notify(notice, options.quiet);
   if (!record.ends_in_goal) {

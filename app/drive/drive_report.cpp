@@ -315,7 +315,8 @@ std::vector<std::string> drive_lead(const DriveRecord& record) {
 
 std::string drive_report(const PlanningProblem& problem, const ReferencePath& path,
                          const DriveRecord& record, const TrueWorld& world) {
-  return render({.title = fmt::format("Drive of {}", problem.vehicle.name),
+  return render({.command = "drive",
+                 .title = fmt::format("Drive of {}", problem.vehicle.name),
                  .headline = drive_headline(record),
                  .lead = drive_lead(record),
                  .body_html = report_assets::kDriveHtml,

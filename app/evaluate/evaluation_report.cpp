@@ -106,7 +106,8 @@ std::string evaluation_report(const PlanningProblem& problem, const EvaluationRe
   std::vector<std::string> lead;
   if (result.interrupted) lead.emplace_back("Interrupted: this is what was evaluated by then.");
   return render(
-      {.title = fmt::format("Evaluation for {}", problem.vehicle.name),
+      {.command = "evaluate",
+       .title = fmt::format("Evaluation for {}", problem.vehicle.name),
        .headline = evaluation_headline(result),
        .lead = lead,
        .body_html = body,

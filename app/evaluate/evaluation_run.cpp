@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 
+#include "app/command/kept_page_notice.h"
 #include "app/command/progress_line.h"
 #include "app/evaluate/evaluation_files.h"
 #include "app/evaluate/evaluation_report.h"
@@ -186,6 +187,7 @@ ExitStatus run_evaluation(const Scenario& scenario, const EvaluationRequest& req
   const GivenCourses given = read_courses(request, problem);
   const std::vector<InputDigest> inputs = digests_of(inputs_of(scenario, request));
   require_results_fit(request.folder, {"evaluation.json", "report.html"});
+  notify_of_kept_page(request.folder, "evaluate", request.quiet);
   for (const std::string& notice : scenario.notices) notify(notice, request.quiet);
   for (const GivenPath& path : given.paths) {
     for (const std::string& notice : path.notices) notify(notice, request.quiet);

@@ -12,6 +12,7 @@
 #include <random>
 #include <system_error>
 
+#include "app/io/page_command.h"
 #include "app/io/result_manifest.h"
 #include "terramech/basics/input_error.h"
 
@@ -74,6 +75,12 @@ void sweep(const fs::path& folder) {
 
 [[noreturn]] void refuse(const ResultFolder& folder, const fs::path& at, std::string_view why) {
   throw InputError(fmt::format("{}: {}: {}", folder.option, at.string(), why));
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  std::error_code failed;
+  fs::rename(from, to, failed);
+  if (failed) fail(to, failed.message());
 }
 
 /// Held while results are moved into a folder, taken away or looked at, so that of two processes
@@ -150,6 +157,12 @@ void require_replaceable(const ResultFolder& folder, const std::vector<std::stri
 void require_writable_folder(const ResultFolder& folder) {
   // Rights do not tell all: a disk may be full, and root may not write everywhere either.
   const StagedFiles tried(folder);
+}
+
+std::string other_page(const ResultFolder& folder, std::string_view command,
+                       const std::string& page) {
+  const std::string there = page_command(folder.path / page);
+  return there == command ? "" : there;
 }
 
 void require_results_fit(const ResultFolder& folder, const std::vector<std::string>& names) {
@@ -234,14 +247,40 @@ void StagedFiles::commit() {
 }
 
 void StagedFiles::move_all() {
-  require_replaceable(folder_, names_);
+  const std::vector<PageMove> pages = pages_of_others();
+  std::vector<std::string> replaced = names_;
+  for (const PageMove& page : pages) replaced.push_back(page.kept);
+  require_replaceable(folder_, replaced);
   ResultManifest manifest(folder_.path);
   // Killed at any moment, each file is one of the two that the manifest then knows.
+  for (const PageMove& page : pages) manifest.add(page.kept, folder_.path / page.name);
   for (const std::string& name : names_) manifest.add(name, staging_ / name);
   write_manifest(manifest.text());
-  for (const std::string& name : names_) move(name);
+  for (const PageMove& page : pages) move_file(folder_.path / page.name, folder_.path / page.kept);
+  for (const std::string& name : names_) move_file(staging_ / name, folder_.path / name);
+  for (const PageMove& page : pages) manifest.set(page.kept, folder_.path / page.kept);
   for (const std::string& name : names_) manifest.set(name, folder_.path / name);
+  for (const std::string& name : names_) remove_kept(name, manifest);
   write_manifest(manifest.text());
+}
+
+std::vector<StagedFiles::PageMove> StagedFiles::pages_of_others() const {
+  std::vector<PageMove> pages;
+  for (const std::string& name : names_) {
+    const std::string command = page_command(staging_ / name);
+    const std::string other = command.empty() ? "" : other_page(folder_, command, name);
+    if (!other.empty()) pages.push_back({.name = name, .kept = kept_page_name(other, name)});
+  }
+  return pages;
+}
+
+/// What was kept of a command's earlier page is out of date once its next one stands.
+void StagedFiles::remove_kept(const std::string& name, ResultManifest& manifest) const {
+  const std::string command = page_command(folder_.path / name);
+  if (command.empty() || !manifest.is_own(kept_page_name(command, name))) return;
+  std::error_code failed;  // stays in the manifest where it cannot be taken away
+  fs::remove(folder_.path / kept_page_name(command, name), failed);
+  if (!failed) manifest.remove(kept_page_name(command, name));
 }
 
 bool StagedFiles::remove(const std::string& name) {
@@ -260,13 +299,7 @@ void StagedFiles::write_manifest(const std::string& text) {
   stream << text;
   stream.close();
   if (!stream) fail(staging_ / ResultManifest::kName, "cannot be written (disk full?)");
-  move(ResultManifest::kName);
-}
-
-void StagedFiles::move(const std::string& name) const {
-  std::error_code failed;
-  fs::rename(staging_ / name, folder_.path / name, failed);
-  if (failed) fail(folder_.path / name, failed.message());
+  move_file(staging_ / ResultManifest::kName, folder_.path / ResultManifest::kName);
 }
 
 }  // namespace regoplan

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -20,11 +21,14 @@ struct ResultFolder {
   std::string option = "--out";  ///< that names it, for messages
 };
 
+class ResultManifest;
+
 /// Files on their way into a folder: written to a hidden folder inside it (where it is missing,
 /// inside the lowest one above it that exists), moved to their names by `commit()`, and gone
 /// without a trace where that is never reached. So there are whole files or none, and a folder only
 /// where it holds something. Processes may share a folder: the files of one `commit()` stand
-/// together. Hidden folders that killed processes have left are swept.
+/// together. Hidden folders that killed processes have left are swept. A page replaces only pages
+/// of its command: that of another stays beside it, as `kept_page_name` says.
 class StagedFiles {
  public:
   /// Finds out whether the folder can be made where it is missing.
@@ -49,11 +53,17 @@ class StagedFiles {
   bool remove(const std::string& name);
 
  private:
+  /// The page of another command, in the folder, and what it is called from now on.
+  struct PageMove {
+    std::string name, kept;
+  };
+
   void try_missing(const std::filesystem::path& missing, std::error_code& failed) const;
   void remove_staging() const;
   void move_all();
   void write_manifest(const std::string& text);
-  void move(const std::string& name) const;
+  std::vector<PageMove> pages_of_others() const;
+  void remove_kept(const std::string& name, ResultManifest& manifest) const;
 
   ResultFolder folder_;
   std::filesystem::path staging_;
@@ -65,6 +75,11 @@ class StagedFiles {
 /// everything as it was.
 /// \throws InputError where that fails
 void require_writable_folder(const ResultFolder& folder);
+
+/// The command whose page stands where another command will write the page of this name, and so is
+/// kept under another; empty where there is none.
+std::string other_page(const ResultFolder& folder, std::string_view command,
+                       const std::string& page = "report.html");
 
 /// \throws InputError also where one of these files could not be replaced: it is no regular file,
 /// or not as regoplan left it

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/io/page_command.h"
 #include "app/page/report_assets.h"
 
 namespace regoplan {
@@ -84,7 +85,9 @@ std::string render(const ReportPage& page) {
   const std::string title = html_escaped(page.title);
   const std::string headline = html_escaped(page.headline);
   const std::string lead = paragraphs(page.lead);
-  const std::array<Filling, 10> fillings{{{"title", title},
+  const std::string mark = page_mark(page.command);
+  const std::array<Filling, 11> fillings{{{"mark", mark},
+                                          {"title", title},
                                           {"headline", headline},
                                           {"lead", lead},
                                           {"body", page.body_html},

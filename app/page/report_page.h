@@ -9,6 +9,7 @@ namespace regoplan {
 
 /// What one report is made of. Text is plain text; only `body_html` and `script` are trusted.
 struct ReportPage {
+  std::string_view command;  ///< that makes it
   std::string title;
   std::string headline;           ///< the verdict in one sentence
   std::vector<std::string> lead;  ///< what else must be known first, a sentence each

@@ -203,7 +203,8 @@ std::string plan_report(const PlanningProblem& problem, const PlanResult& result
   const StartState& start = problem.start;
   const Goal& goal = problem.goal;
   return render(
-      {.title = fmt::format("Plan for {} from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})",
+      {.command = "plan",
+       .title = fmt::format("Plan for {} from ({:.1f}, {:.1f}) to ({:.1f}, {:.1f})",
                             problem.vehicle.name, start.x_m, start.y_m, goal.x_m, goal.y_m),
        .headline = plan_headline(result, problem.limits),
        .lead = lead_sentences(result),

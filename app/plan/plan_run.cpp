@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "app/command/kept_page_notice.h"
 #include "app/command/progress_line.h"
 #include "app/io/interrupt.h"
 #include "app/io/quantity_text.h"
@@ -114,6 +115,7 @@ ExitStatus status_of(const PlanResult& result) {
 
 PlanRun run_plan(const Scenario& scenario, const PlanOutput& output) {
   require_results_fit(output.folder, plan_file_names(scenario.problem));
+  notify_of_kept_page(output.folder, "plan", output.quiet);
   for (const std::string& notice : scenario.notices) notify(notice, output.quiet);
   const PlanOrigin origin{.inputs = digests_of(scenario.inputs), .again = output.again};
   if (origin.again) notify(again_notice(origin), output.quiet);

@@ -45,6 +45,21 @@ TEST_F(DriveProgram, ReachesTheEndAndRecords) {
   EXPECT_EQ(truth["time_s"].size(), truth["wheels"]["front_left"]["slip"].size());
 }
 
+TEST_F(DriveProgram, ThePageOfAnotherCommandInItsFolderIsKeptAndTheUserTold) {
+  const ProgramRun judged = run_program(
+      folder_, "evaluate '" + folder_.path("scenario.yaml") + "' '" + folder_.path("path.csv") +
+                   "' --quiet --out '" + folder_.path("out") + "'");
+  ASSERT_EQ(judged.status, 0) << judged.errors;
+  const std::string page = folder_.read("out/report.html");
+  const ProgramRun run = drive("");
+  EXPECT_EQ(run.status, 0) << run.errors;
+  EXPECT_NE(run.errors.find("the page of evaluate, kept as evaluate-report.html"),
+            std::string::npos)
+      << run.errors;
+  EXPECT_EQ(folder_.read("out/evaluate-report.html"), page);
+  EXPECT_NE(folder_.read("out/report.html"), page);
+}
+
 TEST_F(DriveProgram, AFollowerInAnotherProcessIsAskedOverTwoPipes) {
   const std::string script = folder_.write(
       "follow.py",

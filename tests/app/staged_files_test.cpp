@@ -8,6 +8,7 @@
 #include <iostream>
 #include <optional>
 
+#include "app/io/page_command.h"
 #include "tests/error_text.h"
 #include "tests/scratch_folder.h"
 
@@ -57,6 +58,40 @@ void put(const ResultFolder& folder, const std::string& content) {
   staged.write({.name = "one", .content = content});
   staged.write({.name = "two", .content = content});
   staged.commit();
+}
+
+/// The page of a command.
+void put_page(const ResultFolder& folder, const std::string& command, const std::string& content) {
+  StagedFiles staged(folder);
+  staged.write({.name = "report.html", .content = page_mark(command) + content});
+  staged.commit();
+}
+
+TEST(StagedFiles, KeepThePageOfAnotherCommandAndReplaceThatOfTheirOwn) {
+  const ScratchFolder folder;
+  const ResultFolder results{folder.path("")};
+  put_page(results, "plan", "1");
+  put_page(results, "plan", "2");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("plan-report.html")));
+  put_page(results, "drive", "3");
+  put_page(results, "drive", "4");
+  EXPECT_EQ(folder.read("plan-report.html"), page_mark("plan") + "2");
+  EXPECT_EQ(folder.read("report.html"), page_mark("drive") + "4");
+  // The plan's next page makes what was kept of it out of date.
+  put_page(results, "plan", "5");
+  EXPECT_EQ(folder.read("report.html"), page_mark("plan") + "5");
+  EXPECT_EQ(folder.read("drive-report.html"), page_mark("drive") + "4");
+  EXPECT_FALSE(std::filesystem::exists(folder.path("plan-report.html")));
+}
+
+TEST(StagedFiles, KeepNoPageOverAFileThatSomebodyElseWrote) {
+  const ScratchFolder folder;
+  put_page({folder.path("")}, "plan", "1");
+  folder.write("plan-report.html", "mine");
+  EXPECT_NE(error_text([&] { put_page({folder.path("")}, "drive", "2"); }).find("plan-report.html"),
+            std::string::npos);
+  EXPECT_EQ(folder.read("plan-report.html"), "mine");
+  EXPECT_EQ(folder.read("report.html"), page_mark("plan") + "1");
 }
 
 TEST(StagedFiles, ReplaceWhatTheyWroteAndNothingElse) {
