@@ -14,6 +14,7 @@
 #include "app/diagnose/diagnosis_report.h"
 #include "app/diagnose/diagnosis_summary.h"
 #include "app/diagnose/recording_checks.h"
+#include "app/diagnose/same_runs.h"
 #include "app/diagnose_drive/drive_diagnosis_command.h"
 #include "app/io/interrupt.h"
 #include "app/io/staged_files.h"
@@ -100,7 +101,8 @@ ExitStatus run_drives(const Options& options) {
 /// \throws InputError where it is one of those before it: each counts once
 RecordingFile another_reference(const std::string& file, const std::vector<RecordingFile>& before) {
   RecordingFile reference = read_recording(file);
-  const auto same = std::ranges::find(before, reference.cells, &RecordingFile::cells);
+  const auto same = std::ranges::find_if(
+      before, [&](const RecordingFile& other) { return are_same_runs(reference, other); });
   if (same == before.end()) return reference;
   throw InputError(fmt::format("{}: the same runs as {}: each counts once", file, same->file));
 }
@@ -123,7 +125,7 @@ ExitStatus run_diagnosis(const Options& options) {
     for (const std::string& warning : checked(run.references.back(), run.setup.setup)) {
       recording.warnings.push_back(fmt::format("{}: {}", reference, warning));
     }
-    if (run.references.back().cells == run.recording.cells) {
+    if (are_same_runs(run.references.back(), run.recording)) {
       recording.warnings.push_back(
           fmt::format("{}: the same runs as the recording's: nothing can differ", reference));
     }
