@@ -2,20 +2,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
+
+#include "planner/runtime/draw_statistics.h"
 
 namespace regoplan {
 namespace {
 
-std::optional<double> median_of(const PlannerRuns& runs, const std::string& property) {
+/// A median of a summary, and the property of the runs that it is of.
+struct MedianField {
+  const char* name;
+  std::optional<double> PlannerSummary::*median;
+  const char* property;
+};
+constexpr std::array<MedianField, 6> kMedians{
+    {{"time_median_s", &PlannerSummary::time_median_s, "time REAL"},
+     {"length_median_m", &PlannerSummary::length_median_m, "path length m REAL"},
+     {"duration_median_s", &PlannerSummary::duration_median_s, "path duration s REAL"},
+     {"energy_median_j", &PlannerSummary::energy_median_j, "path energy j REAL"},
+     {"margin_median", &PlannerSummary::margin_median, "margin min REAL"},
+     {"propagations_median", &PlannerSummary::propagations_median, "propagations INTEGER"}}};
+
+std::vector<double> verified_values(const PlannerRuns& runs, const std::string& property) {
   std::vector<double> values;
   for (const RunRecord& run : runs.runs) {
     const auto value = number(run.outcome, property);
     if (solved_and_verified(run.outcome) && value) values.push_back(*value);
   }
-  if (values.empty()) return std::nullopt;
-  return median(std::move(values));
+  return values;
 }
 
 std::map<std::uint64_t, double> by_seed(const PlannerRuns& runs, const std::string& property) {
@@ -56,6 +72,14 @@ double median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
+std::optional<std::array<double, 2>> median_ci95(std::vector<double> values) {
+  constexpr double kOpen = std::numeric_limits<double>::infinity();
+  const auto [low, high] =
+      quantile_interval(std::move(values), 0.5, {.low = -kOpen, .high = kOpen});
+  if (!std::isfinite(low) || !std::isfinite(high)) return std::nullopt;
+  return std::array{low, high};
+}
+
 std::array<double, 2> wilson_ci95(int hits, int of) {
   constexpr double kZ = 1.959963984540054;
   const double n = of, p = hits / n, z2 = kZ * kZ;
@@ -72,12 +96,12 @@ PlannerSummary summary_of(const PlannerRuns& runs) {
     summary.crashed += number(run.outcome, "status ENUM") == ompl_crash_status() ? 1 : 0;
   }
   summary.success_ci95 = wilson_ci95(summary.verified, summary.runs);
-  summary.time_median_s = median_of(runs, "time REAL");
-  summary.length_median_m = median_of(runs, "path length m REAL");
-  summary.duration_median_s = median_of(runs, "path duration s REAL");
-  summary.energy_median_j = median_of(runs, "path energy j REAL");
-  summary.margin_median = median_of(runs, "margin min REAL");
-  summary.propagations_median = median_of(runs, "propagations INTEGER");
+  for (const MedianField& field : kMedians) {
+    const std::vector<double> values = verified_values(runs, field.property);
+    if (values.empty()) continue;
+    summary.*field.median = median(values);
+    if (const auto interval = median_ci95(values)) summary.medians_ci95[field.name] = *interval;
+  }
   return summary;
 }
 

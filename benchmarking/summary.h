@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct PlannerSummary {
   std::optional<double> energy_median_j;
   std::optional<double> margin_median;
   std::optional<double> propagations_median;
+  /// 95 % intervals of these medians, by the names of their fields; of fewer than six runs there is
+  /// none.
+  std::map<std::string, std::array<double, 2>> medians_ci95 = {};
 };
 
 PlannerSummary summary_of(const PlannerRuns& runs);
@@ -43,6 +47,10 @@ std::vector<PairedComparison> paired_comparisons(const BenchmarkExperiment& expe
 
 /// Wilson's 95 % interval of a share. \param of at least 1
 std::array<double, 2> wilson_ci95(int hits, int of);
+
+/// The 95 % interval of a median between two of the ordered values, whatever they are distributed
+/// like. None of fewer than six: all of them lie on one side of the median too often.
+std::optional<std::array<double, 2>> median_ci95(std::vector<double> values);
 
 /// \pre not empty
 double median(std::vector<double> values);

@@ -27,7 +27,8 @@ nlohmann::json json_of(const PlannerSummary& summary) {
           {"duration_median_s", or_null(summary.duration_median_s)},
           {"energy_median_j", or_null(summary.energy_median_j)},
           {"margin_median", or_null(summary.margin_median)},
-          {"propagations_median", or_null(summary.propagations_median)}};
+          {"propagations_median", or_null(summary.propagations_median)},
+          {"medians_ci95", summary.medians_ci95}};
 }
 
 nlohmann::json json_of(const PairedComparison& pair) {

@@ -47,8 +47,14 @@ std::vector<std::optional<Interval>> intervals_of(const Json& entry, ResultKind 
   for (const ComparedMetric& metric : metrics_of(kind)) {
     std::optional<Interval>& interval = intervals.emplace_back();
     const auto found = entry.find(std::string(metric.interval_key));
-    if (metric.interval_key.empty() || found == entry.end() || !found->is_array()) continue;
-    interval = {found->at(0).get<double>(), found->at(1).get<double>()};
+    if (metric.interval_key.empty()) continue;
+    if (found != entry.end() && found->is_array()) {
+      interval = {found->at(0).get<double>(), found->at(1).get<double>()};
+    } else if (metric.of_few) {
+      // Runs too few for an interval leave open how far chance reaches.
+      constexpr double kOpen = std::numeric_limits<double>::infinity();
+      interval = {-kOpen, kOpen};
+    }
   }
   return intervals;
 }
@@ -136,14 +142,16 @@ std::string seeds_text(const Json& seeds) {
 }
 
 /// A planner's summary with its counts as shares of its runs, which tell planners apart whose runs
-/// are not as many.
-Json with_shares(Json planner) {
+/// are not as many, and with the intervals of its medians beside them.
+Json with_intervals(Json planner) {
   const int runs = planner.at("runs").get<int>();
   for (const std::string count : {"verified", "overturned"}) {
     const int hits = planner.at(count).get<int>();
     planner[count + "_share"] = static_cast<double>(hits) / runs;
     planner[count + "_share_ci95"] = wilson_ci95(hits, runs);
   }
+  const Json intervals = planner.value("medians_ci95", Json::object());
+  for (const auto& [key, interval] : intervals.items()) planner[key + "_ci95"] = interval;
   return planner;
 }
 
@@ -157,14 +165,14 @@ void read_benchmark(const Json& json, ComparedResult& result) {
   for (const Json& experiment : json.at("experiments")) {
     for (const Json& planner : experiment.at("planners")) {
       const int runs = planner.at("runs").get<int>(), verified = planner.at("verified").get<int>();
-      const Json shares = with_shares(planner);
+      const Json summary = with_intervals(planner);
       result.entries.push_back(
           {.name = fmt::format("{}, {}", experiment.at("name").get<std::string>(),
                                planner.at("planner").get<std::string>()),
            .verdict = fmt::format("{} of {} verified", verified, runs),
            .feasible = verified > 0,
-           .values = values_of(shares, ResultKind::kBenchmark),
-           .intervals = intervals_of(shares, ResultKind::kBenchmark)});
+           .values = values_of(summary, ResultKind::kBenchmark),
+           .intervals = intervals_of(summary, ResultKind::kBenchmark)});
     }
   }
 }
@@ -216,11 +224,11 @@ const std::vector<ComparedMetric>& metrics_of(ResultKind kind) {
       {"verified_share", "share of runs verified", "", Better::kMore, "verified_share_ci95", true},
       {"overturned_share", "share of runs overturned", "", Better::kLess, "overturned_share_ci95",
        true},
-      {"time_median_s", "search time, median", "s", Better::kLess},
-      {"duration_median_s", "duration, median", "s", Better::kLess},
-      {"length_median_m", "length, median", "m", Better::kLess},
-      {"energy_median_j", "energy, median", "J", Better::kLess},
-      {"margin_median", "margin, median", "", Better::kMore}};
+      {"time_median_s", "search time, median", "s", Better::kLess, "time_median_s_ci95", true},
+      {"duration_median_s", "duration, median", "s", Better::kLess, "duration_median_s_ci95", true},
+      {"length_median_m", "length, median", "m", Better::kLess, "length_median_m_ci95", true},
+      {"energy_median_j", "energy, median", "J", Better::kLess, "energy_median_j_ci95", true},
+      {"margin_median", "margin, median", "", Better::kMore, "margin_median_ci95", true}};
   return kind == ResultKind::kBenchmark ? kPlanners : kPaths;
 }
 

@@ -25,8 +25,9 @@ struct ComparedMetric {
   std::string_view unit;  ///< SI; empty of a ratio or a margin
   enum class Better { kLess, kMore } better = Better::kLess;
   std::string_view interval_key = {};  ///< of the 95 % interval of what chance has a part in
-  /// Of a handful of trials, whose shares jump: tied where the intervals overlap, and not only
-  /// where one of the two values lies within the other's.
+  /// Of a handful of trials, whose shares and medians jump: tied where the intervals overlap, and
+  /// not only where one of the two values lies within the other's, or where there are too few for
+  /// an interval.
   bool of_few = false;
 };
 

@@ -6,11 +6,13 @@
 
 #include <memory>
 
+#include "app/benchmark/benchmark_files.h"
 #include "app/compare/comparison_report.h"
 #include "tests/app/browser_page.h"
 #include "tests/app/flat_map.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
+#include "tests/benchmarking/made_up_runs.h"
 #include "tests/error_text.h"
 
 namespace regoplan {
@@ -127,6 +129,27 @@ TEST(Comparison, OfBWithASaysTheMirrorImageOfWhatItSaysOfAWithB) {
       EXPECT_EQ(changed(back, "candidate 1", "margin_p05"),
                 -changed(there, "candidate 1", "margin_p05"));
     }
+  }
+}
+
+/// What a benchmark comes to whose runs take `time_s`, a hundredth more from run to run.
+ComparedResult benchmarked(const ScratchFolder& folder, int runs, double time_s) {
+  JournalContents journal{.origins = {made_up_origin()}, .runs = {}};
+  for (int run = 0; run < runs; ++run) {
+    const auto seed = static_cast<std::uint64_t>(run + 1);
+    journal.runs.push_back(verified_run("a", "RRT", seed, time_s + 0.01 * run, 30));
+  }
+  folder.write("benchmark.json", benchmark_json({.journal = journal}));
+  return read_compared_result(folder.path("benchmark.json"));
+}
+
+TEST(Comparison, AMedianOfAHandfulOfRunsIsNeitherBetterNorWorse) {
+  const ScratchFolder folder;
+  for (const auto& [runs, told_apart] :
+       {std::pair(1, false), std::pair(5, false), std::pair(6, true)}) {
+    const ComparedResult a = benchmarked(folder, runs, 1), b = benchmarked(folder, runs, 3);
+    const auto tied = comparison_json(a, b, compared(a, b)).at("entries").at(0).at("tied");
+    EXPECT_EQ(std::ranges::find(tied, "time_median_s") == tied.end(), told_apart) << runs;
   }
 }
 

@@ -24,6 +24,14 @@ TEST(Median, IsTheMiddleOrTheMeanOfTheTwoMiddleValues) {
   EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
 }
 
+TEST(MedianInterval, LiesBetweenTheOrderedValuesThatTheBinomialNames) {
+  // Of six values all lie on one side of the median once in 32 times, of five once in 16. Of ten
+  // the second and the ninth: one or none lies below it in 1.1 % of cases, two or fewer in 5.5 %.
+  EXPECT_EQ(median_ci95({5, 1, 4, 2, 3}), std::nullopt);
+  EXPECT_EQ(median_ci95({6, 5, 1, 4, 2, 3}), (std::array<double, 2>{1, 6}));
+  EXPECT_EQ(median_ci95({10, 6, 5, 9, 1, 7, 4, 8, 2, 3}), (std::array<double, 2>{2, 9}));
+}
+
 TEST(Summary, CountsOnlyWhatTheExactModelConfirms) {
   PlannerRuns runs{
       .planner = "RRT",
