@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "drive_diagnosis/recording/fix_scatter.h"
@@ -29,12 +30,18 @@ void keep_rows(DriveRecording& drive, const std::vector<bool>& kept) {
   for (DriveChannel& channel : drive.channels) keep(channel.values, kept);
 }
 
-/// A log whose rows stand in reverse order is turned round; a clock that is set back stays.
-bool turn_round(DriveRecording& drive) {
+/// From how many rows to the next time runs back.
+std::size_t steps_back(const DriveRecording& drive) {
   std::size_t back = 0;
   for (std::size_t i = 1; i < drive.time_s.size(); ++i) {
     back += drive.time_s[i] < drive.time_s[i - 1] ? 1 : 0;
   }
+  return back;
+}
+
+/// A log whose rows stand in reverse order is turned round; a clock that is set back stays.
+bool turn_round(DriveRecording& drive) {
+  const std::size_t back = steps_back(drive);
   constexpr double kMost = 0.9;
   const double steps = static_cast<double>(drive.time_s.size()) - 1;
   if (static_cast<double>(back) <= kMost * steps || back == 0) return false;
@@ -43,6 +50,37 @@ bool turn_round(DriveRecording& drive) {
   std::ranges::reverse(drive.y_m);
   for (DriveChannel& channel : drive.channels) std::ranges::reverse(channel.values);
   return true;
+}
+
+template <class Number>
+void put_in_order(std::vector<Number>& values, const std::vector<std::size_t>& order) {
+  std::vector<Number> ordered;
+  ordered.reserve(order.size());
+  for (const std::size_t i : order) ordered.push_back(values[i]);
+  values = std::move(ordered);
+}
+
+/// Puts rows in order of their time that are shuffled: more than one step in ten runs back, and
+/// more than a few, though hardly two rows have the same time. The times of a clock that is set
+/// back again and again are there twice. \returns how many steps ran back; 0 where the rows stay as
+/// they are
+std::size_t sort_shuffled(DriveRecording& drive) {
+  constexpr std::size_t kStepsBackOneIn = 10, kStepsBackFew = 5, kSameTimesOneIn = 20;
+  const std::size_t rows = drive.time_s.size(), back = steps_back(drive);
+  if (kStepsBackOneIn * back <= rows || back <= kStepsBackFew) return 0;
+  std::vector<std::size_t> order(rows);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return drive.time_s[i]; });
+  std::size_t same = 0;
+  for (std::size_t i = 1; i < rows; ++i) {
+    same += drive.time_s[order[i]] == drive.time_s[order[i - 1]] ? 1 : 0;
+  }
+  if (kSameTimesOneIn * same > rows) return 0;
+  put_in_order(drive.time_s, order);
+  put_in_order(drive.x_m, order);
+  put_in_order(drive.y_m, order);
+  for (DriveChannel& channel : drive.channels) put_in_order(channel.values, order);
+  return back;
 }
 
 void tell(DriveRecording& drive, std::string id, std::string text, double value,
@@ -157,6 +195,13 @@ void mend_time(DriveRecording& drive) {
   if (turn_round(drive)) {
     tell(drive, "time_reversed", "the rows stand in reverse order of time: turned round",
          static_cast<double>(drive.size()));
+  } else if (const std::size_t back = sort_shuffled(drive); back > 0) {
+    tell(drive, "time_out_of_order",
+         fmt::format(
+             "the rows do not stand in order of time, which runs back from {} of {} rows to the "
+             "next: sorted by time",
+             back, drive.size()),
+         static_cast<double>(back));
   }
   std::vector<double>& time = drive.time_s;
   const double step_s = median_step_s(drive);

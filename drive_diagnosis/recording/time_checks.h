@@ -5,7 +5,7 @@
 namespace regoplan {
 
 /// Puts the clock of a drive right, so that its time rises from row to row: rows in reverse order
-/// (nine in ten and more) are turned round; rows out of order (time
+/// (nine in ten and more) are turned round, shuffled ones sorted; single rows out of order (time
 /// returns to where it was within three rows) and repeated times are left out; where the clock was
 /// set back for good, what follows counts on from there. Each is told as a finding.
 void mend_time(DriveRecording& drive);

@@ -61,6 +61,34 @@ TEST(MendTime, RowsOutOfOrderAndRepeatedTimesAreLeftOut) {
   EXPECT_EQ(told(drive, "time_repeated"), 1);
 }
 
+TEST(MendTime, ShuffledRowsAreSortedAndToldOnce) {
+  std::vector<double> time_s(200);
+  for (std::size_t i = 0; i < time_s.size(); ++i) time_s[i] = 0.1 * static_cast<double>(i);
+  const std::vector<double> in_order = time_s;
+  std::mt19937 random(3);
+  std::ranges::shuffle(time_s, random);
+  DriveRecording drive = at_times(time_s);
+  for (std::size_t i = 0; i < time_s.size(); ++i)
+    drive.channels[0].values[i] = static_cast<float>(time_s[i]);
+  mend_time(drive);
+  EXPECT_EQ(drive.time_s, in_order);
+  EXPECT_EQ(drive.x_m, in_order);  // every row keeps what it held
+  EXPECT_EQ(drive.channels[0].values.back(), static_cast<float>(in_order.back()));
+  ASSERT_EQ(drive.findings.size(), 1u);
+  EXPECT_EQ(drive.findings[0].id, "time_out_of_order");
+  EXPECT_NE(drive.findings[0].text.find("sorted by time"), std::string::npos);
+}
+
+TEST(MendTime, AClockThatStartsAnewAgainAndAgainIsNotTakenForShuffledRows) {
+  std::vector<double> time_s;
+  for (int i = 0; i < 60; ++i) time_s.push_back(i % 6);
+  DriveRecording drive = at_times(time_s);
+  mend_time(drive);
+  EXPECT_TRUE(told(drive, "time_runs_back"));
+  EXPECT_FALSE(told(drive, "time_out_of_order"));
+  EXPECT_EQ(drive.size(), 60u);
+}
+
 TEST(MendTime, AClockThatIsSetBackForGoodCountsOn) {
   DriveRecording drive = at_times({10, 11, 12, 13, 2, 3, 4, 5, 6});
   mend_time(drive);
