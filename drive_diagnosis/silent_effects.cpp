@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "drive_diagnosis/comparison/window_input.h"
 #include "drive_diagnosis/drive_claims.h"
@@ -20,10 +23,22 @@ double standing_mps(const std::vector<DriveWindow>& windows) {
   return kStanding_mps * pace;
 }
 
+/// Which columns windows lack, those together that as many lack.
+std::string missing_text(const std::map<std::string, int>& columns) {
+  std::map<int, std::vector<std::string>, std::greater<>> by_count;
+  for (const auto& [column, windows] : columns) by_count[windows].push_back(column);
+  std::vector<std::string> parts;
+  for (const auto& [windows, names] : by_count) {
+    parts.push_back(fmt::format("{} in {}", fmt::join(names, ", "), windows));
+  }
+  return parts.empty() ? "" : fmt::format(" (no value of {})", fmt::join(parts, "; of "));
+}
+
 std::string reason_text(LeftOut reason, const DriveDiagnosis& result) {
   switch (reason) {
     case LeftOut::kNoInput:
-      return "without a pose, rim speeds or steering";
+      return "without a pose, rim speeds or steering" +
+             missing_text(result.windows_used->columns_missing);
     case LeftOut::kStanding:
       return fmt::format("standing (rims slower than {:.2g} m/s, or turning round)",
                          standing_mps(result.windows));

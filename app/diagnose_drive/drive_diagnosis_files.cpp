@@ -199,7 +199,9 @@ Json windows_used_json(const WindowsUsed& used) {
   for (std::size_t i = 0; i < kLeftOutReasons; ++i) {
     left_out[std::string(name(static_cast<LeftOut>(i)))] = used.left_out.at(i);
   }
-  return {{"compared", used.compared}, {"left_out", left_out}};
+  return {{"compared", used.compared},
+          {"left_out", left_out},
+          {"columns_missing", used.columns_missing}};
 }
 
 template <class Items, class ToJson>

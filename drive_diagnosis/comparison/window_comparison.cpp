@@ -56,6 +56,11 @@ WindowComparison::WindowComparison(const std::vector<DriveRecording>& drives,
     } else {
       ++used_.compared;
     }
+    if (reason != LeftOut::kNoInput) continue;
+    for (const std::string& column :
+         columns_missing(drives_[windows_[i].drive], windows_[i], vehicle_)) {
+      ++used_.columns_missing[column];
+    }
   }
   measured_.resize(static_cast<Eigen::Index>(rows.size()),
                    static_cast<Eigen::Index>(channels_.size()));

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -32,6 +33,8 @@ std::string_view name(LeftOut reason);
 struct WindowsUsed {
   int compared = 0;
   std::array<int, kLeftOutReasons> left_out{};
+  /// Of those without input, in how many each column has no value.
+  std::map<std::string, int> columns_missing{};
 };
 
 /// One soil on a stretch of compared windows that follow each other, whatever the map says there.

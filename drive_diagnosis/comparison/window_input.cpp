@@ -131,6 +131,25 @@ bool stands(const WindowInput& input) {
   });
 }
 
+std::vector<std::string> columns_missing(const DriveRecording& drive, const DriveWindow& window,
+                                         const Vehicle& vehicle) {
+  const WindowPart whole = window.divided(1).front();
+  std::vector<std::string> columns;
+  const auto miss = [&](double value, std::string column) {
+    if (!std::isfinite(value)) columns.push_back(std::move(column));
+  };
+  miss(whole.x_m, "x_m");
+  miss(whole.y_m, "y_m");
+  miss(window.yaw_rad + whole.yaw_rad, "yaw_deg");
+  for (const WheelMount& mount : vehicle.wheels) {
+    miss(rim_rad_s(drive, window, whole, mount), fmt::format("wheel_speed_{}_rad_s", mount.name));
+  }
+  for (const WheelMount& mount : vehicle.wheels) {
+    miss(steer_of(drive, window, whole, vehicle, mount), fmt::format("steer_{}_deg", mount.name));
+  }
+  return columns;
+}
+
 std::optional<WindowInput> input_of(const DriveRecording& drive, const DriveWindow& window,
                                     const Vehicle& vehicle, double gravity_mps2) {
   constexpr std::size_t kParts = 16, kFine = 48;

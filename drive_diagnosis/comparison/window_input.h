@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "drive_diagnosis/comparison/window_prediction.h"
 #include "drive_diagnosis/recording/drive_recording.h"
@@ -15,6 +17,10 @@ namespace regoplan {
 /// \returns nothing where the drive lacks some of it
 std::optional<WindowInput> input_of(const DriveRecording& drive, const DriveWindow& window,
                                     const Vehicle& vehicle, double gravity_mps2);
+
+/// The columns of a drive's format that `input_of` takes and that have no value in a window.
+std::vector<std::string> columns_missing(const DriveRecording& drive, const DriveWindow& window,
+                                         const Vehicle& vehicle);
 
 /// Slower, wheels are taken to stand, but for the pace of their drive.
 inline constexpr double kStanding_mps = kMoving_mps / 2;

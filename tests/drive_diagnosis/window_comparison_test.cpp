@@ -180,6 +180,28 @@ TEST(WindowComparison, WindowsThatAreNotComparedAreCountedByReason) {
   EXPECT_GE(used.left_out.at(static_cast<std::size_t>(LeftOut::kStanding)), 3);
 }
 
+TEST(WindowComparison, WindowsWithoutInputSayWhichColumnsHaveNoValueInHowManyOfThem) {
+  Compared compared({});
+  DriveRecording& drive = compared.drives[0];
+  for (DriveChannel& channel : drive.channels) {
+    if (channel.name != "steer_front_left_rad" && channel.name != "wheel_speed_rear_right_rad_s")
+      continue;
+    const double from_s = channel.name.starts_with("steer") ? 20 : 40;
+    for (std::size_t i = 0; i < drive.size(); ++i) {
+      if (drive.time_s[i] > from_s) channel.values[i] = std::nanf("");
+    }
+  }
+  const WindowComparison gaps(compared.drives, compared.windows, compared.map, compared.vehicle,
+                              1.62, 1);
+  const WindowsUsed& used = gaps.used();
+  const std::map<std::string, int>& missing = used.columns_missing;
+  ASSERT_EQ(missing.size(), 2u);
+  const int without = used.left_out.at(static_cast<std::size_t>(LeftOut::kNoInput));
+  EXPECT_EQ(missing.at("steer_front_left_deg"), without);
+  EXPECT_GT(missing.at("wheel_speed_rear_right_rad_s"), 0);
+  EXPECT_LT(missing.at("wheel_speed_rear_right_rad_s"), without);
+}
+
 TEST(WindowComparison, EachWheelComesOntoASoftStretchWhenItIsThereItself) {
   const OverAStretch drive;
   const Eigen::MatrixXd plain = drive.predicted({}), with = drive.predicted({drive.zone});

@@ -166,7 +166,7 @@ byId('fit').append(
                                                     fit.held_out || 'nothing'])) :
                   'Nothing was fitted.');
 if (REPORT.windows_used) {
-  const {compared, left_out} = REPORT.windows_used;
+  const {compared, left_out, columns_missing} = REPORT.windows_used;
   const reasons = Object.entries(left_out)
                       .filter(([, count]) => count)
                       .map(([reason, count]) => `${count} ${words(reason)}`);
@@ -174,6 +174,12 @@ if (REPORT.windows_used) {
       'p', {},
       `${compared} of ${REPORT.windows} windows are compared with the vehicle's model` +
           (reasons.length ? `; left out: ${reasons.join(', ')}.` : '.')));
+  const missing = Object.entries(columns_missing);
+  if (missing.length)
+    byId('fit').append(element(
+        'p', {},
+        `Windows in which a column has no value: ${
+            missing.map(([column, count]) => `${column} ${count}`).join(', ')}.`));
 }
 if (REPORT.residuals.length) {
   byId('residuals-section').hidden = false;
