@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <vector>
 
 #include "terramech/basics/nearest_name.h"
@@ -16,13 +17,36 @@ bool means_all_of(const SettingsNode& value, std::string_view field) {
   return fmt::format(".{}", value.path()).ends_with(fmt::format(".{}", field));
 }
 
-/// Whether a key that is given may be one that is missing. Keys of a family differ in one letter
-/// that is another (`x_m` and `y_m`, `kx0_m` and `kx1_m`): they are no slips of each other.
+/// The parts of a key between its underscores.
+std::vector<std::string_view> parts_of(std::string_view key) {
+  std::vector<std::string_view> parts;
+  for (std::size_t at = 0; at != std::string_view::npos;) {
+    const std::size_t end = key.find('_', at);
+    parts.push_back(key.substr(at, end == std::string_view::npos ? end : end - at));
+    at = end == std::string_view::npos ? end : end + 1;
+  }
+  return parts;
+}
+
+/// Keys of a family differ in one part, as long in both, that is an index or a short word: `x_m`
+/// and `y_m`, `x_min_m` and `x_max_m`, `kx0_m` and `kx1_m`, `a0` and `a1`. They are no slips of
+/// each other, as `gosl` is one of `goal`.
+bool are_of_one_family(std::string_view a, std::string_view b) {
+  const auto of_a = parts_of(a), of_b = parts_of(b);
+  const auto differing = std::ranges::mismatch(of_a, of_b);
+  if (of_a.size() != of_b.size() || differing.in1 == of_a.end()) return false;
+  const std::string_view one = *differing.in1, other = *differing.in2;
+  if (!std::equal(differing.in1 + 1, of_a.end(), differing.in2 + 1)) return false;
+  constexpr std::size_t kShort = 3;
+  const bool is_indexed = std::ranges::any_of(one, [](unsigned char c) { return std::isdigit(c); });
+  return one.size() == other.size() && (is_indexed || (of_a.size() > 1 && one.size() <= kShort));
+}
+
+/// Whether a key that is given may be one that is missing.
 bool may_misspell(std::string_view given, std::string_view missing) {
   constexpr std::size_t kEditsMax = 2;
   const std::size_t edits = edits_between(given, missing);
-  const bool of_one_family = given.size() == missing.size() && edits == 1;
-  return edits <= kEditsMax && 2 * edits <= missing.size() && !of_one_family;
+  return edits <= kEditsMax && 2 * edits <= missing.size() && !are_of_one_family(given, missing);
 }
 
 }  // namespace

@@ -47,6 +47,17 @@ TEST(SettingsMapping, AMissingKeyIsNoMisspellingOfAnotherOfItsFamily) {
   EXPECT_EQ(read("n", "a0: 1\n"), "f.yaml:1: n is missing");
   EXPECT_EQ(read("goal", "goa: 1\ngaol: 1\n"),
             "f.yaml:1: goal is missing (goa on line 1: did you mean goal?)");
+  EXPECT_EQ(read("x_min_m", "x_max_m: 1\n"), "f.yaml:1: x_min_m is missing");
+}
+
+TEST(SettingsMapping, AMissingKeyNamesAKeyInWhichOneLetterIsAnother) {
+  EXPECT_EQ(error_text([] { read_radius("rasius_m: 1\n"); }),
+            "f.yaml:1: radius_m is missing (rasius_m on line 1: did you mean radius_m?)");
+  const std::string misspelt = error_text([] {
+    read_mapping(parse_settings("gosl: 1\n", "f.yaml"),
+                 [](SettingsMapping& mapping) { return mapping.required("goal").number(kAbove0); });
+  });
+  EXPECT_EQ(misspelt, "f.yaml:1: goal is missing (gosl on line 1: did you mean goal?)");
 }
 
 TEST(SettingsMapping, SomethingElseThanAMappingIsAnError) {
