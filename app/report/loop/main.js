@@ -150,11 +150,10 @@ const withUnit = key => {
   const {name, unit} = nameAndUnit(key);
   return unit ? `${name}, ${unit}` : name;
 };
-const told = value => (Math.abs(value) >= 1e4 ? integer(value) : significant(value, 3));
 byId('soil').append(wideTable(
     'The hidden soil', columns('number', 'as the map says', 'hidden', 'as the drive tells it'),
     REPORT.hidden_patch.soil.map(({number, hidden, map, found}) => [
-      withUnit(number), told(map), told(hidden),
+      withUnit(number), significant(map, 3), significant(hidden, 3),
       found ? withSpread(found) : 'not found'
     ])));
 

@@ -15,14 +15,16 @@ const integer = value =>
     (isKnown(value) ? d3.format(',d')(value) : UNKNOWN);
 const millimetres = value_m => fixed(isKnown(value_m) ? 1000 * value_m : null, 1, 'mm');
 
-/// As many digits as say something, whatever the size: 1600, 0.036, 8.14e+5.
+/// As many digits as say something, whatever the size: 1600, 0.036, 814\u202f000, 8.14e9.
 function significant(value, digits = 4) {
   if (!isKnown(value)) return UNKNOWN;
   if (value === 0) return '0';
-  const size = Math.abs(value);
-  if (size >= 1e5 || size < 1e-3)
-    return value.toExponential(digits - 2).replace(/\.?0+e/, 'e').replace('-', '\u2212');
-  return String(Number(value.toPrecision(digits))).replace('-', '\u2212');
+  const rounded = Number(value.toPrecision(digits)), size = Math.abs(rounded);
+  const text = size >= 1e9 || size < 1e-3 ?
+      rounded.toExponential().replace('e+', 'e') :
+      size >= 1e4 ? d3.format(',')(rounded) :
+                    String(rounded);
+  return text.replace(/-/g, '\u2212');
 }
 
 /// A number and its standard deviation, to two digits of the latter: 0.0201 \u00b1 0.0017. One that
@@ -51,6 +53,15 @@ const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
 const place = (x_m, y_m) =>
     `x\u00a0=\u00a0${fixed(x_m, 1, 'm')}, y\u00a0=\u00a0${fixed(y_m, 1, 'm')}`;
 
+/// Keys of soil files whose unit their ending does not say, or says wrongly: the bearing numbers' depends on the
+/// exponent n of the sinkage.
+const UNITS_OF_KEYS = {
+  kc: {name: 'kc', unit: 'N/m\u207f\u207a\u00b9'},
+  kphi: {name: 'kphi', unit: 'N/m\u207f\u207a\u00b2'},
+  kx1_m: {name: 'kx1', unit: 'm/rad'},
+  ky1_m: {name: 'ky1', unit: 'm/rad'}
+};
+
 const UNIT_ENDINGS = [
   ['_kgpm3', 'kg/m\u00b3'],
   ['_kgm2', 'kg m\u00b2'],
@@ -72,6 +83,7 @@ const UNIT_ENDINGS = [
 
 /// A key as {name, unit}: "sinkage_max_m" as {name: "sinkage max", unit: "m"}.
 function nameAndUnit(key) {
+  if (Object.hasOwn(UNITS_OF_KEYS, key)) return UNITS_OF_KEYS[key];
   const ending = UNIT_ENDINGS.find(([end]) => key.endsWith(end) && key.length > end.length);
   return ending ? {name: words(key.slice(0, -ending[0].length)), unit: ending[1]} :
                   {name: words(key), unit: ''};

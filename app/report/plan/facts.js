@@ -50,8 +50,7 @@ function soilTable() {
           table(null, columns, rows)),
       element(
           'ul', {class: 'note'}, ...sources,
-          element('li', {}, `Where no class is mapped: ${MAP.unmapped}.`)),
-      element('p', {class: 'note'}, 'kc in N/m^(n+1), kphi in N/m^(n+2).'));
+          element('li', {}, `Where no class is mapped: ${MAP.unmapped}.`)));
 }
 
 function facts(host) {
