@@ -135,14 +135,14 @@ class VehicleOnSoil:
     def __init__(self, vehicle: Vehicle | _Settings | str, soil: Soil | _Settings,
                  gravity_mps2: float, *, model: _Model = ..., mechanisms: Iterable[_Settings] = ...,
                  method: _Method = ..., nominal_load_n: float | None = ...) -> None: ...
-    def margins(self, speed_mps: _Numbers, curvature_1pm: _Numbers, *, threads: int = ...,
+    def margins(self, speed_mps: _Numbers, curvature_1pm: _Numbers = ..., *, threads: int = ...,
                 acceleration_mps2: _Numbers = ..., slope_forward_rad: _Numbers = ...,
                 slope_left_rad: _Numbers = ...) -> Margins: ...
     def largest_safe_curvature(self, speed_mps: _Numbers, slope_left_rad: _Numbers = ..., *,
                                margin_min: float = ..., threads: int = ...) -> SafeCurvature: ...
-    def supply(self, speed_mps: float, curvature_1pm: float, *, acceleration_mps2: float = ...,
+    def supply(self, speed_mps: float, curvature_1pm: float = ..., *, acceleration_mps2: float = ...,
                slope_forward_rad: float = ..., slope_left_rad: float = ...) -> dict[str, Any]: ...
-    def trim(self, speed_mps: float, curvature_1pm: float, *, acceleration_mps2: float = ...,
+    def trim(self, speed_mps: float, curvature_1pm: float = ..., *, acceleration_mps2: float = ...,
              slope_forward_rad: float = ..., slope_left_rad: float = ...) -> dict[str, Any]: ...
 
 class TerrainMap:

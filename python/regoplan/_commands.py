@@ -1,5 +1,6 @@
 """plan, evaluate, drive, diagnose, benchmark and compare: the program's commands over dicts, tables and files."""
 
+import math
 import os
 
 from . import _arguments, _physics, _program, _tables
@@ -274,7 +275,7 @@ def _option_text(name, value):
         return _arguments.word(name, value)
     if name in _REALS:
         return repr(_arguments.finite(name, value))
-    return str(_arguments.integer(name, value))
+    return str(_arguments.integer(name, value, -math.inf, math.inf))
 
 
 class _Call:
@@ -282,7 +283,8 @@ class _Call:
 
     def __init__(self, out, force, progress):
         if progress is not None and not callable(progress):
-            raise InputError("progress: is not valid (allowed: a callable)")
+            raise InputError(f"progress: {type(progress).__name__} is not valid "
+                             "(allowed: a callable)")
         self._out = out if out is None else absolute(out, "out")
         self._force, self._progress = _arguments.truth("force", force), progress
         self._inputs = _program.ResultFolder(None)
@@ -346,7 +348,8 @@ class _Call:
             return [{"name": name, "file": self.scenario(str(name), each)}
                     for name, each in scenarios.items()]
         if not isinstance(scenarios, (list, tuple)):
-            raise InputError("suite: scenarios: is not valid (allowed: a list of files, or a dict)")
+            raise InputError(f"suite.scenarios: {type(scenarios).__name__} is not valid "
+                             "(allowed: a list of files, or a dict)")
         return [{**each, "file": absolute(each["file"])} if isinstance(each, dict) and "file" in each
                 else absolute(each) if not isinstance(each, dict) else each for each in scenarios]
 

@@ -16,6 +16,20 @@ _NAMED = re.compile(
     r"(?:^|: )(?:column )?(?P<field>[\w.-]+(?:\[[\d, ]+\][\w.]*)*)"
     r"(?: is missing|: (?:unknown key|shape does not broadcast|masked values|is needed|is no |stands twice))"
 )
+# Names that a message begins with, one after the other: "scenario: start: ...". An argument has no
+# dot, which tells it from a file.
+_LED_BY = re.compile(r"(?P<argument>[A-Za-z_][\w-]*(?:\[[\d, ]+\])?)(?:, row \d+)?: ")
+_THEN = re.compile(r"(?P<key>[A-Za-z_][\w.]*(?:\[[\d, ]+\][\w.]*)*): ")
+
+
+def _first_named(message):
+    """The innermost of the names that a message begins with; None where it begins with none."""
+    found = _LED_BY.match(message)
+    name = found and found["argument"]
+    while found:
+        found = _THEN.match(message, found.end())
+        name = found["key"] if found else name
+    return name
 
 
 def of_dict(message):
@@ -44,7 +58,7 @@ class InputError(ValueError):
         super().__init__(message)
         found = _NOT_VALID.search(message)
         named = found or _NAMED.search(message)
-        self.field = named["field"] if named else None
+        self.field = named["field"] if named else _first_named(str(self))
         self.value = found["value"] if found else None
         self.allowed = found["allowed"] if found else None
         place = _PLACE.match(message)

@@ -122,6 +122,11 @@ class TerrainMap:
                   "XDIM": repr(self.cell_m), "YDIM": repr(self.cell_m), "NODATA": repr(nodata)}
         (folder / f"{name}.hdr").write_text(
             "".join(f"{key} {value}\n" for key, value in header.items()))
+        # GDAL takes cells of 1 m with their upper left corner at (0, 1) for a header that says nothing
+        # of places, and looks for them here.
+        (folder / f"{name}.blw").write_text("".join(f"{number!r}\n" for number in (
+            self.cell_m, 0.0, 0.0, -self.cell_m, self.west_m + self.cell_m / 2,
+            north_m - self.cell_m / 2)))
         written = np.where(np.isnan(values), np.float32(nodata), values) if real else values
         written.astype(values.dtype).tofile(folder / f"{name}.bil")
         return str(folder / f"{name}.bil")
@@ -167,7 +172,8 @@ def _catalogue(soils, classes, unmapped):
         soils = {"soil": soils}
         unmapped = unmapped or "soil"
     if not isinstance(soils, dict) or not soils:
-        raise InputError("soils: is not valid (allowed: a Soil, or a dict of them by name)")
+        told = "an empty dict" if isinstance(soils, dict) else type(soils).__name__
+        raise InputError(f"soils: {told} is not valid (allowed: a Soil, or a dict of them by name)")
     entries = {}
     for name, soil in soils.items():
         if not isinstance(name, str):

@@ -167,8 +167,10 @@ def _renamed(line, shown):
 
 
 def _message(lines):
+    """What went wrong, with the argument in place of the option that it became."""
     said = [line for line in lines if line.startswith("regoplan: ")]
-    return (said[-1] if said else " ".join(lines) or "no message").removeprefix("regoplan: ")
+    what = (said[-1] if said else " ".join(lines) or "no message").removeprefix("regoplan: ")
+    return re.sub(r"^--([a-z-]+)(?=: )", lambda option: option[1].replace("-", "_"), what)
 
 
 class ResultFolder:

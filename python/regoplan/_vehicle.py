@@ -127,8 +127,9 @@ class VehicleOnSoil:
 
     Notes
     -----
-    Functions of a moment take ``speed_mps``, ``curvature_1pm`` (commanded, left positive, within the
-    vehicle's ``curvature_max_1pm``), and the keywords ``acceleration_mps2``, ``slope_forward_rad``
+    Functions of a moment take ``speed_mps`` (0 or above, also beyond the vehicle's own largest),
+    ``curvature_1pm`` (commanded, left positive, within the vehicle's ``curvature_max_1pm``; without
+    it straight on), and the keywords ``acceleration_mps2``, ``slope_forward_rad``
     (the ground rises ahead) and ``slope_left_rad`` (and to the left).
     """
 
@@ -137,7 +138,7 @@ class VehicleOnSoil:
         from ._wheel import Wheel
 
         if isinstance(vehicle, str):
-            vehicle = Vehicle.preset(vehicle)
+            vehicle = Vehicle.preset(_arguments.choice("vehicle", vehicle, Vehicle.presets()))
         elif not isinstance(vehicle, Vehicle):
             if not isinstance(vehicle, dict):
                 raise InputError(f"vehicle: {type(vehicle).__name__} is not valid "
@@ -154,7 +155,7 @@ class VehicleOnSoil:
     def __repr__(self):
         return f"VehicleOnSoil({self.vehicle!r}, {self.gravity_mps2} m/s^2)"
 
-    def margins(self, speed_mps, curvature_1pm, *, threads=1, **ground):
+    def margins(self, speed_mps, curvature_1pm=0.0, *, threads=1, **ground):
         """Demand, supply and margins of moments; arrays that broadcast.
 
         Returns
@@ -188,7 +189,7 @@ class VehicleOnSoil:
             _arguments.numbers("slope_left_rad", slope_left_rad),
             _arguments.scalar("margin_min", margin_min), _arguments.threads(threads)))
 
-    def supply(self, speed_mps, curvature_1pm, **ground):
+    def supply(self, speed_mps, curvature_1pm=0.0, **ground):
         """Both ends of the supply of one moment, with what ends it and at which wheel.
 
         Returns
@@ -199,7 +200,7 @@ class VehicleOnSoil:
         """
         return self._source.supply(_single(_moment(speed_mps, curvature_1pm, ground)))
 
-    def trim(self, speed_mps, curvature_1pm, **ground):
+    def trim(self, speed_mps, curvature_1pm=0.0, **ground):
         """The steady balance of one moment: body slip angle, steering, every wheel's load, slip, slip
         angle and forces.
 

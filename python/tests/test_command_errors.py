@@ -37,7 +37,7 @@ def test_bad_scenarios_are_named(scenario, change, told):
     ("seed", 0.5, "seed: 0.5 is not valid .allowed: an integer"),
     ("seed", True, "seed: True is not valid .allowed: an integer"),
     ("seed", -1, "^seed: -1 is not valid .allowed: a whole number, 0 to 9223372036854775807"),
-    ("seed", 2**64, "seed: 18446744073709551616 is not valid"),
+    ("seed", 2**64, "^seed: 18446744073709551616 is not valid .allowed: a whole number, 0 to 92"),
     ("iterations", 1e3, "iterations: 1000.0 is not valid .allowed: an integer"),
     ("candidates", 101, "^candidates: 101 is not valid .allowed: a whole number, 1 to 100"),
     ("threads", 0, "^threads: 0 is not valid .allowed: a whole number, 1 to 256"),
@@ -128,3 +128,37 @@ def test_a_misspelt_key_is_told_from_the_one_that_is_missing(scenario):
     for goal in ({"y_m": 25, "radius_m": 3}, {"y_m": 25, "radius_m": 3, "z": 1}):
         with pytest.raises(regoplan.InputError, match="x_m is missing$"):
             regoplan.plan({**scenario, "goal": goal})
+
+
+def test_every_refusal_says_of_which_argument(scenario, soil):
+    flat, track = np.zeros((3, 3)), {"x_m": [10, 20], "y_m": [25, 25]}
+    for field, call in [
+        ("progress", lambda: regoplan.plan(scenario, progress=3)),
+        ("out", lambda: regoplan.plan(scenario, out="/proc/x")),
+        ("start", lambda: regoplan.plan({**scenario, "start": {"x_m": 1e6, "y_m": 25, "heading_deg": 0}})),
+        ("scenario", lambda: regoplan.plan({**scenario, "start": object()})),
+        ("scenario", lambda: regoplan.plan("a\0b.yaml")),
+        ("drives", lambda: regoplan.diagnose_drives([], scenario)),
+        ("path-1", lambda: regoplan.evaluate(scenario, {"x_m": [1, 2], "y_m": [1]})),
+        ("sensors", lambda: regoplan.drive(scenario, track, sensors="C")),
+        ("suite.scenarios", lambda: regoplan.benchmark({"name": "a", "scenarios": 3})),
+        ("soils", lambda: regoplan.TerrainMap(flat, 1, 3)),
+        ("soils", lambda: regoplan.TerrainMap(flat, 1, {3: soil})),
+        ("vehicle", lambda: regoplan.VehicleOnSoil("lrx", soil, 1.62)),
+        ("mechanisms[0]", lambda: regoplan.Wheel(0.4, 0.2, soil, gravity_mps2=1.62,
+                                                 mechanisms=[{"id": "slip_sinkag"}])),
+    ]:
+        with pytest.raises(regoplan.InputError) as caught:
+            call()
+        assert caught.value.field == field, str(caught.value)
+
+
+def test_files_are_no_fields():
+    with pytest.raises(regoplan.InputError) as caught:
+        regoplan.Wheel.from_file("nothing.yaml")
+    assert caught.value.field is None
+
+
+def test_a_map_of_one_row_of_metres_at_the_origin_lies_there(soil):
+    info = regoplan.TerrainMap(np.zeros((1, 5)), 1, soil).info()
+    assert (info["west_m"], info["south_m"], info["east_m"], info["north_m"]) == (0, 0, 5, 1)

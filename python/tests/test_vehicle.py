@@ -118,6 +118,12 @@ def test_vehicles_read_and_write_what_files_say(tmp_path):
         vehicle.replace(masse=1)
 
 
+def test_without_a_curvature_the_vehicle_drives_straight_on(lrv):
+    assert lrv.margins(speed_mps=50).margin == lrv.margins(50, 0).margin
+    assert lrv.supply(2) == lrv.supply(2, 0)
+    assert lrv.trim(2) == lrv.trim(2, 0)
+
+
 def test_bad_moments_are_named(lrv):
     for arguments, keywords, field in [
         (([1, -1], 0), {}, "speed_mps[1]"),
