@@ -258,6 +258,13 @@ SpeedProfile speed_of(const std::vector<RecordedMoment>& moments, const RowRange
   return SpeedProfile(std::move(nodes));
 }
 
+/// What sets the largest speed of a path.
+std::string speed_limit_source(const PlanningProblem& problem, double speed_max_mps) {
+  const bool is_vehicles = speed_max_mps == problem.vehicle.speed_max_mps;
+  if (is_vehicles) return fmt::format("speed_max_mps of the vehicle {}", problem.vehicle.name);
+  return speed_max_mps == problem.speed_max_mps ? "speed_mps.max of the scenario" : "--speed";
+}
+
 GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
                          double speed_max_mps) {
   const Vehicle& vehicle = problem.vehicle;
@@ -265,7 +272,9 @@ GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
   constexpr double kRounding = 1e-3;
   const double fastest_mps = speed_max_mps * (1 + kRounding);
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    table.number(i, "speed_mps", {.min = -fastest_mps, .max = fastest_mps}, ", the largest speed");
+    if (std::abs(table.number(i, "speed_mps", kAnyNumber)) <= fastest_mps) continue;
+    table.number(i, "speed_mps", {.min = -speed_max_mps, .max = speed_max_mps},
+                 ", " + speed_limit_source(problem, speed_max_mps));
   }
   std::vector<RecordedMoment> moments;
   for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -328,8 +337,11 @@ void refuse_rest_between(const PathTable& table, const std::vector<SpeedProfile:
 
 /// Speeds that stand in the table, without their sign, as far as the vehicle's acceleration follows
 /// them.
-SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const Vehicle& vehicle,
-                         double speed_max_mps, std::vector<std::string>& notices) {
+SpeedProfile given_speed(const PathTable& table, const PathCurve& curve,
+                         const PlanningProblem& problem, double speed_max_mps,
+                         std::vector<std::string>& notices) {
+  const Vehicle& vehicle = problem.vehicle;
+  const std::string limit = speed_limit_source(problem, speed_max_mps);
   std::vector<SpeedProfile::Node> nodes;
   const bool reverse = drives_in_reverse(table);
   for (std::size_t i = 0; i < table.rows(); ++i) {
@@ -338,9 +350,9 @@ SpeedProfile given_speed(const PathTable& table, const PathCurve& curve, const V
     const double speed =
         reverse
             ? -table.number(i, "speed_mps", {.min = -speed_max_mps, .max = 0, .max_excluded = !end},
-                            fmt::format(", all of a path in one direction{}", ends))
+                            fmt::format(", {}; all of a path in one direction{}", limit, ends))
             : table.number(i, "speed_mps", {.min = 0, .max = speed_max_mps, .min_excluded = !end},
-                           fmt::format(", the largest speed{}", ends));
+                           fmt::format(", {}{}", limit, ends));
     const double s = curve.point_arc_m()[i];
     if (!nodes.empty() && !(s > nodes.back().s_m)) {
       nodes.back().speed_mps = speed;  // of points too near to each other the last counts
@@ -382,7 +394,7 @@ GivenPath point_path(const PathTable& table, const PlanningProblem& problem, dou
         fmt::format("{}: columns ignored: {}", table.file(), fmt::join(ignored, ", ")));
   }
   SpeedProfile speed = table.has("speed_mps")
-                           ? given_speed(table, curve, problem.vehicle, speed_max_mps, notices)
+                           ? given_speed(table, curve, problem, speed_max_mps, notices)
                            : limited_by_acceleration(
                                  {{0, speed_max_mps}, {curve.length_m(), speed_max_mps}},
                                  problem.start.speed_mps, 0, problem.vehicle.acceleration_max_mps2);

@@ -111,6 +111,33 @@ TEST(PathFiles, AZeroByteIsToldAndDoesNotCutTheMessage) {
               }).ends_with("path.csv:2: a zero byte (allowed: text in UTF-8)"));
 }
 
+TEST(PathFiles, ASpeedThatIsTooHighIsToldWithWhatSetsTheLargest) {
+  const ScratchFolder folder;
+  PlanningProblem problem = report_test_problem(report_test_map(40));
+  const std::string candidate =
+      "time_s,x_m,y_m,yaw_deg,speed_mps,steer_deg,demand_n,margin\n"
+      "0,1050,5100,0,9,0,0,.2\n1,1060,5100,0,9,0,0,.2\n";
+  const auto refusal = [&](const std::string& text, double speed_max_mps) {
+    folder.write("path.csv", text);
+    return error_text([&] { read_path(folder.path("path.csv"), problem, speed_max_mps); });
+  };
+  problem.vehicle.name = "rover";
+  problem.vehicle.speed_max_mps = 3;
+  problem.speed_max_mps = 2;
+  const std::string points = "x_m,y_m,speed_mps\n1050,5100,0\n1060,5100,9\n1070,5100,0\n";
+  EXPECT_TRUE(refusal(candidate, 3)
+                  .ends_with("path.csv:2: speed_mps: 9 is not valid (allowed: -3 to 3, "
+                             "speed_max_mps of the vehicle rover)"))
+      << refusal(candidate, 3);
+  EXPECT_TRUE(
+      refusal(points, 2).ends_with("path.csv:3: speed_mps: 9 is not valid (allowed: above 0 to 2, "
+                                   "speed_mps.max of the scenario; "
+                                   "0 only at the ends)"))
+      << refusal(points, 2);
+  EXPECT_TRUE(refusal(points, 1).ends_with("above 0 to 1, --speed; 0 only at the ends)"))
+      << refusal(points, 1);
+}
+
 TEST(PathFiles, AMissingColumnIsToldWithTheOneThatMayBeMeant) {
   const ScratchFolder folder;
   const PlanningProblem problem = report_test_problem(report_test_map(40));
