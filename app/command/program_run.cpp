@@ -12,10 +12,12 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
 
 #include "app/io/interrupt.h"
 #include "app/io/printable_text.h"
 #include "terramech/basics/input_error.h"
+#include "terramech/basics/nearest_name.h"
 #include "terramech/tables/number_text.h"
 
 namespace regoplan {
@@ -101,13 +103,55 @@ void refuse_slips_of_names(const CLI::App& app) {
   for (const CLI::App* called : app.get_subcommands()) refuse_slips_of_names(*called);
 }
 
-/// What was left of the command line: the option that there is none of, which may have taken what
-/// follows it for something else.
-std::string unexpected(const CLI::App& program, const CLI::ExtrasError& bad) {
+/// The command that was called, or the house of commands that none was called of.
+const CLI::App& called_last(const CLI::App& program) {
+  const CLI::App* app = &program;
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return *app;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(each->get_name());
+  }
+  return names;
+}
+
+/// Without their dashes, which all share.
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  }
+  return names;
+}
+
+/// A name that nothing has, with the one that may be meant and where all are listed.
+std::string unknown(std::string_view what, const std::string& written, const std::string& meant,
+                    const CLI::App& program) {
+  const std::string hint = meant.empty() ? "" : fmt::format("did you mean {}? ", meant);
+  return fmt::format("unknown {} {} ({}{})", what, written, hint, help_call(program));
+}
+
+/// What of the command line nothing has a use for: an option that there is none of, which may have
+/// taken what follows it for something else and so be the reason why something seems to be missing,
+/// or a command. Nothing where there is neither.
+std::optional<std::string> unknown_name(const CLI::App& program) {
+  const CLI::App& called = called_last(program);
   const std::vector<std::string> left = program.remaining(true);
-  const auto option = std::ranges::find_if(
-      left, [](const std::string& text) { return text.starts_with('-') && !parse_number(text); });
-  return option == left.end() ? bad.what() : fmt::format("unknown option {}", *option);
+  if (called.get_require_subcommand_min() > 0 && !left.empty() && !left.front().starts_with('-')) {
+    const auto meant = nearest_name(left.front(), command_names(called));
+    return unknown("command", left.front(), meant.value_or(""), program);
+  }
+  for (const std::string& text : left) {
+    if (!text.starts_with('-') || parse_number(text)) continue;
+    const std::string written = text.substr(0, text.find('='));
+    const std::size_t dashes = std::min(written.find_first_not_of('-'), written.size());
+    const auto meant = nearest_name(written.substr(dashes), option_names(called));
+    return unknown("option", written, meant ? "--" + *meant : "", program);
+  }
+  return {};
 }
 
 int run(CLI::App& program, const std::vector<Command>& commands, int argc,
@@ -118,14 +162,11 @@ int run(CLI::App& program, const std::vector<Command>& commands, int argc,
     return program.exit(help);
   } catch (const CLI::ValidationError& bad) {
     return fail(bad.what());
-  } catch (const CLI::RequiredError& bad) {
-    const bool unknown = argc > 1 && argv[1][0] != '-' && program.get_subcommands().empty();
-    const std::string what = unknown ? fmt::format("unknown command {}", argv[1]) : bad.what();
-    return fail(fmt::format("{} ({})", what, help_call(program)));
-  } catch (const CLI::ExtrasError& bad) {
-    return fail(fmt::format("{} ({})", unexpected(program, bad), help_call(program)));
   } catch (const CLI::ParseError& bad) {
-    return fail(fmt::format("{} ({})", bad.what(), help_call(program)));
+    const bool misses_or_exceeds = dynamic_cast<const CLI::RequiredError*>(&bad) != nullptr ||
+                                   dynamic_cast<const CLI::ExtrasError*>(&bad) != nullptr;
+    const auto named = misses_or_exceeds ? unknown_name(program) : std::nullopt;
+    return fail(named ? *named : fmt::format("{} ({})", bad.what(), help_call(program)));
   }
   refuse_slips_of_names(program);
   const auto command = std::ranges::find_if(

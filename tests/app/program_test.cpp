@@ -198,6 +198,10 @@ TEST_F(Program, AnUnknownCommandIsOneLine) {
   const ProgramRun unknown = run("frobnicate");
   EXPECT_EQ(unknown.status, 1);
   EXPECT_EQ(unknown.errors, "regoplan: unknown command frobnicate (regoplan --help)\n");
+  expect_refusal(run("plna s.yaml --out o"),
+                 {"unknown command plna (did you mean plan? regoplan --help)"});
+  expect_refusal(run("map mke --out o"),
+                 {"unknown command mke (did you mean make? regoplan map --help)"});
 }
 
 TEST_F(Program, WheelWritesTheSameTableToAFileAndToStandardOutput) {
@@ -344,7 +348,12 @@ TEST_F(Program, AnUnknownOptionIsNamedWhateverFollowsIt) {
   expect_refusal(run("map make --craters -5 --out o"),
                  {"unknown option --craters (regoplan map make --help)"});
   expect_refusal(run("plan --iteratons 4 s.yaml --out o"),
-                 {"unknown option --iteratons (regoplan plan --help)"});
+                 {"unknown option --iteratons (did you mean --iterations? regoplan plan --help)"});
+  // What seems to be missing then is not.
+  expect_refusal(run("plan s.yaml --outt o"),
+                 {"unknown option --outt (did you mean --out? regoplan plan --help)"});
+  expect_refusal(run("evaluate s.yaml --folower=pursuit --out o"),
+                 {"unknown option --folower (did you mean --follower? regoplan evaluate --help)"});
 }
 
 TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
