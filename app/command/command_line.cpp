@@ -24,7 +24,10 @@ std::vector<Command> add_commands(CLI::App& program) {
   commands.push_back(add_compare_command(program));
   commands.push_back(add_completion_command(program));
   add_help_examples(program);
-  program.footer("`./regoplan test` builds and runs the tests.\n" + program.get_footer());
+  program.footer(
+      "`regoplan COMMAND --help` lists the options of a command, with examples.\n"
+      "`./regoplan test` builds and runs the tests.\n" +
+      program.get_footer());
   return commands;
 }
 

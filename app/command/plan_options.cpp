@@ -22,7 +22,7 @@ void add_improve_flags(CLI::App& parser, ScenarioOverrides& overrides) {
   parser
       .add_flag_callback(
           "--no-improve", [&overrides] { overrides.improve = false; },
-          "leave them as they were found")
+          "leave the controls as they were found")
       ->excludes(improve);
 }
 
@@ -34,7 +34,7 @@ std::string else_as(std::string_view help, const Value& value) {
 }  // namespace
 
 void add_seed_option(CLI::App& parser, ScenarioOverrides& overrides) {
-  parser.add_option("--seed", overrides.seed, else_as("of all that is drawn", Search{}.seed))
+  parser.add_option("--seed", overrides.seed, else_as("seed of all random numbers", Search{}.seed))
       ->type_name("N")
       ->check(a_seed());
 }
@@ -42,19 +42,22 @@ void add_seed_option(CLI::App& parser, ScenarioOverrides& overrides) {
 void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
   const Search defaults;
   parser
-      .add_option("--planner", overrides.planner,
-                  else_as(fmt::format("{}", fmt::join(planner_names(), ", ")), defaults.planner))
+      .add_option(
+          "--planner", overrides.planner,
+          else_as(fmt::format("one of {}", fmt::join(planner_names(), ", ")), defaults.planner))
       ->type_name("NAME")
       ->check(one_of(planner_names()));
   add_seed_option(parser, overrides);
-  CLI::Option* time = parser
-                          .add_option("--time", overrides.time_s,
-                                      else_as("seconds of the whole answer", kSearchTimeDefault_s))
-                          ->type_name("S")
-                          ->check(in_range(kAbove0));
+  CLI::Option* time =
+      parser
+          .add_option("--time", overrides.time_s,
+                      else_as("time for the whole answer, seconds", kSearchTimeDefault_s))
+          ->type_name("S")
+          ->check(in_range(kAbove0));
   parser
-      .add_option("--iterations", overrides.iterations,
-                  "of each planner run, in place of a time: the result is then reproducible")
+      .add_option(
+          "--iterations", overrides.iterations,
+          "iterations of each planner run, in place of a time: the result is then reproducible")
       ->type_name("N")
       ->check(whole_in_range({.min = 1, .max = kIterationsMax}))
       ->excludes(time);
@@ -64,7 +67,9 @@ void add_search_options(CLI::App& parser, ScenarioOverrides& overrides) {
       ->type_name("N")
       ->check(whole_in_range({.min = 1, .max = 100}));
   add_improve_flags(parser, overrides);
-  parser.add_option("--threads", overrides.threads, "default: all cores; changes no result")
+  parser
+      .add_option("--threads", overrides.threads,
+                  "how many threads compute (default: all cores); changes no result")
       ->type_name("N")
       ->check(whole_in_range({.min = 1, .max = kThreadsMax}));
 }

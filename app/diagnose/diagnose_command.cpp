@@ -173,29 +173,35 @@ Command add_diagnose_command(CLI::App& program) {
   const auto options = std::make_shared<Options>();
   CLI::App* parser = program.add_subcommand(
       "diagnose",
-      "Where a recording of a single wheel and the model differ, and what physics was left out.\n"
-      "Writes diagnosis.json, corrected-model.yaml, residuals.csv and report.html; with --scenario "
-      "windows.csv and corrected-map/ (where vehicle and ground were compared) in place of the "
-      "middle two. Exit status 0: consistent or explained, 2: unexplained, or of drives "
+      "Say where recordings and the model differ, and what physics the model leaves out: of runs "
+      "of "
+      "a single wheel (--setup), or of whole drives on a map (--scenario).\n"
+      "Writes diagnosis.json and report.html; of a single wheel corrected-model.yaml and "
+      "residuals.csv, of drives windows.csv and, where vehicle and ground were compared, "
+      "corrected-map/. Exit status 0: consistent or explained, 2: unexplained, or of drives "
       "undecided.");
   parser
-      ->add_option("RECORDING.csv", options->recording,
-                   "run_id, load_n, slip_ratio, slip_angle_deg and at least one of fx_n, fy_n, "
-                   "torque_nm, sinkage_m; optional day, replicate, pass, ...; with --scenario: a "
-                   "drive")
+      ->add_option(
+          "RECORDING.csv", options->recording,
+          "runs of a single wheel: run_id, load_n, slip_ratio, slip_angle_deg and at least one "
+          "of fx_n, fy_n, torque_nm, sinkage_m, optional day, replicate, pass, ...; with "
+          "--scenario a drive, as drive records it or with --columns")
       ->required();
-  parser->add_option("MORE.csv", options->further_drives, "further drives of the same vehicle");
+  parser->add_option("MORE.csv", options->further_drives,
+                     "with --scenario: further drives of the same vehicle");
   parser
       ->add_option("--scenario", options->scenario,
                    "the recordings are whole drives on the map of this scenario")
       ->type_name("SCENARIO.yaml");
   parser
       ->add_option("--columns", options->columns,
-                   "how the columns of the drives' logs are to be read")
+                   "with --scenario: how the columns of the drives' logs are to be read")
       ->type_name("MAP.yaml");
   parser
-      ->add_option("--setup", options->setup,
-                   "model, wheel, gravity_mps2, soil with priors {mean, std}, optional noise")
+      ->add_option(
+          "--setup", options->setup,
+          "model, wheel, gravity_mps2, soil with priors {mean, std}, optional noise; needed "
+          "without --scenario")
       ->type_name("SETUP.yaml");
   parser
       ->add_option("--reference", options->references,
@@ -206,11 +212,13 @@ Command add_diagnose_command(CLI::App& program) {
   parser->add_option("--out", options->folder.path, "folder for the results")
       ->type_name("DIR")
       ->required();
-  parser->add_option("--seed", options->seed, "of all that is drawn")
+  parser->add_option("--seed", options->seed, "seed of all random numbers")
       ->type_name("N")
       ->check(a_seed())
       ->capture_default_str();
-  parser->add_option("--threads", options->threads, "default: all cores; changes no result")
+  parser
+      ->add_option("--threads", options->threads,
+                   "how many threads compute (default: all cores); changes no result")
       ->type_name("N")
       ->check(whole_in_range({.min = 1, .max = kThreadsMax}));
   add_force_flag(*parser, options->folder);

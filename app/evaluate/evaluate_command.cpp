@@ -147,27 +147,32 @@ ExitStatus run(const CLI::App& parser, const Options& options) {
 /// What a chart is drawn of, with a scenario or without.
 void add_chart_options(CLI::App& parser, Options& options) {
   CLI::Option* chart =
-      parser.add_option("--chart", options.chart_folder, "folder for a feasibility chart")
+      parser
+          .add_option("--chart", options.chart_folder,
+                      "folder for a chart of the turns that are safe at a speed and slope, in "
+                      "place of paths: of a scenario, or of --vehicle, --soils and --gravity-mps2")
           ->type_name("DIR");
-  parser.add_option("--vehicle", options.vehicle, "of the chart: a preset or a file")
+  parser.add_option("--vehicle", options.vehicle, "vehicle of the chart: a preset or a file")
       ->type_name("NAME")
       ->needs(chart);
-  parser.add_option("--soils", options.soils_file, "of the chart")
+  parser.add_option("--soils", options.soils_file, "soils of the chart")
       ->type_name("FILE.yaml")
       ->needs(chart);
-  parser.add_option("--gravity-mps2", options.gravity_mps2, "of the chart")
+  parser.add_option("--gravity-mps2", options.gravity_mps2, "gravity of the chart")
       ->type_name("NUMBER")
       ->check(in_range(kGravity_mps2))
       ->needs(chart);
   parser
-      .add_option("--chart-slopes-deg", options.slopes_deg, "of the chart: ground across the turn")
+      .add_option("--chart-slopes-deg", options.slopes_deg,
+                  "slopes of the chart: ground across the turn")
       ->type_name("DEG")
       ->check(in_range({.min = 0, .max = 45}))
       ->capture_default_str()
       ->needs(chart);
   parser
-      .add_option("--chart-speed-mps", options.chart_speed_mps,
-                  "of the chart: from a tenth to it (default: the vehicle's largest)")
+      .add_option(
+          "--chart-speed-mps", options.chart_speed_mps,
+          "largest speed of the chart, from a tenth of it on (default: the vehicle's largest)")
       ->type_name("MPS")
       ->check(in_range(kAbove0))
       ->needs(chart);
@@ -210,13 +215,16 @@ Command add_evaluate_command(CLI::App& program) {
       ->add_option("--follower", request.follower,
                    "what drives the path: compensated (default), which knows the soil, or pursuit")
       ->check(one_of({followers.begin(), followers.end()}));
-  parser->add_option("--draws", request.soil_draws, "of the soils")
+  parser
+      ->add_option("--draws", request.soil_draws,
+                   "how many draws of the uncertain soil numbers each path is judged in")
       ->type_name("N")
       ->check(whole_in_range({.min = 2, .max = 1e6}))
       ->capture_default_str();
   add_seed_option(*parser, options->overrides);
   parser
-      ->add_option("--threads", options->overrides.threads, "default: all cores; changes no result")
+      ->add_option("--threads", options->overrides.threads,
+                   "how many threads compute (default: all cores); changes no result")
       ->type_name("N")
       ->check(whole_in_range({.min = 1, .max = kThreadsMax}));
   add_chart_options(*parser, *options);

@@ -106,7 +106,8 @@ Command add_export_command(CLI::App& program) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* parser = program.add_subcommand(
       "export",
-      "Write a plan's result for other programs: masks and route for Nav2, a style for QGIS.");
+      "Write a plan's result for other programs: masks and route for Nav2, a style for QGIS.\n"
+      "Takes --nav2, --qgis or both.");
   parser->add_option("RESULT", options->result, "folder that plan wrote")->required();
   parser
       ->add_option("--nav2", options->nav2.path,
@@ -114,7 +115,9 @@ Command add_export_command(CLI::App& program) {
       ->type_name("DIR");
   parser->add_option("--qgis", options->qgis.path, "margin.tif with its colours, margin.qml")
       ->type_name("DIR");
-  parser->add_option("--spacing-m", options->spacing_m, "between nodes of the route; default: 2")
+  parser
+      ->add_option("--spacing-m", options->spacing_m,
+                   "distance between nodes of the route; default: 2")
       ->type_name("M")
       ->check(in_range(kAbove0));
   parser->add_flag_callback(

@@ -85,7 +85,7 @@ Command add_map_make_command(CLI::App& map) {
   parser->add_option("--out", options->out.path, "folder for the map")
       ->type_name("DIR")
       ->required();
-  parser->add_option("--seed", options->terrain.seed, "of all that is drawn")
+  parser->add_option("--seed", options->terrain.seed, "seed of all random numbers")
       ->type_name("N")
       ->check(a_seed())
       ->capture_default_str();

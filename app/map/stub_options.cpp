@@ -32,11 +32,11 @@ CLI::Validator names_a_vehicle() {
 void add_stub_options(CLI::App& parser, ScenarioStub& stub) {
   parser
       .add_option("--vehicle", stub.vehicle,
-                  "of scenario.yaml: a preset, or a file that is copied beside it")
+                  "vehicle of scenario.yaml: a preset, or a file that is copied beside it")
       ->type_name("NAME")
       ->check(names_a_vehicle())
       ->capture_default_str();
-  parser.add_option("--gravity-mps2", stub.gravity_mps2, "of scenario.yaml")
+  parser.add_option("--gravity-mps2", stub.gravity_mps2, "gravity of scenario.yaml")
       ->type_name("NUMBER")
       ->check(in_range(kGravity_mps2))
       ->capture_default_str();

@@ -73,8 +73,9 @@ Command add_soil_command(CLI::App& program) {
   CLI::App* parser =
       program.add_subcommand("soil", "Print a soils file to copy, with comments and sources.");
   parser
-      ->add_option("NAME", *name,
-                   "a soil that comes with regoplan; any other name is answered with theirs")
+      ->add_option(
+          "NAME", *name,
+          "a soil that comes with regoplan, such as firm_regolith; an unknown name lists them all")
       ->required();
   return print_command(*parser, [name] { return soil_file(*name); });
 }

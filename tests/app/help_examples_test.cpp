@@ -32,6 +32,18 @@ TEST(HelpExamples, EndTheHelpOfEachCommand) {
   }
 }
 
+TEST(HelpTexts, SayOfEveryOptionWhatItIsBeforeWhatItIsOf) {
+  CLI::App program;
+  const std::vector<Command> commands = add_commands(program);
+  for (const CLI::App* command : commands_of(program)) {
+    for (const CLI::Option* option : command->get_options()) {
+      const std::string said = option->get_description();
+      EXPECT_FALSE(said.empty() || said.starts_with("of ") || said.starts_with("default"))
+          << name_of(*command) << " " << option->get_name() << ": " << said;
+    }
+  }
+}
+
 TEST(HelpExamples, AreTakenAsTheyStand) {
   CLI::App names;
   const std::vector<Command> all = add_commands(names);
