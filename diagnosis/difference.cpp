@@ -60,6 +60,22 @@ double probability_of_no_difference(double p) {
 
 constexpr std::string_view kLugs = "grousers";
 
+/// A constant of each channel and a share of its signal: what most effects do to it in the mean.
+std::vector<Direction> shifts_of_channels(const CalibratedRecording& calibrated) {
+  const TestBed& bed = calibrated.bed();
+  std::vector<Direction> shifts;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
+    Direction constant{.values = Eigen::VectorXd::Zero(bed.size()), .either_sign = true};
+    Direction share = constant;
+    constant.values.segment(from, n).setOnes();
+    share.values.segment(from, n) = calibrated.base().prediction.segment(from, n);
+    shifts.push_back(std::move(constant));
+    shifts.push_back(std::move(share));
+  }
+  return shifts;
+}
+
 class Differing {
  public:
   Differing(const Recording& test, const DiagnosisSetup& setup,
@@ -139,9 +155,7 @@ class Differing {
                         .noise_variance = std::move(bed.noise_variance)};
     treatment.calibrated = std::make_unique<CalibratedRecording>(std::move(bed.test));
     const CalibratedRecording& calibrated = *treatment.calibrated;
-    treatment.lack =
-        lack_of_fit(calibrated.recording(), calibrated.remainder_of(calibrated.base()),
-                    options_.seed, Thresholds::kDifference_p, tails_of(calibrated.recording()));
+    treatment.lack = left_by(calibrated, calibrated.base());
     return treatment;
   }
 
@@ -285,12 +299,24 @@ class Differing {
     hand_out(fit);
   }
 
-  LackOfFit left_by(const CandidateFit& fit) {
-    const CalibratedRecording& calibrated = *primary().calibrated;
-    return lack_of_fit(calibrated.recording(), calibrated.remainder_of(fit), options_.seed,
-                       Thresholds::kDifference_p);
+  LackOfFit left_by(const CandidateFit& fit) { return left_by(*primary().calibrated, fit); }
+
+  /// What shifts a channel by less than one run scatters stands out along its own direction long
+  /// before it does in the misfit of all: both are held against noise, and `p_value` is of both.
+  LackOfFit left_by(const CalibratedRecording& calibrated, const CandidateFit& fit) const {
+    const CondensedRecording& recording = calibrated.recording();
+    const FitRemainder remainder = calibrated.remainder_of(fit);
+    const NoiseTails tails = tails_of(recording);
+    constexpr int kTests = 2;  // half of the level is for each
+    constexpr int kDraws = kTests * kNoiseDraws;
+    LackOfFit lack = lack_of_fit(recording, remainder, options_.seed,
+                                 Thresholds::kDifference_p / kTests, tails, kDraws);
+    const double along = p_value_along(recording, remainder, shifts_of_channels(calibrated),
+                                       options_.seed, tails, kDraws);
+    lack.p_value = std::min(1.0, kTests * std::min(lack.p_value, along));
+    return lack;
   }
-  static bool explained(const LackOfFit& left) { return left.f <= left.critical; }
+  static bool explained(const LackOfFit& left) { return left.p_value >= Thresholds::kDifference_p; }
 
   /// No difference is proven: how likely none is goes by the setting that lets them differ least.
   void consistent() {

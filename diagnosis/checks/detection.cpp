@@ -123,13 +123,12 @@ NoiseTails tails_of(const CondensedRecording& recording) {
 }
 
 LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
-                      std::uint64_t seed, double significance, NoiseTails tails) {
-  constexpr int kDraws = 2000;
+                      std::uint64_t seed, double significance, NoiseTails tails, int draw_count) {
   const WhitenedFit whitened(recording, fit, tails);
   const Eigen::VectorXd found = whitened.statistics(whitened.whiten(fit.residual), fit.x);
   std::mt19937_64 random(seed);
-  Eigen::MatrixXd draws(found.size(), kDraws);
-  for (int i = 0; i < kDraws; ++i) {
+  Eigen::MatrixXd draws(found.size(), draw_count);
+  for (int i = 0; i < draw_count; ++i) {
     const auto draw = whitened.draw(random);
     draws.col(i) = whitened.statistics(draw.residual, draw.x);
   }
@@ -140,13 +139,13 @@ LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& f
       ((logs.colwise() - mean).array().square().rowwise().mean()).sqrt();
   const Eigen::VectorXd scores =
       ((found.array().log() - mean.array()) / deviation.array()).matrix();
-  std::vector<double> worst(kDraws);
-  for (int i = 0; i < kDraws; ++i) {
+  std::vector<double> worst(static_cast<std::size_t>(draw_count));
+  for (int i = 0; i < draw_count; ++i) {
     worst[static_cast<std::size_t>(i)] =
         ((logs.col(i) - mean).array() / deviation.array()).maxCoeff();
   }
   std::ranges::sort(worst);
-  const auto rank = static_cast<std::size_t>(std::ceil((1 - significance) * kDraws)) - 1;
+  const auto rank = static_cast<std::size_t>(std::ceil((1 - significance) * draw_count)) - 1;
   Eigen::Index at = 0;
   const double score = scores.maxCoeff(&at);
   const auto beyond = worst.end() - std::ranges::lower_bound(worst, score);
@@ -154,7 +153,7 @@ LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& f
   LackOfFit result;
   result.f = found[at] / expected;
   result.critical = std::exp(worst[rank] * deviation[at]);
-  result.p_value = (1.0 + static_cast<double>(beyond)) / (kDraws + 1.0);
+  result.p_value = (1.0 + static_cast<double>(beyond)) / (draw_count + 1.0);
   result.degrees_of_freedom = static_cast<int>(
       at == 0 ? recording.bed.size()
               : recording.bed.channels[static_cast<std::size_t>(at - 1)].mean.size());
@@ -167,9 +166,9 @@ LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& f
 }
 
 double p_value_along(const CondensedRecording& recording, const FitRemainder& fit,
-                     const std::vector<Direction>& directions, std::uint64_t seed) {
-  constexpr int kDraws = 2000;
-  const WhitenedFit whitened(recording, fit);
+                     const std::vector<Direction>& directions, std::uint64_t seed, NoiseTails tails,
+                     int draw_count) {
+  const WhitenedFit whitened(recording, fit, tails);
   const auto count = static_cast<Eigen::Index>(directions.size());
   if (count == 0) return 1;
   Eigen::MatrixXd along(recording.bed.size(), count);
@@ -178,8 +177,8 @@ double p_value_along(const CondensedRecording& recording, const FitRemainder& fi
   }
   along = whitened.left_by_fit(along);
   std::mt19937_64 random(seed);
-  Eigen::MatrixXd draws(count, kDraws);
-  for (int i = 0; i < kDraws; ++i)
+  Eigen::MatrixXd draws(count, draw_count);
+  for (int i = 0; i < draw_count; ++i)
     draws.col(i) = along.transpose() * whitened.draw(random).residual;
   const Eigen::VectorXd deviation =
       draws.array().square().rowwise().mean().sqrt().max(1e-300).matrix();
@@ -193,8 +192,8 @@ double p_value_along(const CondensedRecording& recording, const FitRemainder& fi
   };
   const double found = farthest(along.transpose() * whitened.whiten(fit.residual));
   int beyond = 0;
-  for (int i = 0; i < kDraws; ++i) beyond += farthest(draws.col(i)) >= found;
-  return (1.0 + beyond) / (kDraws + 1.0);
+  for (int i = 0; i < draw_count; ++i) beyond += farthest(draws.col(i)) >= found;
+  return (1.0 + beyond) / (draw_count + 1.0);
 }
 
 Eigen::MatrixXd residuals_of_noise(const CondensedRecording& recording, const FitRemainder& fit,

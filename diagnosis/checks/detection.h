@@ -26,13 +26,16 @@ enum class NoiseTails {
 /// for a misfit.
 NoiseTails tails_of(const CondensedRecording& recording);
 
+/// Draws of noise that a probability is counted in.
+inline constexpr int kNoiseDraws = 2000;
+
 /// Lack of fit against pure error. The misfit (priors counted as data) of all channels together and
-/// of each channel is compared with what noise alone makes of it in 2000 seeded draws, in which
+/// of each channel is compared with what noise alone makes of it in seeded draws, in which
 /// the noise is known no better than from its degrees of freedom and channels scatter together as
 /// replicates do. The worst of them counts; `critical` is at `significance` for all together.
 LackOfFit lack_of_fit(const CondensedRecording& recording, const FitRemainder& fit,
                       std::uint64_t seed, double significance = Thresholds::kLackOfFit_p,
-                      NoiseTails tails = NoiseTails::kNormal);
+                      NoiseTails tails = NoiseTails::kNormal, int draw_count = kNoiseDraws);
 
 /// One way in which a recording may differ from a model: what some effect would add.
 struct Direction {
@@ -43,7 +46,8 @@ struct Direction {
 /// Probability that noise alone makes some of the directions stand out as far as the residual does
 /// after the fit: a sharper test than lack_of_fit() of what is looked for.
 double p_value_along(const CondensedRecording& recording, const FitRemainder& fit,
-                     const std::vector<Direction>& directions, std::uint64_t seed);
+                     const std::vector<Direction>& directions, std::uint64_t seed,
+                     NoiseTails tails = NoiseTails::kNormal, int draw_count = kNoiseDraws);
 
 /// Residuals that noise alone would leave after the fit, one column a draw, in the channels' units.
 Eigen::MatrixXd residuals_of_noise(const CondensedRecording& recording, const FitRemainder& fit,

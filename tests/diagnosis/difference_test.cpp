@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/recording/thresholds.h"
 #include "synthetic_bed.h"
 #include "terramech/basics/input_error.h"
 
@@ -131,6 +132,19 @@ TEST(Difference, OfWhatATurnedSensorDoesToBothIsNoneWhicheverSideEachWasDriven) 
                             {{"reference", record({}, setup, soil, plan, seed + 100), setup}});
     EXPECT_EQ(found.verdict, Verdict::kConsistent) << found.sentence;
   }
+}
+
+/// In each of 44 conditions it is less than what one run scatters; together they leave no doubt.
+TEST(Difference, OfASmallShiftThroughoutIsProven) {
+  const DiagnosisSetup setup = simulant_setup();
+  TrueWheel shifted;
+  shifted.torque_nm = [](const WheelRun&, double) { return 0.08; };  // a run scatters by 0.09 N m
+  const Diagnosis found = diagnose_difference(
+      record(shifted, setup, setup.soil.mean, {.day = 0, .outliers = 0}, 31), setup,
+      {{"reference", record({}, setup, setup.soil.mean, {.day = 0, .outliers = 0}, 32), setup}});
+  EXPECT_LT(found.before.p_value, Thresholds::kDifference_p);
+  EXPECT_LT(found.before.f, found.before.critical);  // no misfit would prove it
+  EXPECT_NE(found.verdict, Verdict::kConsistent) << found.sentence;
 }
 
 /// A test that pulls and is driven as a wheel with lugs is, against one without.
