@@ -163,7 +163,8 @@ void lend_doubt(Compared& to) {
 /// The scatter of both together, where one of them by chance shows less.
 void pool_noise(std::vector<Compared>& all) {
   for (std::size_t c = 0; c < all.front().condensed.noise.size(); ++c) {
-    double sum = 0, degrees = 0;
+    double sum = 0;
+    int degrees = 0;
     for (const Compared& one : all) {
       const ChannelNoise& noise = one.condensed.noise[c];
       sum += noise.degrees_of_freedom * noise.constant * noise.constant;
@@ -179,6 +180,8 @@ void pool_noise(std::vector<Compared>& all) {
       noise.proportional *= factor;
       noise.day_offset *= factor;
       noise.day_gain *= factor;
+      // as all of them tell it; who states the scatter still knows it
+      if (noise.degrees_of_freedom > 0) noise.degrees_of_freedom = degrees;
       one.condensed.bed.channels[c].noise *= factor * factor;
       one.condensed.bed.channels[c].scale *= factor;
     }

@@ -35,6 +35,8 @@ TEST(ReadAlike, NeitherIsTakenToScatterLessThanBothTogether) {
                                     (a.degrees_of_freedom + b.degrees_of_freedom));
     EXPECT_LT(a.constant, pooled);
     EXPECT_NEAR(compared.test.noise[c].constant, pooled, 1e-9 * pooled);
+    EXPECT_EQ(compared.test.noise[c].degrees_of_freedom,
+              a.degrees_of_freedom + b.degrees_of_freedom);
     EXPECT_NEAR(compared.references[0].noise[c].constant, b.constant, 1e-9 * pooled);
   }
 }
