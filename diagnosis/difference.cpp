@@ -101,7 +101,7 @@ class Differing {
     found_.after = found_.before;
     complete_ = found_;
     const bool alike =
-        std::ranges::any_of(treatments_, [](const Treatment& t) { return explained(t.lack); });
+        std::ranges::any_of(treatments_, [](const Treatment& t) { return !is_proven(t.lack); });
     if (alike) {
       consistent();
       complete_ = found_;
@@ -227,7 +227,7 @@ class Differing {
           "{}: nameless differences let some name do as well with a probability of {:.2f}",
           fmt::join(ids, " or "), p);
     }
-    const bool leave_nothing = explained(left_by(primary().find(ids.front())->fit));
+    const bool leave_nothing = leaves_nothing(left_by(primary().find(ids.front())->fit));
     const std::string doubt = objection_to_class(ids, leave_nothing);
     return doubt.empty() ? likelier_than(ids, found_.ranking) : doubt;
   }
@@ -293,9 +293,9 @@ class Differing {
     found_.claims = std::move(partial.claims);
     found_.remainder_share = remainder_share(found_.claims);
     found_.after = left_by(fit);
-    found_.verdict = !explained(found_.after)  ? Verdict::kPartly
-                     : claimed.ids.size() == 1 ? Verdict::kNamed
-                                               : Verdict::kClass;
+    found_.verdict = !leaves_nothing(found_.after) ? Verdict::kPartly
+                     : claimed.ids.size() == 1     ? Verdict::kNamed
+                                                   : Verdict::kClass;
     hand_out(fit);
   }
 
@@ -316,7 +316,11 @@ class Differing {
     lack.p_value = std::min(1.0, kTests * std::min(lack.p_value, along));
     return lack;
   }
-  static bool explained(const LackOfFit& left) { return left.p_value >= Thresholds::kDifference_p; }
+  static bool is_proven(const LackOfFit& lack) { return lack.p_value < Thresholds::kDifference_p; }
+  /// Nothing but noise, as of a single recording.
+  static bool leaves_nothing(const LackOfFit& left) {
+    return left.p_value >= Thresholds::kLackOfFit_p;
+  }
 
   /// No difference is proven: how likely none is goes by the setting that lets them differ least.
   void consistent() {
