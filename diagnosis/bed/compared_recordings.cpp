@@ -150,7 +150,23 @@ std::map<Channel, RunScatter> lent_by(const std::vector<Compared>& all,
   return lent;
 }
 
-/// Noise that was lent is known as well as the lenders' replicates tell it, not exactly.
+/// As neighbouring conditions of the others tell it, for who has too few to tell it by his own.
+void lend_neighbour_scatter(const std::vector<Compared>& from, Compared& to) {
+  const auto is_measured = [](const WheelRun& run) {
+    return std::ranges::any_of(run.measured, [](double value) { return std::isfinite(value); });
+  };
+  const auto runs = std::ranges::count_if(to.recording.runs, is_measured);
+  if (static_cast<std::size_t>(runs) >= kFewestConditions) return;
+  for (const Compared& one : from) {
+    for (const ChannelNoise& noise : one.condensed.noise) {
+      if (noise.source != NoiseSource::kNeighbours) continue;
+      to.lent.try_emplace(noise.channel,
+                          RunScatter{noise.constant, noise.neighbour_degrees_of_freedom});
+    }
+  }
+}
+
+/// Noise that was lent is known as well as the lenders tell it, not exactly.
 void lend_doubt(Compared& to) {
   for (ChannelNoise& noise : to.condensed.noise) {
     const auto told = to.lent.find(noise.channel);
@@ -196,6 +212,7 @@ void condense_alike(const std::vector<Channel>& channels, const std::stop_token&
   all.pop_back();
   for (Compared& reference : all) condense_with_lent(reference, stop);
   test.lent = lent_by(all, channels);
+  lend_neighbour_scatter(all, test);
   condense_with_lent(test, stop);
   all.push_back(std::move(test));
   const std::map<Channel, RunScatter> lent = lent_by(all, channels);

@@ -86,9 +86,9 @@ std::string given_note(const Recording& recording, const DiagnosisSetup& setup,
   std::string text =
       fmt::format("{}: too few replicates; noise {:.3g} from {}, days by half of it (assumed)",
                   name(noise.channel), noise.constant,
-                  lent ? "the replicates of the series that are compared" : "the setup");
+                  lent ? "the series that it is compared with" : "the setup");
   const double span = span_of(recording, noise.channel);
-  if (noise.constant > span) {
+  if (!lent && noise.constant > span) {
     text +=
         fmt::format("; all its values lie within {:.3g}: is the unit of the noise right?", span);
   }

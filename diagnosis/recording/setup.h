@@ -19,7 +19,7 @@ struct DiagnosisSetup {
   double gravity_mps2 = 9.80665;
   UncertainSoil soil;                                  ///< what independent soil tests say
   std::map<Channel, double> noise_standard_deviation;  ///< where there are no replicates
-  /// Those of the numbers above that replicates of other series tell, not the setup.
+  /// Those of the numbers above that other series tell, not the setup.
   std::set<Channel> noise_lent = {};
 };
 

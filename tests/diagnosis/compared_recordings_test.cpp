@@ -60,6 +60,18 @@ TEST(ReadAlike, AReferenceWithoutReplicatesTakesTheScatterOfTheTest) {
   }
 }
 
+TEST(ReadAlike, ATestOfAFewRunsTakesWhatNeighbouringConditionsOfItsReferenceTell) {
+  Recording few = sound(1, 1);
+  few.runs.resize(3);
+  const ComparedRecordings compared = alike(few, sound(2, 1));
+  for (std::size_t c = 0; c < compared.test.noise.size(); ++c) {
+    const ChannelNoise &own = compared.test.noise[c], &lender = compared.references[0].noise[c];
+    EXPECT_EQ(lender.source, NoiseSource::kNeighbours);
+    EXPECT_EQ(own.constant, lender.constant);
+    EXPECT_EQ(own.degrees_of_freedom, lender.neighbour_degrees_of_freedom);
+  }
+}
+
 /// So many conditions were run twice, the others once.
 Recording with_few_replicates(std::uint64_t seed, std::size_t replicates) {
   Recording recording = sound(seed, 2);
