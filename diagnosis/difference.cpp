@@ -176,8 +176,7 @@ class Differing {
       lugs_by_chance_ = reached_by({*lugs});
       found_.notes.push_back(
           "test and reference tell different lugs: whether chance does as well as grousers is "
-          "asked "
-          "of grousers alone, not of the best of all names");
+          "asked of grousers alone, not of the best of all names");
     }
     if (primary().names.empty()) return;
     const CappedName& first = primary().names.front();

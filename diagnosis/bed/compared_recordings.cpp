@@ -150,20 +150,23 @@ std::map<Channel, RunScatter> lent_by(const std::vector<Compared>& all,
   return lent;
 }
 
-/// As neighbouring conditions of the others tell it, for who has too few to tell it by his own.
+/// As neighbouring conditions of the others tell it at most, for who has too few of his own.
 void lend_neighbour_scatter(const std::vector<Compared>& from, Compared& to) {
   const auto is_measured = [](const WheelRun& run) {
     return std::ranges::any_of(run.measured, [](double value) { return std::isfinite(value); });
   };
   const auto runs = std::ranges::count_if(to.recording.runs, is_measured);
   if (static_cast<std::size_t>(runs) >= kFewestConditions) return;
+  std::map<Channel, RunScatter> most;
   for (const Compared& one : from) {
     for (const ChannelNoise& noise : one.condensed.noise) {
       if (noise.source != NoiseSource::kNeighbours) continue;
-      to.lent.try_emplace(noise.channel,
-                          RunScatter{noise.constant, noise.neighbour_degrees_of_freedom});
+      RunScatter& told = most[noise.channel];
+      if (noise.constant > told.deviation)
+        told = {noise.constant, noise.neighbour_degrees_of_freedom};
     }
   }
+  to.lent.merge(most);
 }
 
 /// Noise that was lent is known as well as the lenders tell it, not exactly.
