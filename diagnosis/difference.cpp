@@ -18,6 +18,7 @@
 #include "diagnosis/names/name_share.h"
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
+#include "diagnosis/proven_difference.h"
 #include "diagnosis/recording/thresholds.h"
 #include "diagnosis/stages.h"
 #include "terramech/basics/interruption.h"
@@ -47,34 +48,7 @@ struct Treatment {
   }
 };
 
-/// The least that a p value leaves to chance, by the bound of Sellke, Bayarri & Berger (2001, The
-/// American Statistician 55, 62-71), with prior odds by which none and some are as likely as each
-/// other where a difference begins to be told.
-double probability_of_no_difference(double p) {
-  const auto bayes_factor = [](double p_value) {
-    return p_value < std::exp(-1) ? -std::exp(1) * p_value * std::log(p_value) : 1;
-  };
-  const double odds = bayes_factor(p) / bayes_factor(Thresholds::kDifference_p);
-  return odds / (1 + odds);
-}
-
 constexpr std::string_view kLugs = "grousers";
-
-/// A constant of each channel and a share of its signal: what most effects do to it in the mean.
-std::vector<Direction> shifts_of_channels(const CalibratedRecording& calibrated) {
-  const TestBed& bed = calibrated.bed();
-  std::vector<Direction> shifts;
-  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
-    Direction constant{.values = Eigen::VectorXd::Zero(bed.size()), .either_sign = true};
-    Direction share = constant;
-    constant.values.segment(from, n).setOnes();
-    share.values.segment(from, n) = calibrated.base().prediction.segment(from, n);
-    shifts.push_back(std::move(constant));
-    shifts.push_back(std::move(share));
-  }
-  return shifts;
-}
 
 class Differing {
  public:
@@ -155,7 +129,7 @@ class Differing {
                         .noise_variance = std::move(bed.noise_variance)};
     treatment.calibrated = std::make_unique<CalibratedRecording>(std::move(bed.test));
     const CalibratedRecording& calibrated = *treatment.calibrated;
-    treatment.lack = left_by(calibrated, calibrated.base());
+    treatment.lack = lack_of_difference(calibrated, calibrated.base(), options_.seed);
     return treatment;
   }
 
@@ -298,27 +272,8 @@ class Differing {
     hand_out(fit);
   }
 
-  LackOfFit left_by(const CandidateFit& fit) { return left_by(*primary().calibrated, fit); }
-
-  /// What shifts a channel by less than one run scatters stands out along its own direction long
-  /// before it does in the misfit of all: both are held against noise, and `p_value` is of both.
-  LackOfFit left_by(const CalibratedRecording& calibrated, const CandidateFit& fit) const {
-    const CondensedRecording& recording = calibrated.recording();
-    const FitRemainder remainder = calibrated.remainder_of(fit);
-    const NoiseTails tails = tails_of(recording);
-    constexpr int kTests = 2;  // half of the level is for each
-    constexpr int kDraws = kTests * kNoiseDraws;
-    LackOfFit lack = lack_of_fit(recording, remainder, options_.seed,
-                                 Thresholds::kDifference_p / kTests, tails, kDraws);
-    const double along = p_value_along(recording, remainder, shifts_of_channels(calibrated),
-                                       options_.seed, tails, kDraws);
-    lack.p_value = std::min(1.0, kTests * std::min(lack.p_value, along));
-    return lack;
-  }
-  static bool is_proven(const LackOfFit& lack) { return lack.p_value < Thresholds::kDifference_p; }
-  /// Nothing but noise, as of a single recording.
-  static bool leaves_nothing(const LackOfFit& left) {
-    return left.p_value >= Thresholds::kLackOfFit_p;
+  LackOfFit left_by(const CandidateFit& fit) {
+    return lack_of_difference(*primary().calibrated, fit, options_.seed);
   }
 
   /// No difference is proven: how likely none is goes by the setting that lets them differ least.

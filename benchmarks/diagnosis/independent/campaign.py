@@ -47,17 +47,22 @@ def draw(arguments, stratum, index):
     return name
 
 
-def diagnose(arguments, name):
-    folder = arguments.folder / name
+def diagnosis_of(program, folder, recording, *options):
+    """What the program says of a recording in a folder; kept there, and said again."""
     result = folder / "result" / "diagnosis.json"
     if not result.exists():
         run = subprocess.run(
-            [arguments.program, "diagnose", folder / "recording.csv", "--setup",
-             folder / "setup.yaml", "--threads", "1", "--quiet", "--out", folder / "result"],
+            [program, "diagnose", folder / recording, *options, "--setup", folder / "setup.yaml",
+             "--threads", "1", "--quiet", "--out", folder / "result"],
             capture_output=True, text=True, check=False)
         if run.returncode not in (0, 2):
-            return name, {"verdict": f"failed: {run.stderr.strip()[:200]}", "mechanisms": []}
-    return name, json.loads(result.read_text(encoding="utf-8"))
+            return {"verdict": f"failed: {run.stderr.strip()[:200]}", "mechanisms": [],
+                    "ranking": []}
+    return json.loads(result.read_text(encoding="utf-8"))
+
+
+def diagnose(arguments, name):
+    return name, diagnosis_of(arguments.program, arguments.folder / name, "recording.csv")
 
 
 def judged(truth, said):

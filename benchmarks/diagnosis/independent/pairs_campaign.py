@@ -11,9 +11,8 @@ import collections
 import concurrent.futures
 import json
 import pathlib
-import subprocess
 
-from campaign import wilson
+from campaign import diagnosis_of, wilson
 from pairs import EFFECTS, FEW_REPLICATES, KINDS, write_pair
 
 COLUMNS = ("right", "wrong", "silent", "too weak", "too weak, wrong")
@@ -28,17 +27,8 @@ def draw(folder, kind, seed):
 
 def diagnose(arguments, name):
     folder = arguments.folder / name
-    result = folder / "result" / "diagnosis.json"
-    if not result.exists():
-        run = subprocess.run(
-            [arguments.program, "diagnose", folder / "test.csv", "--reference",
-             folder / "reference.csv", "--setup", folder / "setup.yaml", "--threads", "1",
-             "--quiet", "--out", folder / "result"],
-            capture_output=True, text=True, check=False)
-        if run.returncode not in (0, 2):
-            return name, {"verdict": f"failed: {run.stderr.strip()[:200]}", "mechanisms": [],
-                          "ranking": []}
-    return name, json.loads(result.read_text(encoding="utf-8"))
+    return name, diagnosis_of(arguments.program, folder, "test.csv", "--reference",
+                              folder / "reference.csv")
 
 
 def outcome(truth, said):

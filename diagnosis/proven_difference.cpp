@@ -1,0 +1,62 @@
+#include "diagnosis/proven_difference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "diagnosis/checks/detection.h"
+#include "diagnosis/recording/thresholds.h"
+
+namespace regoplan {
+namespace {
+
+/// A constant of each channel and a share of its signal: what most effects do to it in the mean.
+std::vector<Direction> shifts_of_channels(const CalibratedRecording& calibrated) {
+  const TestBed& bed = calibrated.bed();
+  std::vector<Direction> shifts;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
+    Direction constant{.values = Eigen::VectorXd::Zero(bed.size()), .either_sign = true};
+    Direction share = constant;
+    constant.values.segment(from, n).setOnes();
+    share.values.segment(from, n) = calibrated.base().prediction.segment(from, n);
+    shifts.push_back(std::move(constant));
+    shifts.push_back(std::move(share));
+  }
+  return shifts;
+}
+
+}  // namespace
+
+LackOfFit lack_of_difference(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                             std::uint64_t seed) {
+  const CondensedRecording& recording = calibrated.recording();
+  const FitRemainder remainder = calibrated.remainder_of(fit);
+  const NoiseTails tails = tails_of(recording);
+  constexpr int kTests = 2;
+  constexpr int kDraws = kTests * kNoiseDraws;
+  LackOfFit lack =
+      lack_of_fit(recording, remainder, seed, Thresholds::kDifference_p / kTests, tails, kDraws);
+  const double along =
+      p_value_along(recording, remainder, shifts_of_channels(calibrated), seed, tails, kDraws);
+  lack.p_value = std::min(1.0, kTests * std::min(lack.p_value, along));
+  return lack;
+}
+
+bool is_proven(const LackOfFit& lack) {
+  return lack.p_value < Thresholds::kDifference_p;
+}
+
+bool leaves_nothing(const LackOfFit& left) {
+  return left.p_value >= Thresholds::kLackOfFit_p;
+}
+
+double probability_of_no_difference(double p) {
+  const auto bayes_factor = [](double p_value) {
+    return p_value < std::exp(-1) ? -std::exp(1) * p_value * std::log(p_value) : 1;
+  };
+  const double odds = bayes_factor(p) / bayes_factor(Thresholds::kDifference_p);
+  return odds / (1 + odds);
+}
+
+}  // namespace regoplan

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "diagnosis/names/calibrated_recording.h"
+
+namespace regoplan {
+
+/// What a fit leaves of a difference, against noise. What shifts a channel by less than one run
+/// scatters stands out along its own direction long before it does in the misfit of all: both are
+/// tested, each at half of the level, and `p_value` is of both; `f` and `critical` are of the
+/// misfit. \throws Interrupted
+LackOfFit lack_of_difference(const CalibratedRecording& calibrated, const CandidateFit& fit,
+                             std::uint64_t seed);
+
+bool is_proven(const LackOfFit& lack);
+
+/// Nothing but noise, as of a single recording.
+bool leaves_nothing(const LackOfFit& left);
+
+/// The least that a p value leaves to chance, by the bound of Sellke, Bayarri & Berger (2001, The
+/// American Statistician 55, 62-71), with prior odds by which none and some are as likely as each
+/// other where a difference begins to be told.
+double probability_of_no_difference(double p);
+
+}  // namespace regoplan
