@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 
+#include "diagnosis/bed/scatter_of_difference.h"
 #include "diagnosis/recording/replicates.h"
 #include "terramech/basics/input_error.h"
 
@@ -62,10 +63,10 @@ int leave_foreign_passes_out(const std::vector<Reference>& references, Recording
   return static_cast<int>(foreign);
 }
 
-/// What runs of a channel scatter by, and how many replicates say so.
-struct RunScatter {
-  double deviation = 0;
-  int degrees_of_freedom = 0;
+/// A scatter of runs, and who tells it.
+struct Lent {
+  RunScatter scatter;
+  NoiseLender lender = NoiseLender::kOtherSeries;
 };
 
 /// A recording that is compared, and what others tell of its noise.
@@ -73,7 +74,7 @@ struct Compared {
   std::string name;  // of a reference
   Recording recording;
   DiagnosisSetup setup;  // its own
-  std::map<Channel, RunScatter> lent = {};
+  std::map<Channel, Lent> lent = {};
   CondensedRecording condensed = {};
 
   bool states(Channel channel) const { return setup.noise_standard_deviation.contains(channel); }
@@ -87,8 +88,8 @@ struct Compared {
 void condense_with_lent(Compared& one, const std::stop_token& stop) {
   DiagnosisSetup with = one.setup;
   for (const auto& [channel, told] : one.lent) {
-    if (with.noise_standard_deviation.try_emplace(channel, told.deviation).second)
-      with.noise_lent.insert(channel);
+    if (with.noise_standard_deviation.try_emplace(channel, told.scatter.deviation).second)
+      with.noise_lent[channel] = told.lender;
   }
   try {
     one.condensed = condense(one.recording, with, kFewestToCompare, stop);
@@ -139,13 +140,13 @@ std::optional<RunScatter> told_together(const std::vector<Compared>& all, Channe
 }
 
 /// One run scatters alike on all: who has no replicates, or too few, learns it from the others.
-std::map<Channel, RunScatter> lent_by(const std::vector<Compared>& all,
-                                      const std::vector<Channel>& channels) {
-  std::map<Channel, RunScatter> lent;
+std::map<Channel, Lent> lent_by(const std::vector<Compared>& all,
+                                const std::vector<Channel>& channels) {
+  std::map<Channel, Lent> lent;
   for (const Channel channel : channels) {
     auto told = told_by_replicates(all, channel);
     if (!told) told = told_together(all, channel);
-    if (told) lent.emplace(channel, *told);
+    if (told) lent.emplace(channel, Lent{*told});
   }
   return lent;
 }
@@ -157,16 +158,35 @@ void lend_neighbour_scatter(const std::vector<Compared>& from, Compared& to) {
   };
   const auto runs = std::ranges::count_if(to.recording.runs, is_measured);
   if (static_cast<std::size_t>(runs) >= kFewestConditions) return;
-  std::map<Channel, RunScatter> most;
+  std::map<Channel, Lent> most;
   for (const Compared& one : from) {
     for (const ChannelNoise& noise : one.condensed.noise) {
       if (noise.source != NoiseSource::kNeighbours) continue;
-      RunScatter& told = most[noise.channel];
+      RunScatter& told = most[noise.channel].scatter;
       if (noise.constant > told.deviation)
         told = {noise.constant, noise.neighbour_degrees_of_freedom};
     }
   }
   to.lent.merge(most);
+}
+
+/// Where nobody's replicates tell a channel's scatter: what a smooth difference of the test, the
+/// last of all, from a reference leaves, where that is less than what neighbouring conditions of
+/// each tell.
+void lend_scatter_of_difference(const std::vector<Compared>& all, std::map<Channel, Lent>& lent) {
+  const CondensedRecording& test = all.back().condensed;
+  for (std::size_t c = 0; c < test.noise.size(); ++c) {
+    const Channel channel = test.noise[c].channel;
+    if (lent.contains(channel)) continue;
+    for (std::size_t r = 0; r + 1 < all.size(); ++r) {
+      const auto told = scatter_of_difference(test, all[r].condensed, c);
+      if (!told || told->deviation == 0) continue;
+      const bool is_less = std::ranges::all_of(all, [&](const Compared& one) {
+        return told->deviation < one.condensed.noise[c].constant;
+      });
+      if (is_less) lent[channel] = {*told, NoiseLender::kDifference};
+    }
+  }
 }
 
 /// Noise that was lent is known as well as the lenders tell it, not exactly.
@@ -175,7 +195,8 @@ void lend_doubt(Compared& to) {
     const auto told = to.lent.find(noise.channel);
     if (noise.source != NoiseSource::kSetup || to.states(noise.channel) || told == to.lent.end())
       continue;
-    noise.degrees_of_freedom = std::max(noise.degrees_of_freedom, told->second.degrees_of_freedom);
+    noise.degrees_of_freedom =
+        std::max(noise.degrees_of_freedom, told->second.scatter.degrees_of_freedom);
   }
 }
 
@@ -218,7 +239,8 @@ void condense_alike(const std::vector<Channel>& channels, const std::stop_token&
   lend_neighbour_scatter(all, test);
   condense_with_lent(test, stop);
   all.push_back(std::move(test));
-  const std::map<Channel, RunScatter> lent = lent_by(all, channels);
+  std::map<Channel, Lent> lent = lent_by(all, channels);
+  lend_scatter_of_difference(all, lent);
   for (Compared& one : all) {
     if (!one.lacks_replicates()) continue;
     one.lent = lent;

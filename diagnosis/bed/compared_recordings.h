@@ -20,7 +20,8 @@ struct ComparedRecordings {
 /// Keeps the channels that test and references measure, and the passes that a reference drove where
 /// the test drove others too. One run is taken to scatter alike on all of them: a recording without
 /// replicates takes the scatter of those that have them, and is as sure of it as they are; where
-/// all have too few, they tell it together; none is given less scatter than all have together.
+/// all have too few, they tell it together; where they have none, what a smooth difference of both
+/// leaves may tell it (`scatter_of_difference`); none is given less scatter than all have together.
 /// \throws InputError where a recording has fewer than 3 conditions, or no channel is common;
 /// Interrupted
 ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup,

@@ -82,13 +82,17 @@ double span_of(const Recording& recording, Channel channel) {
 
 std::string given_note(const Recording& recording, const DiagnosisSetup& setup,
                        const ChannelNoise& noise) {
-  const bool lent = setup.noise_lent.contains(noise.channel);
+  const auto lent = setup.noise_lent.find(noise.channel);
+  const bool is_given = lent == setup.noise_lent.end();
+  const std::string_view from = is_given ? "the setup"
+                                : lent->second == NoiseLender::kOtherSeries
+                                    ? "the series that it is compared with"
+                                    : "what a smooth difference of both leaves";
   std::string text =
       fmt::format("{}: too few replicates; noise {:.3g} from {}, days by half of it (assumed)",
-                  name(noise.channel), noise.constant,
-                  lent ? "the series that it is compared with" : "the setup");
+                  name(noise.channel), noise.constant, from);
   const double span = span_of(recording, noise.channel);
-  if (!lent && noise.constant > span) {
+  if (is_given && noise.constant > span) {
     text +=
         fmt::format("; all its values lie within {:.3g}: is the unit of the noise right?", span);
   }

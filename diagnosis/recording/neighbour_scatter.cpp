@@ -48,8 +48,8 @@ NeighbourScatter neighbour_scatter(const std::vector<Condition>& conditions,
     off.push_back(std::abs(points[i].residual - (others[0].second + others[1].second) / 2));
   }
   const double rough = median(off) / kMedianOfNormal;
-  // Each difference shares its runs with about four others.
-  constexpr int kShared = 4;
+  // Each run is in about three differences, so these are not that many tellers of their own.
+  constexpr int kShared = 3;
   return {std::max(rough, winsorised_rms(off, rough)) / std::sqrt(1.5),
           std::max(1, static_cast<int>(points.size()) / kShared)};
 }

@@ -2,13 +2,15 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "diagnosis/recording/recording.h"
 #include "terramech/wheel/wheel_model.h"
 
 namespace regoplan {
+
+/// Who told a number of the noise that neither replicates nor the setup did.
+enum class NoiseLender { kOtherSeries, kDifference };
 
 /// What is known beforehand of wheel, soil and instruments.
 struct DiagnosisSetup {
@@ -19,8 +21,8 @@ struct DiagnosisSetup {
   double gravity_mps2 = 9.80665;
   UncertainSoil soil;                                  ///< what independent soil tests say
   std::map<Channel, double> noise_standard_deviation;  ///< where there are no replicates
-  /// Those of the numbers above that other series tell, not the setup.
-  std::set<Channel> noise_lent = {};
+  /// Those of the numbers above that a comparison tells, not the setup.
+  std::map<Channel, NoiseLender> noise_lent = {};
 };
 
 /// A recording of the same rig and soil without the effect that is looked for.

@@ -96,6 +96,41 @@ TEST(ReadAlike, ReplicatesThatAreTooFewInEachTellTheScatterTogether) {
   }));
 }
 
+/// Every condition of a grid once, by a wheel whose pull goes up and down with slip as no model has
+/// it.
+Recording wavy(std::uint64_t seed) {
+  const DiagnosisSetup setup = simulant_setup();
+  const BedPlan plan{.loads_n = {64.7}, .conditions = 24, .replicates = 1, .day = 0, .outliers = 0};
+  TrueWheel wheel;
+  wheel.fx_n = [](const WheelRun& run, double) { return 8 * std::sin(25 * run.slip_ratio); };
+  return record(wheel, setup, setup.soil.mean, plan, seed);
+}
+
+TEST(ReadAlike, WithoutReplicatesWhatASmoothDifferenceLeavesTellsTheScatter) {
+  const Recording test = wavy(1), reference = wavy(2);
+  const ChannelNoise alone = condense(test, simulant_setup()).noise.front();
+  ASSERT_EQ(alone.channel, Channel::kFx);
+  EXPECT_EQ(alone.source, NoiseSource::kNeighbours);
+  EXPECT_GT(alone.constant, 2);  // N, where one run scatters by 1
+  const ComparedRecordings compared = alike(test, reference);
+  const ChannelNoise &own = compared.test.noise.front(),
+                     &of_reference = compared.references[0].noise.front();
+  EXPECT_NEAR(own.constant, 1, 0.4);
+  EXPECT_EQ(own.constant, of_reference.constant);
+  EXPECT_EQ(own.degrees_of_freedom, 24 - 7);
+  EXPECT_TRUE(std::ranges::any_of(compared.notes, [](const std::string& note) {
+    return note.starts_with("fx_n") && note.find("a smooth difference") != std::string::npos;
+  }));
+}
+
+TEST(ReadAlike, SeriesWithoutLikeConditionsKeepTheScatterBetweenNeighbours) {
+  const Recording test = wavy(1);
+  Recording elsewhere = wavy(2);
+  for (WheelRun& run : elsewhere.runs) run.conditions.speed_mps = 0.5;
+  const ComparedRecordings compared = alike(test, elsewhere);
+  EXPECT_EQ(compared.test.noise.front().source, NoiseSource::kNeighbours);
+}
+
 TEST(ReadAlike, ReferencesAreTheSameInWhateverOrderTheyAreGiven) {
   const DiagnosisSetup setup = simulant_setup();
   const Recording test = sound(1, 1);
