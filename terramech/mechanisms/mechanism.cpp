@@ -86,7 +86,7 @@ BoundMechanism bind(const Mechanism& mechanism) {
   BoundMechanism bound{.form = index_of(mechanism)};
   for (std::size_t i = 0; i < form.parameters.size(); ++i) {
     const auto given = mechanism.parameters.find(std::string(form.parameters[i].name));
-    bound.parameters[i] =
+    bound.parameters.at(i) =
         given == mechanism.parameters.end() ? form.parameters[i].typical : given->second;
   }
   return bound;

@@ -12,7 +12,7 @@
 /// literature describes in words or by experiment.
 namespace regoplan::mechanism_catalogue {
 
-using Parameters = std::array<double, 4>;
+using Parameters = FormParameters;
 
 struct Definition {
   MechanismForm form;

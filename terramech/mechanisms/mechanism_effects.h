@@ -88,10 +88,13 @@ struct Effects {
   double drag_torque_nm = 0;
 };
 
+/// As many parameters as any form has, in the form's order.
+using FormParameters = std::array<double, 5>;
+
 /// A mechanism looked up once: its form, and the parameters in the form's order.
 struct BoundMechanism {
   std::size_t form = 0;  ///< index into mechanism_forms()
-  std::array<double, 4> parameters{};
+  FormParameters parameters{};
 };
 
 /// \throws InputError as form_of

@@ -16,38 +16,46 @@ std::vector<Definition> of_wheel() {
         "passive_pressure",
         "thrust m b (gamma hg^2 Kp/2 + 2 c hg sqrt(Kp)) (1 - exp(-5 s)) a lug in the soil, of "
         "which there is "
-        "one at least, digging hg s/2",
+        "one at least, digging d hg s",
         "Bekker 1969; Iizuka & Kubota 2011",
         {{"lug_height_m", .004, .02, .01, 0, .2},
          {"mobilised", .3, 1, .8, 0, 1, true},
          {"ripple", 0, .5, 0, 0, 1},
-         {"lugs", 12, 32, 24, 0, 1000}}},
+         {"lugs", 12, 32, 24, 0, 1000},
+         {"digging", .05, 1, .5, 0, 10}}},
        [](E e, P p, S at) {
          e.lug_height_m = p[0];
          e.lug_share = p[1] * (1 - std::exp(-5 * driving(at)));
          e.lug_ripple = p[2];
          e.lugs = p[3];
          e.lug_phase_rad = p[3] * at.conditions.wheel_angle_rad;
-         e.sinkage_added_m += p[0] * driving(at) / 2;
+         e.sinkage_added_m += p[4] * p[0] * driving(at);
          return e;
        }},
       {{"grousers",
         "effective_radius",
-        "c, tan(phi) times 1 + 4 x (hg/r) (1 - exp(-5 s)), digging hg s/2",
+        "c, tan(phi) times 1 + 4 x (hg/r) (1 - exp(-5 s)), digging d hg s",
         "proxy; lugs as a larger shear radius",
-        {{"lug_height_m", .004, .02, .01, 0, .2}, {"share", .3, 1, .7, 0, 1, true}}},
+        {{"lug_height_m", .004, .02, .01, 0, .2},
+         {"share", .3, 1, .7, 0, 1, true},
+         {"digging", .05, 1, .5, 0, 10}}},
        [](E e, P p, S at) {
          e.limit *= 1 + p[1] * p[0] / e.wheel.radius_m * 4 * (1 - std::exp(-5 * driving(at)));
-         e.sinkage_added_m += p[0] * driving(at) / 2;
+         e.sinkage_added_m += p[2] * p[0] * driving(at);
          return e;
        }},
       {{"grousers",
         "soil_block",
         "soil between lugs shears as one with the wheel at r + x hg, driving or braking: there c "
-        "(1 + "
-        "2 hg/b), tan(phi) (1 + 0.64 (hg/b) acot(hg/b)); digging hg s/2",
-        "Bekker 1960; Ding et al. 2011, J. Terramechanics 48, 27-45",
-        {{"lug_height_m", .004, .02, .01, 0, .2}, {"share", .1, 1, .5, 0, 1, true}}},
+        "(1 "
+        "+ g) (1 + 2 hg/b), tan(phi) (1 + g) (1 + 0.64 (hg/b) acot(hg/b)), g what soil grips on "
+        "soil more than on a smooth rim; digging d hg s",
+        "Bekker 1960; Ding et al. 2011, J. Terramechanics 48, 27-45; g after Potyondy 1961, "
+        "Geotechnique 11, 339-353",
+        {{"lug_height_m", .004, .02, .01, 0, .2},
+         {"share", .1, 1, .5, 0, 1, true},
+         {"digging", .05, 1, .5, 0, 10},
+         {"grip", 0, .5, 0, 0, 10}}},
        [](E e, P p, S at) {
          const double radius = 1 + p[1] * p[0] / e.wheel.radius_m;
          const double slender = p[0] / e.wheel.width_m;
@@ -56,9 +64,9 @@ std::vector<Definition> of_wheel() {
            *modulus_m /= radius;
          }
          e.shear_radius *= radius;
-         e.block_cohesion *= 1 + 2 * slender;
-         e.block_friction *= 1 + 0.64 * slender * std::atan2(1, slender);
-         e.sinkage_added_m += p[0] * driving(at) / 2;
+         e.block_cohesion *= (1 + p[3]) * (1 + 2 * slender);
+         e.block_friction *= (1 + p[3]) * (1 + 0.64 * slender * std::atan2(1, slender));
+         e.sinkage_added_m += p[2] * p[0] * driving(at);
          return e;
        }},
       {{"grousers",
@@ -69,7 +77,7 @@ std::vector<Definition> of_wheel() {
         "Lyasko 2010, J. Terramechanics 47; Ding et al. 2011, J. Terramechanics 48, 27-45",
         {{"lug_height_m", .004, .02, .01, 0, .2},
          {"mobilised", .05, .8, .2, 0, 1, true},
-         {"carried", .4, 3, 1.2, 0, 100},
+         {"carried", .05, 3, 1.2, 0, 100},
          {"lugs", 12, 32, 24, 0, 1000}}},
        [](E e, P p, S at) {
          const double s = driving(at);

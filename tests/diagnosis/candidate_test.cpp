@@ -32,6 +32,22 @@ TEST(Hypothesis, ARecordingBearsOnlyWhatItsColumnsShow) {
   EXPECT_TRUE(tried(effects_for(condense(passes, setup).bed, passes), "multi_pass"));
 }
 
+TEST(Hypothesis, HowLugsDigAndGripIsFreeOnlyWhereAReferenceTellsOfTheWheelWithoutThem) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording recording = record({}, setup, setup.soil.mean, {.conditions = 12}, 1);
+  const TestBed bed = condense(recording, setup).bed;
+  const auto is_free = [&](EffectsOf of, const std::string& parameter) {
+    const std::vector<Effect> effects = effects_for(bed, recording, of);
+    const auto block = std::ranges::find(effects, "soil_block", &Effect::form);
+    return std::ranges::any_of(block->coordinates,
+                               [&](const Coordinate& c) { return c.name == parameter; });
+  };
+  for (const char* parameter : {"digging", "grip"}) {
+    EXPECT_TRUE(is_free(EffectsOf::kDifference, parameter)) << parameter;
+    EXPECT_FALSE(is_free(EffectsOf::kRecording, parameter)) << parameter;
+  }
+}
+
 TEST(Hypothesis, NoFitLeavesWhatTheNumbersOfAMechanismCanBe) {
   const DiagnosisSetup setup = simulant_setup();
   const Recording recording =

@@ -230,6 +230,31 @@ TEST(Mechanism, AnImposedSinkageIsTheModelsAndTheOffset) {
   EXPECT_GT(deeper.forces.fy_n, base.forces.fy_n);
 }
 
+TEST(Mechanism, LugsDigAsTheyAreToldAndByHalfTheirHeightAtFullSlipElse) {
+  const WheelMotion motion = motion_at(0.4, 0);
+  for (const char* form : {"passive_pressure", "effective_radius", "soil_block"}) {
+    const auto sinkage_m = [&](std::map<std::string, double> parameters) {
+      parameters["lug_height_m"] = 0.01;
+      return with(wheel_specs::ishigami2007(), "grousers", form, parameters)
+          .forces(60, motion)
+          .sinkage_m;
+    };
+    EXPECT_EQ(sinkage_m({}), sinkage_m({{"digging", 0.5}})) << form;
+    EXPECT_NEAR(sinkage_m({{"digging", 1}}) - sinkage_m({{"digging", 0}}), 0.4 * 0.01, 1e-9)
+        << form;
+  }
+}
+
+TEST(Mechanism, SoilBetweenLugsGripsTheSoilBelowMoreThanASmoothRimDoes) {
+  const WheelMotion motion = motion_at(0.4, 10 * kDegree);
+  const auto forces = [&](double grip) {
+    return with(wheel_specs::ishigami2007(), "grousers", "soil_block", {{"grip", grip}})
+        .forces(60, motion);
+  };
+  EXPECT_GT(forces(0.3).fx_n, forces(0).fx_n);
+  EXPECT_GT(forces(0.3).torque_nm, forces(0).torque_nm);
+}
+
 TEST(Mechanism, LugsRippleWithTheWheelAngle) {
   const WheelModel model = with(wheel_specs::ishigami2007(), "grousers", "passive_pressure",
                                 {{"ripple", 0.4}, {"lugs", 24}});
