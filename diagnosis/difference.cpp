@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -49,6 +50,15 @@ struct Treatment {
 };
 
 constexpr std::string_view kLugs = "grousers";
+
+/// Standard errors that stand out among so many looks as two do in one (Bonferroni).
+double clear_errors_among(std::size_t looks) {
+  const boost::math::normal standard;
+  const double tail =
+      boost::math::cdf(boost::math::complement(standard, Thresholds::kClear_errors));
+  return boost::math::quantile(
+      boost::math::complement(standard, tail / static_cast<double>(looks)));
+}
 
 class Differing {
  public:
@@ -137,6 +147,10 @@ class Differing {
     for (Treatment& t : treatments_) {
       t.contest = std::make_unique<CappedContest>(*t.calibrated);
       t.names = t.contest->score(effects_, nullptr, options_.threads);
+      for (CappedName& name : t.names) {
+        if (lugs_differ_ && name.id == kLugs) name.prior_nats = Thresholds::kTold_nats;
+      }
+      std::ranges::stable_sort(t.names, std::greater{}, posterior_nats);
       tell("scoring what may differ", 0.2 + 0.15 * static_cast<double>(&t - treatments_.data()));
     }
     tell("simulating nameless differences", 0.6);
@@ -169,7 +183,7 @@ class Differing {
     for (Treatment& t : treatments_) {
       const CappedName* name = t.find(id);
       if (name == nullptr) return "it has no forces";
-      if (name->gain_nats < Thresholds::kOverRemainder_nats) {
+      if (posterior_nats(*name) < Thresholds::kDifferenceOverRemainder_nats) {
         return fmt::format("with {} it gains {:.0f} nats over an unnamed remainder",
                            regoplan::name(t.base), name->gain_nats);
       }
@@ -178,9 +192,11 @@ class Differing {
         return fmt::format("with {} it explains {:.0f} % of the held-out difference",
                            regoplan::name(t.base), 100 * share.share.low);
       }
-      if (share.worsened) {
-        return fmt::format("with {} it predicts {} worse", regoplan::name(t.base),
-                           regoplan::name(*share.worsened));
+      if (share.worsens(
+              clear_errors_among(treatments_.size() * t.calibrated->bed().channels.size()))) {
+        return fmt::format("with {} it predicts {} worse by {:.1f} standard errors",
+                           regoplan::name(t.base), regoplan::name(share.loss.channel),
+                           share.loss.errors);
       }
       std::string doubt = objection(t.calibrated->problem(), name->fit);
       if (!doubt.empty()) return doubt;
@@ -212,7 +228,7 @@ class Differing {
       double sum = 0;
       for (const Treatment& t : treatments_) {
         const CappedName* same = t.find(name.id);
-        sum += same == nullptr ? -1e6 : same->gain_nats;
+        sum += same == nullptr ? -1e6 : posterior_nats(*same);
       }
       order.emplace_back(sum, name.id);
     }
@@ -225,7 +241,7 @@ class Differing {
     return std::ranges::any_of(treatments_, [&](const Treatment& t) {
       const CappedName *a = t.find(id), *b = t.find(leader);
       return a != nullptr && b != nullptr &&
-             a->gain_nats > b->gain_nats - Thresholds::kOverOthers_nats;
+             posterior_nats(*a) > posterior_nats(*b) - Thresholds::kOverOthers_nats;
     });
   }
 
@@ -253,14 +269,37 @@ class Differing {
     no_name();
   }
 
+  /// The names claimed, and where they are one what else is at work beside it, in one setting.
+  PartialClaim claim_under(const Treatment& t, const std::vector<std::string>& ids) const {
+    PartialClaim claim = first_claim(*t.calibrated, t.names, ids, chance_p_, options_.threads);
+    if (ids.size() == 1) {
+      add_further_names(*t.calibrated, *t.contest, effects_, t.find(ids.front())->gain_nats,
+                        options_.threads, claim);
+    }
+    return claim;
+  }
+
+  /// Takes back further names that another setting of the base model does not add.
+  void keep_what_all_add(const std::vector<std::string>& ids, PartialClaim& claim) {
+    for (const Treatment& t : treatments_) {
+      if (claim.claims.size() == 1) return;
+      if (&t == &primary()) continue;
+      const PartialClaim other = claim_under(t, ids);
+      const auto stands = [&](const Claim& one) {
+        return std::ranges::any_of(other.claims, [&](const Claim& c) { return c.is_of(one.id); });
+      };
+      const auto first_to_fall = std::ranges::find_if_not(claim.claims, stands);
+      const auto kept = static_cast<std::size_t>(first_to_fall - claim.claims.begin());
+      claim.claims.resize(kept);
+      claim.steps.resize(kept);
+      claim.fit = claim.steps.back();
+    }
+  }
+
   void claim(const NameClass& claimed) {
     Treatment& t = primary();
-    PartialClaim partial =
-        first_claim(*t.calibrated, t.names, claimed.ids, chance_p_, options_.threads);
-    if (claimed.ids.size() == 1) {
-      add_further_names(*t.calibrated, *t.contest, effects_, t.find(claimed.ids.front())->gain_nats,
-                        options_.threads, partial);
-    }
+    PartialClaim partial = claim_under(t, claimed.ids);
+    keep_what_all_add(claimed.ids, partial);
     const CandidateFit& fit = partial.fit;
     found_.names_added = steps_of(*t.calibrated, partial, options_.threads);
     found_.claims = std::move(partial.claims);

@@ -26,13 +26,29 @@ std::vector<Direction> shifts_of_channels(const CalibratedRecording& calibrated)
   return shifts;
 }
 
+/// The run of each channel that is farthest off, in standard deviations, no farther than the next.
+void cut_lone_runs(const TestBed& bed, FitRemainder& remainder) {
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const Eigen::Index n = bed.channels[c].mean.size();
+    if (n < 2) continue;
+    auto left = remainder.residual.segment(bed.offset(c), n);
+    Eigen::ArrayXd off = left.array().abs() / bed.channels[c].noise.diagonal().array().sqrt();
+    Eigen::Index farthest = 0;
+    const double most = off.maxCoeff(&farthest);
+    if (most == 0) continue;
+    off[farthest] = 0;
+    left[farthest] *= off.maxCoeff() / most;
+  }
+}
+
 }  // namespace
 
 LackOfFit lack_of_difference(const CalibratedRecording& calibrated, const CandidateFit& fit,
                              std::uint64_t seed) {
   const CondensedRecording& recording = calibrated.recording();
-  const FitRemainder remainder = calibrated.remainder_of(fit);
+  FitRemainder remainder = calibrated.remainder_of(fit);
   const NoiseTails tails = tails_of(recording);
+  if (tails == NoiseTails::kHeavy) cut_lone_runs(calibrated.bed(), remainder);
   constexpr int kTests = 2;
   constexpr int kDraws = kTests * kNoiseDraws;
   LackOfFit lack =

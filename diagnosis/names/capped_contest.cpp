@@ -83,13 +83,13 @@ CandidateFit CappedContest::best_predicting(const std::vector<CandidateFit>& for
     if (fit.evidence.log_marginal >= top - Thresholds::kNearForm_nats) near.push_back(&fit);
   }
   if (near.size() == 1) return *near.front();
-  std::vector<double> shares;
+  std::vector<std::pair<bool, double>> proofs;  // whether no channel gets worse, and the share
   for (const CandidateFit* fit : near) {
     const NameShare share = beside == nullptr ? name_share(calibrated_, *fit, 1)
                                               : added_share(calibrated_, *fit, *beside, 1);
-    shares.push_back(share.share.low);
+    proofs.emplace_back(!share.worsens(), share.share.low);
   }
-  return *near[static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin())];
+  return *near[static_cast<std::size_t>(std::ranges::max_element(proofs) - proofs.begin())];
 }
 
 }  // namespace regoplan

@@ -15,10 +15,16 @@ struct CappedName {
   /// of what has none stays below.
   double over_unexplained_nats = 0;
   /// Of the likeliest form; where others are about as likely, of the one that predicts held-out
-  /// conditions best. Its held-out share is then the best of a few, and that much too high.
+  /// conditions best, first of all no channel worse than without it. Its held-out share is then the best of a few, and that much too high.
   CandidateFit fit;
+  double prior_nats = 0;  ///< that it is at work, over the other names, as is told beforehand
   bool refused = false;  ///< something speaks against it: it weighs nothing beside the others
 };
+
+/// What the recording says of a name, and what is told of it beforehand.
+inline double posterior_nats(const CappedName& name) {
+  return name.gain_nats + name.prior_nats;
+}
 
 /// Every name against an unnamed remainder, a smooth Gaussian process on each channel. Without a
 /// cap the remainder swallows every name; up to a third of the amplitude that the base model

@@ -103,7 +103,7 @@ std::optional<PartialClaim> claim_by_shares(const CalibratedRecording& calibrate
     std::ranges::stable_sort(longer, std::greater{}, &NameSequence::worth);
     for (const NameSequence& sequence : longer) {
       // The first may move a channel the wrong way that the next puts right; all together may not.
-      if (sequence.together.worsened) continue;
+      if (sequence.together.worsens()) continue;
       if (!best || sequence.worth() > best->worth()) best = sequence;
     }
     if (longer.size() > kBeam) longer.resize(kBeam);

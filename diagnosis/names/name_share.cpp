@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "diagnosis/fit/unnamed_correction.h"
-#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
@@ -43,9 +42,7 @@ NameShare compare(const CalibratedRecording& calibrated, const CandidateFit& wit
   }
   if (!result.is_told) result.share = {};
   const auto worst = std::ranges::min_element(gains);
-  if (*worst < -Thresholds::kClear_errors) {
-    result.worsened = bed.channels[static_cast<std::size_t>(worst - gains.begin())].channel;
-  }
+  result.loss = {bed.channels[static_cast<std::size_t>(worst - gains.begin())].channel, -*worst};
   return result;
 }
 

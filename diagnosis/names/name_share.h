@@ -4,6 +4,7 @@
 
 #include "diagnosis/findings/findings.h"
 #include "diagnosis/names/calibrated_recording.h"
+#include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 
@@ -15,9 +16,11 @@ struct NameShare {
   bool is_told = false;  ///< whether any kind has a clear excess
   std::string held_out_by;
   double gain_in_errors = 0;  ///< least over the kinds of families
-  /// Channel that it predicts worse than without it by more than two standard errors, in the mean
-  /// over the kinds of families; nothing where there is none.
-  std::optional<Channel> worsened;
+  /// Of the channel that it predicts worst beside without it, in the mean over the kinds of
+  /// families; below 0 where none gets worse.
+  ChannelLoss loss;
+
+  bool worsens(double errors = Thresholds::kClear_errors) const { return loss.errors > errors; }
 };
 
 /// Names fitted as if there was nothing beside them: a discrepancy takes part of what they do.

@@ -15,10 +15,13 @@ constexpr std::size_t kMostNames = 3;
 
 std::vector<double> weights_of(const std::vector<CappedName>& names) {
   std::vector<double> weights;
-  const auto best = std::ranges::find(names, false, &CappedName::refused);
-  const double top = best == names.end() ? 0 : best->gain_nats;
+  double top = 0;
   for (const CappedName& name : names) {
-    weights.push_back(name.refused ? 0 : std::exp((name.gain_nats - top) / temperature_of(top)));
+    if (!name.refused) top = std::max(top, posterior_nats(name));
+  }
+  for (const CappedName& name : names) {
+    weights.push_back(name.refused ? 0
+                                   : std::exp((posterior_nats(name) - top) / temperature_of(top)));
   }
   return weights;
 }
@@ -95,13 +98,19 @@ std::vector<ScoredCandidate> capped_ranking(const std::vector<CappedName>& names
 
 std::string likelier_than(const std::vector<std::string>& ids,
                           const std::vector<ScoredCandidate>& ranking) {
+  constexpr std::size_t kNamed = 3;
   double claimed = 0;
+  std::vector<std::string> others;
   for (const ScoredCandidate& one : ranking) {
-    if (std::ranges::find(ids, one.id) != ids.end()) claimed += one.probability;
+    if (std::ranges::find(ids, one.id) != ids.end()) {
+      claimed += one.probability;
+    } else if (others.size() < kNamed) {
+      others.push_back(one.id);
+    }
   }
   if (claimed > Thresholds::kLikelierThanAll) return "";
-  return fmt::format("{} may stand, and something else is likelier: {}", fmt::join(ids, " or "),
-                     ranking.front().id);
+  return fmt::format("{} may stand, and all else together is likelier: {}", fmt::join(ids, " or "),
+                     fmt::join(others, ", "));
 }
 
 PartialClaim first_claim(const CalibratedRecording& calibrated,
@@ -170,7 +179,7 @@ void add_further_names(const CalibratedRecording& calibrated, const CappedContes
     if (!objection(calibrated.problem(), best.fit).empty()) return;
     const NameShare added = added_share(calibrated, best.fit, claim.fit, threads);
     if (added.share.low < Thresholds::kWorthAnother ||
-        added.gain_in_errors < Thresholds::kClear_errors || added.worsened)
+        added.gain_in_errors < Thresholds::kClear_errors || added.worsens())
       return;
     const std::vector<std::string> ids = ids_near(names, best.gain_nats);
     if (ids.size() > Thresholds::kLargestClass) return;

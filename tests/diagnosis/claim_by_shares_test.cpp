@@ -51,11 +51,11 @@ TEST(ClaimByShares, NamesTogetherPredictNoChannelWorseThanNone) {
   const TriedNames tried(digging());
   const auto alone = names_alone(*tried.calibrated, tried.effects, nullptr, 0.02, 2);
   ASSERT_EQ(alone.front().id, "lateral_digging");
-  ASSERT_TRUE(alone.front().share.worsened);
+  ASSERT_TRUE(alone.front().share.worsens());
   const auto claim = claim_by_shares(*tried.calibrated, tried.effects, 2);
   ASSERT_TRUE(claim);
   EXPECT_TRUE(claim->claims.front().is_of("lateral_digging"));
-  EXPECT_FALSE(name_share(*tried.calibrated, claim->fit, 2).worsened);
+  EXPECT_FALSE(name_share(*tried.calibrated, claim->fit, 2).worsens());
   for (const Claim& one : claim->claims) EXPECT_GE(one.share->low, Thresholds::kWorthAnother);
 }
 

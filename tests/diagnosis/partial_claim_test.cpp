@@ -33,6 +33,16 @@ TEST(CappedRanking, GivesTheBestNameWhatChanceLeaves) {
   EXPECT_NEAR(whole(ranking), 1, 1e-9);
 }
 
+TEST(CappedRanking, WhatIsToldOfANameBeforehandCounts) {
+  std::vector<CappedName> names = two_names();
+  names[1].gain_nats = names[0].gain_nats;
+  names[1].prior_nats = 100;
+  const auto ranking = capped_ranking(names, 0.05);
+  EXPECT_EQ(ranking.front().id, "flank_friction");
+  EXPECT_EQ(ranking.front().evidence_nats, names[1].gain_nats);  // of the recording alone
+  EXPECT_NEAR(whole(ranking), 1, 1e-9);
+}
+
 TEST(CappedRanking, WhatSomethingSpeaksAgainstWeighsNothing) {
   std::vector<CappedName> names = two_names();
   names[0].refused = true;
@@ -50,6 +60,11 @@ TEST(LikelierThan, IsWhateverLeavesNamesNoMoreThanHalfOfTheProbability) {
   const std::vector<ScoredCandidate> ranking{
       {"soil_change", 0.6}, {"grousers", 0.3}, {"multi_pass", 0.1}};
   EXPECT_NE(likelier_than({"grousers", "multi_pass"}, ranking).find("likelier: soil_change"),
+            std::string::npos);
+  // Several may be likelier together than the likeliest of all.
+  const std::vector<ScoredCandidate> close{
+      {"soil_change", 0.4}, {"grousers", 0.35}, {"multi_pass", 0.25}};
+  EXPECT_NE(likelier_than({"soil_change"}, close).find("likelier: grousers, multi_pass"),
             std::string::npos);
   EXPECT_EQ(likelier_than({"soil_change"}, ranking), "");
   EXPECT_EQ(likelier_than({"soil_change", "grousers"}, ranking), "");
