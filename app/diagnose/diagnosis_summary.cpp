@@ -16,8 +16,10 @@ constexpr std::size_t kShown = 5;
 std::string region_text(const MismatchRegion& mismatch) {
   std::string text;
   for (const auto& [column, ends] : mismatch.region) {
-    text +=
-        fmt::format("{}{} {:.3g} to {:.3g}", text.empty() ? "" : ", ", column, ends[0], ends[1]);
+    const auto [from, to] = to_digits_of_the_larger(ends[0], ends[1]);
+    const std::string first = fmt::format("{:.3g}", from), last = fmt::format("{:.3g}", to);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", column, first);
+    if (last != first) text += " to " + last;
   }
   return text.empty() ? "everywhere" : text;
 }

@@ -92,6 +92,11 @@ std::string range_words(const std::string& column, double from, double to) {
          number(from, digits) == number(to, digits)) {
     ++digits;
   }
+  if (!begins_anywhere) {
+    const auto ends = to_digits_of_the_larger(from, to);
+    from = ends[0];
+    to = ends[1];
+  }
   const std::string first = number(from, digits), last = number(to, digits);
   std::string text = fmt::format("{} {}", quantity.words, first);
   if (last != first) text += fmt::format(" to {}", last);
@@ -318,6 +323,15 @@ std::string words_of(const Diagnosis& diagnosis) {
 }
 
 }  // namespace
+
+std::array<double, 2> to_digits_of_the_larger(double from, double to) {
+  const double larger = std::max(std::abs(from), std::abs(to));
+  if (!std::isfinite(larger) || larger == 0) return {from, to};
+  constexpr int kDigits = 3;
+  const double unit = std::pow(10, kDigits - 1 - std::floor(std::log10(larger)));
+  const auto rounded = [unit](double value) { return std::round(value * unit) / unit + 0.0; };
+  return {rounded(from), rounded(to)};
+}
 
 std::string sentence_of(const Diagnosis& diagnosis) {
   std::string text = words_of(diagnosis);

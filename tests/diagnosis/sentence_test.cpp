@@ -89,6 +89,14 @@ TEST(Sentence, TellsARangeThatLooksLikeOneNumberAsThatNumber) {
   expect_says(sentence_of(diagnosis), {"at load 13.6 N;"});
 }
 
+TEST(Sentence, TellsAnEndOfARangeAsFinelyAsTheOther) {
+  Diagnosis diagnosis = named();
+  diagnosis.where.front().region = {{"slip_ratio", {-0.000567, 0.501}}};
+  expect_says(sentence_of(diagnosis), {"at slip ratio -0.001 to 0.501;"});
+  diagnosis.where.front().region = {{"slip_ratio", {-0.000067, 0.501}}};
+  expect_says(sentence_of(diagnosis), {"at slip ratio 0 to 0.501;"});
+}
+
 TEST(Sentence, IsNeverQuiteCertain) {
   Diagnosis diagnosis = named();
   diagnosis.claims.front().probability = 0.9999;
