@@ -9,7 +9,8 @@ namespace regoplan {
 /// What a fit leaves of a difference, against noise. What shifts a channel by less than one run
 /// scatters stands out along its own direction long before it does in the misfit of all: both are
 /// tested, each at half of the level, and `p_value` is of both; `f` and `critical` are of the
-/// misfit. Where no replicates tell outliers, one run of a channel proves nothing by itself. \throws Interrupted
+/// misfit. Where no replicates tell outliers, one run of a channel proves nothing by itself.
+/// \throws Interrupted
 LackOfFit lack_of_difference(const CalibratedRecording& calibrated, const CandidateFit& fit,
                              std::uint64_t seed);
 

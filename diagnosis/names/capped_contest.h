@@ -15,10 +15,11 @@ struct CappedName {
   /// of what has none stays below.
   double over_unexplained_nats = 0;
   /// Of the likeliest form; where others are about as likely, of the one that predicts held-out
-  /// conditions best, first of all no channel worse than without it. Its held-out share is then the best of a few, and that much too high.
+  /// conditions best, first of all no channel worse than without it. Its held-out share is then the
+  /// best of a few, and that much too high.
   CandidateFit fit;
   double prior_nats = 0;  ///< that it is at work, over the other names, as is told beforehand
-  bool refused = false;  ///< something speaks against it: it weighs nothing beside the others
+  bool refused = false;   ///< something speaks against it: it weighs nothing beside the others
 };
 
 /// What the recording says of a name, and what is told of it beforehand.

@@ -12,9 +12,10 @@ struct NeighbourScatter {
 };
 
 /// Scatter between neighbouring conditions of what the model leaves: each run against the mean of
-/// its two nearest. Of normal noise its square lies a tenth to three fifths too high in the mean, and
-/// scatters as with the degrees of freedom that are told (`NeighbourScatter.IsKnownAsWellAsItSays`).
-/// \param value, model per run; values not measured (NaN) do not count
+/// its two nearest. Of normal noise its square lies a tenth to three fifths too high in the mean,
+/// and scatters as with the degrees of freedom that are told
+/// (`NeighbourScatter.IsKnownAsWellAsItSays`). \param value, model per run; values not measured
+/// (NaN) do not count
 NeighbourScatter neighbour_scatter(const std::vector<Condition>& conditions,
                                    const std::vector<double>& value,
                                    const std::vector<double>& model);
