@@ -171,21 +171,26 @@ void lend_neighbour_scatter(const std::vector<Compared>& from, Compared& to) {
 }
 
 /// Where nobody's replicates tell a channel's scatter: what a smooth difference of the test, the
-/// last of all, from a reference leaves, where that is less than what neighbouring conditions of
-/// each tell.
+/// last of all, from that reference leaves which has the most conditions like its own, where that
+/// is less than what neighbouring conditions of each tell.
 void lend_scatter_of_difference(const std::vector<Compared>& all, std::map<Channel, Lent>& lent) {
   const CondensedRecording& test = all.back().condensed;
   for (std::size_t c = 0; c < test.noise.size(); ++c) {
     const Channel channel = test.noise[c].channel;
     if (lent.contains(channel)) continue;
+    RunScatter best;
     for (std::size_t r = 0; r + 1 < all.size(); ++r) {
-      const auto told = scatter_of_difference(test, all[r].condensed, c);
-      if (!told || told->deviation == 0) continue;
-      const bool is_less = std::ranges::all_of(all, [&](const Compared& one) {
-        return told->deviation < one.condensed.noise[c].constant;
-      });
-      if (is_less) lent[channel] = {*told, NoiseLender::kDifference};
+      const RunScatter told =
+          scatter_of_difference(test, all[r].condensed, c).value_or(RunScatter{});
+      // Of equally many the larger, so that the order of references does not count.
+      const auto rank = [](const RunScatter& s) {
+        return std::pair(s.degrees_of_freedom, s.deviation);
+      };
+      best = std::max(best, told, [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
     }
+    const bool is_less = std::ranges::all_of(
+        all, [&](const Compared& one) { return best.deviation < one.condensed.noise[c].constant; });
+    if (best.deviation > 0 && is_less) lent[channel] = {best, NoiseLender::kDifference};
   }
 }
 

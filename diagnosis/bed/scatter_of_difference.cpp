@@ -23,7 +23,7 @@ double apart(const Condition& a, const Condition& b) {
 
 /// A run of a channel: what the model leaves of it.
 struct Left {
-  std::size_t run = 0, condition = 0;
+  std::size_t condition = 0;
   double value = 0;
 };
 
@@ -37,7 +37,7 @@ std::vector<Left> left_of(const CondensedRecording& recording, std::size_t chann
     const double model = (*predicted)[bed.offset(channel) + static_cast<Eigen::Index>(i)];
     for (const std::size_t run : bed.conditions[conditions[i]].runs) {
       const double value = recording.adjusted[channel][run];
-      if (std::isfinite(value)) left.push_back({run, conditions[i], value - model});
+      if (std::isfinite(value)) left.push_back({conditions[i], value - model});
     }
   }
   return left;

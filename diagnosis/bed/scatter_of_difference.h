@@ -3,14 +3,9 @@
 #include <optional>
 
 #include "diagnosis/bed/condensed_recording.h"
+#include "diagnosis/recording/run_scatter.h"
 
 namespace regoplan {
-
-/// What runs of a channel scatter by.
-struct RunScatter {
-  double deviation = 0;        ///< standard deviation of one run
-  int degrees_of_freedom = 0;  ///< by which it is known
-};
 
 /// Scatter of one run, as the difference of two recordings at like conditions tells it: what a
 /// surface of second order in slip ratio and slip angle, of first in the logarithm of the load,

@@ -15,7 +15,7 @@ constexpr std::size_t kMostNames = 3;
 
 std::vector<double> weights_of(const std::vector<CappedName>& names) {
   std::vector<double> weights;
-  double top = 0;
+  double top = -INFINITY;
   for (const CappedName& name : names) {
     if (!name.refused) top = std::max(top, posterior_nats(name));
   }

@@ -20,9 +20,8 @@ double winsorised_rms(const std::vector<double>& off, double rough) {
 
 }  // namespace
 
-NeighbourScatter neighbour_scatter(const std::vector<Condition>& conditions,
-                                   const std::vector<double>& value,
-                                   const std::vector<double>& model) {
+RunScatter neighbour_scatter(const std::vector<Condition>& conditions,
+                             const std::vector<double>& value, const std::vector<double>& model) {
   struct Point {
     double s, b, l, residual;
   };

@@ -145,8 +145,7 @@ void fit_variances(const Recording& recording, const Replicates& replicates,
   }
 }
 
-ChannelNoise told_by_neighbours(Channel channel, const NeighbourScatter& scatter,
-                                std::size_t runs) {
+ChannelNoise told_by_neighbours(Channel channel, const RunScatter& scatter, std::size_t runs) {
   return {.channel = channel,
           .source = NoiseSource::kNeighbours,
           .constant = scatter.deviation,
@@ -162,7 +161,7 @@ double variance_share_of_few(int degrees_of_freedom) {
 
 /// Whether neighbouring conditions scatter more than few replicates, and no more than these may by
 /// chance tell too little.
-bool is_uncontradicted(const NeighbourScatter& scatter, const ChannelNoise& by_replicates,
+bool is_uncontradicted(const RunScatter& scatter, const ChannelNoise& by_replicates,
                        const std::vector<double>& value) {
   const double told = usual_deviation(by_replicates, value);
   if (by_replicates.degrees_of_freedom < kFewest) return told < scatter.deviation;
@@ -329,7 +328,7 @@ ChannelNoise estimate_noise(const Recording& recording, const std::vector<Condit
   if (few && setup.noise_standard_deviation.contains(channel)) {
     if (noise.degrees_of_freedom < kFewest) return without_replicates(conditions, runs, setup);
   } else if (few) {
-    const NeighbourScatter scatter = neighbour_scatter(conditions, adjusted, model);
+    const RunScatter scatter = neighbour_scatter(conditions, adjusted, model);
     if (is_uncontradicted(scatter, noise, adjusted)) {
       noise = told_by_neighbours(channel, scatter, adjusted.size());
       assume_a_day(noise);

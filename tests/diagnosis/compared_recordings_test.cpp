@@ -123,6 +123,18 @@ TEST(ReadAlike, WithoutReplicatesWhatASmoothDifferenceLeavesTellsTheScatter) {
   }));
 }
 
+TEST(ReadAlike, OfReferencesWithoutReplicatesTheOneWithMostLikeConditionsTellsTheScatter) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording test = wavy(1);
+  Recording fewer = wavy(2);
+  fewer.runs.resize(20);
+  const Reference few{"few", fewer, setup}, all{"all", wavy(3), setup};
+  const ComparedRecordings forth = read_alike(test, setup, {few, all}, {});
+  const ComparedRecordings back = read_alike(test, setup, {all, few}, {});
+  EXPECT_EQ(forth.test.noise.front().degrees_of_freedom, 24 - 7);
+  EXPECT_EQ(forth.test.noise.front().constant, back.test.noise.front().constant);
+}
+
 TEST(ReadAlike, SeriesWithoutLikeConditionsKeepTheScatterBetweenNeighbours) {
   const Recording test = wavy(1);
   Recording elsewhere = wavy(2);

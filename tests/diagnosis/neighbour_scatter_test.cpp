@@ -33,7 +33,7 @@ TEST(NeighbourScatter, IsKnownAsWellAsItSays) {
     for (int i = 0; i < kDraws; ++i) {
       std::vector<double> value(conditions.size());
       for (double& v : value) v = normal(random);
-      const NeighbourScatter scatter = neighbour_scatter(conditions, value, model);
+      const RunScatter scatter = neighbour_scatter(conditions, value, model);
       const double variance = scatter.deviation * scatter.deviation;
       mean += variance / kDraws;
       square += variance * variance / kDraws;
