@@ -113,7 +113,8 @@ class EffectList {
       } else if (name == "lugs" || name == "v0_mps" || name == "ripple" || name == "from_m" ||
                  name == "to_m" || name == "direction_rad" ||
                  (name == "t2_nms" && !columns_.speed) ||
-                 ((name == "digging" || name == "grip") && !columns_.difference)) {
+                 ((name == "digging" || name == "grip" || name == "held") &&
+                  !columns_.difference)) {
         effect.fixed[name] = name == "ripple" || name == "t2_nms" ? 0 : parameter.typical;
       } else {
         effect.coordinates.push_back(prior_of(parameter));

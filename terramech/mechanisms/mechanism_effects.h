@@ -77,6 +77,7 @@ struct Effects {
   double shear_radius = 1;        ///< of the surface along which soil shears over the rim's
   double block_cohesion = 1;      ///< of the soil that shears with the wheel over the soil's own
   double block_friction = 1;      ///< its tan(phi) over the soil's own
+  double block_held = 1;          ///< share of a block's strength that acts sideways too
   bool side_undisturbed = false;  ///< |Fy| as without digging and at the slip that was told
   double lug_height_m = 0;        ///< passive pressure on a lug
   double lug_share = 0;           ///< of the lugs' pressure that is mobilised

@@ -49,13 +49,14 @@ std::vector<Definition> of_wheel() {
         "soil between lugs shears as one with the wheel at r + x hg, driving or braking: there c "
         "(1 "
         "+ g) (1 + 2 hg/b), tan(phi) (1 + g) (1 + 0.64 (hg/b) acot(hg/b)), g what soil grips on "
-        "soil more than on a smooth rim; digging d hg s",
+        "soil more than on a smooth rim; of all that, the share k acts sideways; digging d hg s",
         "Bekker 1960; Ding et al. 2011, J. Terramechanics 48, 27-45; g after Potyondy 1961, "
         "Geotechnique 11, 339-353",
         {{"lug_height_m", .004, .02, .01, 0, .2},
          {"share", .1, 1, .5, 0, 1, true},
          {"digging", .05, 1, .5, 0, 10},
-         {"grip", 0, .5, 0, 0, 10}}},
+         {"grip", 0, .5, 0, 0, 10},
+         {"held", .05, 1, 1, 0, 1, true}}},
        [](E e, P p, S at) {
          const double radius = 1 + p[1] * p[0] / e.wheel.radius_m;
          const double slender = p[0] / e.wheel.width_m;
@@ -66,6 +67,7 @@ std::vector<Definition> of_wheel() {
          e.shear_radius *= radius;
          e.block_cohesion *= (1 + p[3]) * (1 + 2 * slender);
          e.block_friction *= (1 + p[3]) * (1 + 0.64 * slender * std::atan2(1, slender));
+         e.block_held *= p[4];
          e.sinkage_added_m += p[2] * p[0] * driving(at);
          return e;
        }},

@@ -19,7 +19,8 @@ using wheel_contact::Integrals;
 using wheel_contact::Ratios;
 using wheel_contact::Resultant;
 
-Ground ground_of(const Effects& effects, double gravity_mps2) {
+/// \param block share of what blocks between lugs have more than the soil's own
+Ground ground_of(const Effects& effects, double gravity_mps2, double block = 1) {
   Soil soil = effects.soil;
   soil.cohesion_pa *= effects.limit;
   soil.friction_angle_rad = std::atan(effects.limit * std::tan(soil.friction_angle_rad));
@@ -34,8 +35,9 @@ Ground ground_of(const Effects& effects, double gravity_mps2) {
   ground.tan_phi = std::tan(effects.rim_friction_ratio * soil.friction_angle_rad);
   ground.soil.cohesion_pa *= effects.rim_adhesion_share;
   // Likewise lugs: stress on the larger surface is referred to the rim's.
-  ground.tan_phi *= effects.shear_radius * effects.block_friction;
-  ground.soil.cohesion_pa *= effects.shear_radius * effects.block_cohesion;
+  const auto share = [block](double factor) { return 1 + block * (factor - 1); };
+  ground.tan_phi *= share(effects.shear_radius * effects.block_friction);
+  ground.soil.cohesion_pa *= share(effects.shear_radius * effects.block_cohesion);
   return ground;
 }
 
@@ -210,7 +212,10 @@ WheelChannels channels_under(const WheelModel& model, const Effects& effects,
     if (!(carrying >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
     side_n = wheel_contact::side_force_n(ground, before, as_told, carrying, model.accuracy_);
   } else if (!law.own && effects.rut_tilt_rad == 0) {
-    side_n = wheel_contact::side_force_n(ground, contact, ratios, q, model.accuracy_);
+    const Ground sideways = effects.block_held == 1
+                                ? ground
+                                : ground_of(effects, spec.gravity_mps2, effects.block_held);
+    side_n = wheel_contact::side_force_n(sideways, contact, ratios, q, model.accuracy_);
   } else {
     const RutStrips::Sideways sideways = strips.sideways(h, q, effects.load_n);
     side_n = sideways.force_n;

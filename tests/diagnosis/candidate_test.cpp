@@ -42,7 +42,7 @@ TEST(Hypothesis, HowLugsDigAndGripIsFreeOnlyWhereAReferenceTellsOfTheWheelWithou
     return std::ranges::any_of(block->coordinates,
                                [&](const Coordinate& c) { return c.name == parameter; });
   };
-  for (const char* parameter : {"digging", "grip"}) {
+  for (const char* parameter : {"digging", "grip", "held"}) {
     EXPECT_TRUE(is_free(EffectsOf::kDifference, parameter)) << parameter;
     EXPECT_FALSE(is_free(EffectsOf::kRecording, parameter)) << parameter;
   }

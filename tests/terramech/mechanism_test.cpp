@@ -255,6 +255,18 @@ TEST(Mechanism, SoilBetweenLugsGripsTheSoilBelowMoreThanASmoothRimDoes) {
   EXPECT_GT(forces(0.3).torque_nm, forces(0).torque_nm);
 }
 
+TEST(Mechanism, SoilThatLugsHoldRoundAloneAddsNothingSideways) {
+  const WheelModelSpec spec = wheel_specs::ishigami2007();
+  const WheelMotion motion = motion_at(0.4, 20 * kDegree);
+  const auto forces = [&](double held) {
+    return with(spec, "grousers", "soil_block", {{"grip", 0.3}, {"held", held}}).forces(60, motion);
+  };
+  EXPECT_GT(forces(1).fy_n, forces(0.3).fy_n);
+  EXPECT_GT(forces(0.3).fy_n, forces(0).fy_n);
+  EXPECT_EQ(forces(1).fx_n, forces(0).fx_n);
+  EXPECT_EQ(forces(1).sinkage_m, forces(0).sinkage_m);
+}
+
 TEST(Mechanism, LugsRippleWithTheWheelAngle) {
   const WheelModel model = with(wheel_specs::ishigami2007(), "grousers", "passive_pressure",
                                 {{"ripple", 0.4}, {"lugs", 24}});
