@@ -216,7 +216,7 @@ class Differing {
           "{}: nameless differences let some name do as well with a probability of {:.2f}",
           fmt::join(ids, " or "), p);
     }
-    const bool leave_nothing = leaves_nothing(left_by(primary().find(ids.front())->fit));
+    const bool leave_nothing = !is_proven(left_by(primary().find(ids.front())->fit));
     const std::string doubt = objection_to_class(ids, leave_nothing);
     return doubt.empty() ? likelier_than(ids, found_.ranking) : doubt;
   }
@@ -305,9 +305,9 @@ class Differing {
     found_.claims = std::move(partial.claims);
     found_.remainder_share = remainder_share(found_.claims);
     found_.after = left_by(fit);
-    found_.verdict = !leaves_nothing(found_.after) ? Verdict::kPartly
-                     : claimed.ids.size() == 1     ? Verdict::kNamed
-                                                   : Verdict::kClass;
+    found_.verdict = is_proven(found_.after)   ? Verdict::kPartly
+                     : claimed.ids.size() == 1 ? Verdict::kNamed
+                                               : Verdict::kClass;
     hand_out(fit);
   }
 

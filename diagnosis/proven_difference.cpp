@@ -63,10 +63,6 @@ bool is_proven(const LackOfFit& lack) {
   return lack.p_value < Thresholds::kDifference_p;
 }
 
-bool leaves_nothing(const LackOfFit& left) {
-  return left.p_value >= Thresholds::kLackOfFit_p;
-}
-
 double probability_of_no_difference(double p) {
   const auto bayes_factor = [](double p_value) {
     return p_value < std::exp(-1) ? -std::exp(1) * p_value * std::log(p_value) : 1;

@@ -14,10 +14,9 @@ namespace regoplan {
 LackOfFit lack_of_difference(const CalibratedRecording& calibrated, const CandidateFit& fit,
                              std::uint64_t seed);
 
+/// Whether it is more than noise leaves: of two recordings a difference, of a fit a part of it that
+/// has no name.
 bool is_proven(const LackOfFit& lack);
-
-/// Nothing but noise, as of a single recording.
-bool leaves_nothing(const LackOfFit& left);
 
 /// The least that a p value leaves to chance, by the bound of Sellke, Bayarri & Berger (2001, The
 /// American Statistician 55, 62-71), with prior odds by which none and some are as likely as each

@@ -20,10 +20,10 @@ import numpy as np
 import yaml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "diagnosis" / "independent"))
-from campaign import diagnosis_of, wilson  # noqa: E402
+from campaign import diagnosis_of  # noqa: E402
 from pairs import (ACCEPTED, EFFECTS, WEAK_CHI_SQUARE, SmoothField, draw_effects,  # noqa: E402
                    draw_shared, draw_soil_change)
-from pairs_campaign import COLUMNS, outcome  # noqa: E402
+from pairs_campaign import outcome, print_table  # noqa: E402
 from wheel import Runs  # noqa: E402
 from wheel_of_pair import WheelOfPair  # noqa: E402
 
@@ -184,13 +184,7 @@ def main():
             f"{' or '.join([claim['id'], *claim['equivalent']])} {claim['share']['low']:.2f}"
             for claim in said["mechanisms"])
         print(f"{name}: chi-square {truth['chi_square']:.0f}; {found}, {said['verdict']} {claimed}")
-    print(f"\n| kind | {' | '.join(COLUMNS)} | right, 95 % | verdicts |")
-    print(f"|{'---|' * (len(COLUMNS) + 3)}")
-    for kind in arguments.kinds:
-        of = sum(counts[kind][column] for column in COLUMNS[:3])
-        said = ", ".join(f"{verdict} {count}" for verdict, count in verdicts[kind].most_common())
-        print(f"| {kind} | {' | '.join(str(counts[kind][column]) for column in COLUMNS)} | "
-              f"{wilson(counts[kind]['right'], of)} | {said} |")
+    print_table(arguments.kinds, counts, verdicts)
     if undriven := [f"{kind}-{seed}" for name, (kind, seed) in zip(names, cases) if name is None]:
         print(f"the wheel cannot be driven so: {', '.join(undriven)}")
 

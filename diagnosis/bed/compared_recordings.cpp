@@ -175,22 +175,25 @@ void lend_neighbour_scatter(const std::vector<Compared>& from, Compared& to) {
 /// is less than what neighbouring conditions of each tell.
 void lend_scatter_of_difference(const std::vector<Compared>& all, std::map<Channel, Lent>& lent) {
   const CondensedRecording& test = all.back().condensed;
-  for (std::size_t c = 0; c < test.noise.size(); ++c) {
-    const Channel channel = test.noise[c].channel;
-    if (lent.contains(channel)) continue;
-    RunScatter best;
-    for (std::size_t r = 0; r + 1 < all.size(); ++r) {
-      const RunScatter told =
-          scatter_of_difference(test, all[r].condensed, c).value_or(RunScatter{});
-      // Of equally many the larger, so that the order of references does not count.
-      const auto rank = [](const RunScatter& s) {
-        return std::pair(s.degrees_of_freedom, s.deviation);
-      };
-      best = std::max(best, told, [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  std::vector<RunScatter> best(test.noise.size());
+  if (lent.size() == best.size()) return;
+  // Of equally many the larger, so that the order of references does not count.
+  const auto tells_less = [](const RunScatter& a, const RunScatter& b) {
+    return std::pair(a.degrees_of_freedom, a.deviation) <
+           std::pair(b.degrees_of_freedom, b.deviation);
+  };
+  for (std::size_t r = 0; r + 1 < all.size(); ++r) {
+    const auto told = scatter_of_difference(test, all[r].condensed);
+    for (std::size_t c = 0; c < best.size(); ++c) {
+      best[c] = std::max(best[c], told[c].value_or(RunScatter{}), tells_less);
     }
-    const bool is_less = std::ranges::all_of(
-        all, [&](const Compared& one) { return best.deviation < one.condensed.noise[c].constant; });
-    if (best.deviation > 0 && is_less) lent[channel] = {best, NoiseLender::kDifference};
+  }
+  for (std::size_t c = 0; c < best.size(); ++c) {
+    const bool is_less = std::ranges::all_of(all, [&](const Compared& one) {
+      return best[c].deviation < one.condensed.noise[c].constant;
+    });
+    if (best[c].deviation > 0 && is_less)
+      lent.try_emplace(test.noise[c].channel, Lent{best[c], NoiseLender::kDifference});
   }
 }
 

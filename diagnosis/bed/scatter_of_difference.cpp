@@ -21,26 +21,30 @@ double apart(const Condition& a, const Condition& b) {
                     std::log(a.load_n / b.load_n) / 0.1);
 }
 
-/// A run of a channel: what the model leaves of it.
-struct Left {
-  std::size_t condition = 0;
-  double value = 0;
+/// Runs of two recordings at like conditions, each of one pair at most.
+struct Pair {
+  std::size_t test = 0, reference = 0;  // runs
+  std::size_t test_condition = 0, reference_condition = 0;
 };
 
-std::vector<Left> left_of(const CondensedRecording& recording, std::size_t channel) {
-  const TestBed& bed = recording.bed;
-  const auto predicted = predict(bed, bed.setup.soil.mean, {});
-  if (!predicted) return {};
-  const std::vector<std::size_t>& conditions = bed.channels[channel].conditions;
-  std::vector<Left> left;
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
-    const double model = (*predicted)[bed.offset(channel) + static_cast<Eigen::Index>(i)];
-    for (const std::size_t run : bed.conditions[conditions[i]].runs) {
-      const double value = recording.adjusted[channel][run];
-      if (std::isfinite(value)) left.push_back({conditions[i], value - model});
+std::vector<Pair> pairs_of(const TestBed& test, const TestBed& reference) {
+  std::vector<std::pair<std::size_t, std::size_t>> others;  // run and condition
+  for (std::size_t k = 0; k < reference.conditions.size(); ++k) {
+    for (const std::size_t run : reference.conditions[k].runs) others.emplace_back(run, k);
+  }
+  std::vector<Pair> pairs;
+  for (std::size_t k = 0; k < test.conditions.size(); ++k) {
+    for (const std::size_t run : test.conditions[k].runs) {
+      const auto distance = [&](const auto& other) {
+        return apart(test.conditions[k], reference.conditions[other.second]);
+      };
+      const auto nearest = std::ranges::min_element(others, {}, distance);
+      if (nearest == others.end() || !(distance(*nearest) < 1)) continue;
+      pairs.push_back({run, nearest->first, k, nearest->second});
+      others.erase(nearest);
     }
   }
-  return left;
+  return pairs;
 }
 
 /// Of second order in slip ratio and slip angle, of first in the logarithm of the load.
@@ -55,24 +59,9 @@ Eigen::MatrixXd smooth_over(const std::vector<const Condition*>& at) {
   return of;
 }
 
-}  // namespace
-
-std::optional<RunScatter> scatter_of_difference(const CondensedRecording& test,
-                                                const CondensedRecording& reference,
-                                                std::size_t channel) {
-  std::vector<Left> others = left_of(reference, channel);
-  std::vector<const Condition*> at;
-  std::vector<double> difference;
-  for (const Left& one : left_of(test, channel)) {
-    const auto distance = [&](const Left& other) {
-      return apart(test.bed.conditions[one.condition], reference.bed.conditions[other.condition]);
-    };
-    const auto nearest = std::ranges::min_element(others, {}, distance);
-    if (nearest == others.end() || !(distance(*nearest) < 1)) continue;
-    at.push_back(&test.bed.conditions[one.condition]);
-    difference.push_back(one.value - nearest->value);
-    others.erase(nearest);
-  }
+/// What a surface leaves of a difference; nothing where too few values are left.
+std::optional<RunScatter> scatter_about_surface(const std::vector<const Condition*>& at,
+                                                const std::vector<double>& difference) {
   if (difference.empty()) return std::nullopt;
   const auto n = static_cast<Eigen::Index>(difference.size());
   const Eigen::MatrixXd surface = smooth_over(at);
@@ -84,6 +73,42 @@ std::optional<RunScatter> scatter_of_difference(const CondensedRecording& test,
   const double deviation =
       std::sqrt(square / static_cast<double>(left)) / std::numbers::sqrt2;  // of either
   return RunScatter{deviation, static_cast<int>(left)};
+}
+
+/// By condition, of every channel: what the model has there; not a number where it is not measured.
+std::vector<std::vector<double>> modelled(const TestBed& bed) {
+  std::vector<std::vector<double>> all(
+      bed.channels.size(), std::vector<double>(bed.conditions.size(), WheelRun::kNotMeasured));
+  const auto predicted = predict(bed, bed.setup.soil.mean, {});
+  if (!predicted) return all;
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    Eigen::Index row = bed.offset(c);
+    for (const std::size_t k : bed.channels[c].conditions) all[c][k] = (*predicted)[row++];
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::optional<RunScatter>> scatter_of_difference(const CondensedRecording& test,
+                                                             const CondensedRecording& reference) {
+  const std::vector<Pair> pairs = pairs_of(test.bed, reference.bed);
+  const auto of_test = modelled(test.bed), of_reference = modelled(reference.bed);
+  std::vector<std::optional<RunScatter>> scatter;
+  for (std::size_t c = 0; c < test.bed.channels.size(); ++c) {
+    std::vector<const Condition*> at;
+    std::vector<double> difference;
+    for (const Pair& pair : pairs) {
+      const double of_pair = test.adjusted[c][pair.test] - of_test[c][pair.test_condition] -
+                             reference.adjusted[c][pair.reference] +
+                             of_reference[c][pair.reference_condition];
+      if (!std::isfinite(of_pair)) continue;
+      at.push_back(&test.bed.conditions[pair.test_condition]);
+      difference.push_back(of_pair);
+    }
+    scatter.push_back(scatter_about_surface(at, difference));
+  }
+  return scatter;
 }
 
 }  // namespace regoplan

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "diagnosis/bed/condensed_recording.h"
 #include "diagnosis/recording/run_scatter.h"
@@ -14,10 +15,8 @@ namespace regoplan {
 /// is counted, so it errs on the cautious side. Conditions are alike where the root of the summed
 /// squares of their distances in slip ratio over 0.03, slip angle over 0.03 rad and logarithm of
 /// the load over 0.1 is below 1, and pass and speed are the same. Each run is of one pair at most.
-/// \param channel of both beds
-/// \return nothing with fewer than 6 pairs beyond what the surface takes
-std::optional<RunScatter> scatter_of_difference(const CondensedRecording& test,
-                                                const CondensedRecording& reference,
-                                                std::size_t channel);
+/// \return by channel of both beds; nothing with fewer than 6 pairs beyond what the surface takes
+std::vector<std::optional<RunScatter>> scatter_of_difference(const CondensedRecording& test,
+                                                             const CondensedRecording& reference);
 
 }  // namespace regoplan

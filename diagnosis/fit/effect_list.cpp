@@ -110,11 +110,7 @@ class EffectList {
       const std::string name(parameter.name);
       if (const auto told = told_by_setup(name)) {
         effect.fixed[name] = *told;
-      } else if (name == "lugs" || name == "v0_mps" || name == "ripple" || name == "from_m" ||
-                 name == "to_m" || name == "direction_rad" ||
-                 (name == "t2_nms" && !columns_.speed) ||
-                 ((name == "digging" || name == "grip" || name == "held") &&
-                  !columns_.difference)) {
+      } else if (is_fixed(name)) {
         effect.fixed[name] = name == "ripple" || name == "t2_nms" ? 0 : parameter.typical;
       } else {
         effect.coordinates.push_back(prior_of(parameter));
@@ -251,6 +247,16 @@ class EffectList {
 
   static bool crosses(Channel channel) {
     return channel == Channel::kFx || channel == Channel::kFy || channel == Channel::kTorque;
+  }
+
+  /// What the recording cannot tell: at all, without a column, or without a reference whose wheel
+  /// has no lugs.
+  bool is_fixed(std::string_view parameter) const {
+    const std::set<std::string_view> kNever{"lugs",   "v0_mps", "ripple",
+                                            "from_m", "to_m",   "direction_rad"};
+    const std::set<std::string_view> kByReference{"digging", "grip", "held"};
+    if (parameter == "t2_nms") return !columns_.speed;
+    return kNever.contains(parameter) || (kByReference.contains(parameter) && !columns_.difference);
   }
 
   std::optional<double> told_by_setup(const std::string& parameter) const {

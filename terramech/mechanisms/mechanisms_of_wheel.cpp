@@ -46,10 +46,10 @@ std::vector<Definition> of_wheel() {
        }},
       {{"grousers",
         "soil_block",
-        "soil between lugs shears as one with the wheel at r + x hg, driving or braking: there c "
-        "(1 "
-        "+ g) (1 + 2 hg/b), tan(phi) (1 + g) (1 + 0.64 (hg/b) acot(hg/b)), g what soil grips on "
-        "soil more than on a smooth rim; of all that, the share k acts sideways; digging d hg s",
+        "soil between lugs shears as one with the wheel at r + x hg, driving or braking: "
+        "there c (1 + g) (1 + 2 hg/b), tan(phi) (1 + g) (1 + 0.64 (hg/b) acot(hg/b)), "
+        "g what soil grips on soil more than on a smooth rim; "
+        "of all that, the share k acts sideways; digging d hg s",
         "Bekker 1960; Ding et al. 2011, J. Terramechanics 48, 27-45; g after Potyondy 1961, "
         "Geotechnique 11, 339-353",
         {{"lug_height_m", .004, .02, .01, 0, .2},

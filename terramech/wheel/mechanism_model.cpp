@@ -202,6 +202,10 @@ WheelChannels channels_under(const WheelModel& model, const Effects& effects,
     return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
   Resultant resultant = plane.at(q);
   resultant.torque_nm *= effects.shear_radius;
+  std::optional<Ground> less_held;  // sideways, where blocks hold less so than along
+  if (effects.block_held != 1)
+    less_held = ground_of(effects, spec.gravity_mps2, effects.block_held);
+  const Ground& aside = less_held ? *less_held : ground;
   double side_n = 0, roll_nm = 0;
   if (effects.side_undisturbed) {
     const Ratios& as_told = told.ratios;
@@ -210,15 +214,16 @@ WheelChannels channels_under(const WheelModel& model, const Effects& effects,
     const Integrals under = wheel_contact::integrate(ground, before, as_told, model.accuracy_);
     const double carrying = (effects.load_n - under.cohesion.fz_n) / under.stress.fz_n;
     if (!(carrying >= 0)) return {.forces = {.status = WheelStatus::kCohesionCarriesLoad}};
-    side_n = wheel_contact::side_force_n(ground, before, as_told, carrying, model.accuracy_);
+    side_n = wheel_contact::side_force_n(aside, before, as_told, carrying, model.accuracy_);
   } else if (!law.own && effects.rut_tilt_rad == 0) {
-    const Ground sideways = effects.block_held == 1
-                                ? ground
-                                : ground_of(effects, spec.gravity_mps2, effects.block_held);
-    side_n = wheel_contact::side_force_n(sideways, contact, ratios, q, model.accuracy_);
+    side_n = wheel_contact::side_force_n(aside, contact, ratios, q, model.accuracy_);
   } else {
     const RutStrips::Sideways sideways = strips.sideways(h, q, effects.load_n);
     side_n = sideways.force_n;
+    if (less_held) {
+      const RutStrips less(aside, ratios, law.stress, effects.rut_tilt_rad, model.accuracy_);
+      side_n = less.sideways(h, q, effects.load_n).force_n;
+    }
     // inner is right (-y) for a motion to the left: the moment about x is negative
     roll_nm = -forward.y_sign * sideways.roll_nm;
   }

@@ -293,7 +293,10 @@ TEST(BenchmarkProgram, LosesNothingWhenTheDiskIsFull) {
   write_suite(folder, 5);
   std::filesystem::create_directories(folder.path("small"));
   if (mount("tmpfs", folder.path("small").c_str(), "tmpfs", 0, "size=24k") != 0) {
-    GTEST_SKIP() << "a small file system cannot be mounted here: " << std::strerror(errno);
+    const int error = errno;
+    // Only what a machine forbids is its own; whatever else goes wrong, we have caused.
+    ASSERT_TRUE(error == EPERM || error == EACCES || error == ENOSYS) << std::strerror(error);
+    GTEST_SKIP() << "a small file system cannot be mounted here: " << std::strerror(error);
   }
   const ProgramRun full = run_program(folder, benchmark_arguments(folder, "small/out", "--quiet"));
   EXPECT_EQ(full.status, 1);

@@ -267,6 +267,20 @@ TEST(Mechanism, SoilThatLugsHoldRoundAloneAddsNothingSideways) {
   EXPECT_EQ(forces(1).sinkage_m, forces(0).sinkage_m);
 }
 
+TEST(Mechanism, SoilThatLugsHoldRoundAloneAddsNothingSidewaysUnderAnyLawOfShear) {
+  const WheelMotion motion = motion_at(0.4, 20 * kDegree);
+  for (const Mechanism& law :
+       {Mechanism{"shear_hump", "wong", {}}, Mechanism{"layered_soil", "", {}},
+        Mechanism{"rut_asymmetry", "", {}}, Mechanism{"coupled_shear", "within_limit", {}}}) {
+    const auto fy_n = [&](double held) {
+      WheelModelSpec spec = wheel_specs::ishigami2007();
+      spec.mechanisms = {law, {"grousers", "soil_block", {{"grip", 0.3}, {"held", held}}}};
+      return WheelModel(spec).forces(60, motion).fy_n;
+    };
+    EXPECT_GT(fy_n(1), fy_n(0)) << law.id;
+  }
+}
+
 TEST(Mechanism, LugsRippleWithTheWheelAngle) {
   const WheelModel model = with(wheel_specs::ishigami2007(), "grousers", "passive_pressure",
                                 {{"ripple", 0.4}, {"lugs", 24}});

@@ -94,7 +94,8 @@ function regionText(region) {
     const larger = d3.max([low, high].filter(isKnown), Math.abs);
     const step = 10 ** (2 - Math.floor(Math.log10(larger || 1)));
     const of = value =>
-        significant(Math.round(value * step) / step + 0, 3) + (unit ? (unit === '\u00b0' ? '' : '\u00a0') + unit : '');
+        significant(Math.round(value * step) / step + 0, 3) +
+        (unit ? (unit === '\u00b0' ? '' : '\u00a0') + unit : '');
     if (!isKnown(low) && !isKnown(high)) return name;
     if (!isKnown(low)) return `${name} up to ${of(high)}`;
     if (!isKnown(high)) return `${name} from ${of(low)}`;

@@ -77,6 +77,18 @@ def described(truth, said, ranked=5):
     return lines + [f"  ranking (nats): {top}"]
 
 
+def print_table(kinds, counts, verdicts):
+    """Outcomes and verdicts by kind."""
+    print(f"\n| kind | {' | '.join(COLUMNS)} | right, 95 % | wrong, 95 % | verdicts |")
+    print(f"|{'---|' * (len(COLUMNS) + 4)}")
+    for kind in kinds:
+        of = sum(counts[kind][column] for column in COLUMNS[:3])
+        said = ", ".join(f"{verdict} {count}" for verdict, count in verdicts[kind].most_common())
+        print(f"| {kind} | {' | '.join(str(counts[kind][column]) for column in COLUMNS)} | "
+              f"{wilson(counts[kind]['right'], of)} | {wilson(counts[kind]['wrong'], of)} | "
+              f"{said} |")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", type=lambda path: pathlib.Path(path).resolve())
@@ -111,14 +123,7 @@ def main():
         if "wrong" in found or (arguments.silent and found == "silent"):
             print(f"{name}: {found}, {said['verdict']}", *described(truth, said), sep="\n")
 
-    print(f"\n| kind | {' | '.join(COLUMNS)} | right, 95 % | wrong, 95 % | verdicts |")
-    print(f"|{'---|' * (len(COLUMNS) + 4)}")
-    for kind in arguments.kinds:
-        of = sum(counts[kind][column] for column in COLUMNS[:3])
-        said = ", ".join(f"{verdict} {count}" for verdict, count in verdicts[kind].most_common())
-        print(f"| {kind} | {' | '.join(str(counts[kind][column]) for column in COLUMNS)} | "
-              f"{wilson(counts[kind]['right'], of)} | {wilson(counts[kind]['wrong'], of)} | "
-              f"{said} |")
+    print_table(arguments.kinds, counts, verdicts)
     print(f"\n| all that differ | {' | '.join(COLUMNS)} |\n|{'---|' * (len(COLUMNS) + 1)}")
     for group, found in sorted(groups.items()):
         print(f"| {group} | {' | '.join(str(found[column]) for column in COLUMNS)} |")
