@@ -12,10 +12,9 @@
 #include "diagnosis/checks/location.h"
 #include "diagnosis/checks/shared_shortcomings.h"
 #include "diagnosis/fit/effect_list.h"
-#include "diagnosis/fit/unnamed_correction.h"
+#include "diagnosis/model_of_test.h"
 #include "diagnosis/names/capped_contest.h"
 #include "diagnosis/names/claim.h"
-#include "diagnosis/names/correction.h"
 #include "diagnosis/names/name_share.h"
 #include "diagnosis/names/next_experiment.h"
 #include "diagnosis/names/partial_claim.h"
@@ -30,7 +29,7 @@ namespace {
 /// The test and what it is compared with, under one setting of the base model.
 struct Treatment {
   SharedBase base = SharedBase::kPriorMeans;
-  Eigen::VectorXd measured, shared, noise_variance;
+  MeasuredTest measured;
   std::unique_ptr<CalibratedRecording> calibrated;
   LackOfFit lack;
   std::unique_ptr<CappedContest> contest;
@@ -133,10 +132,7 @@ class Differing {
 
   Treatment treat(SharedBase base) {
     DifferenceBed bed = difference_bed(compared_.test, compared_.references, base);
-    Treatment treatment{.base = base,
-                        .measured = std::move(bed.measured),
-                        .shared = std::move(bed.shared),
-                        .noise_variance = std::move(bed.noise_variance)};
+    Treatment treatment{.base = base, .measured = std::move(bed.measured)};
     treatment.calibrated = std::make_unique<CalibratedRecording>(std::move(bed.test));
     const CalibratedRecording& calibrated = *treatment.calibrated;
     treatment.lack = lack_of_difference(calibrated, calibrated.base(), options_.seed);
@@ -365,13 +361,7 @@ class Differing {
     found_.share_explained = proof.share_explained;
     found_.excess_is_clear = has_clear_excess(difference.bed(), proof);
     found_.differences = differences(difference, fit);
-    CondensedRecording whole = difference.recording();
-    restore(t, whole);
-    const CalibratedRecording measured(std::move(whole));
-    const std::vector<std::size_t> left = remainder_settings(measured.problem(), fit);
-    const CorrectedModel model{.fit = claimed, .remainder = left};
-    const HeldOut of_test = measured.held_out(model, options_.threads);
-    Correction correction = correction_by(measured, fit, left, of_test, options_.threads);
+    Correction correction = model_of_test(difference, t.measured, fit, proof, options_.threads);
     if (!correction.refused.empty() && adds) {
       found_.notes.push_back("the corrected model is the base model: " + correction.refused);
     }
@@ -403,23 +393,6 @@ class Differing {
       }
     }
     return all;
-  }
-
-  /// Puts back what the references share.
-  static void restore(const Treatment& t, CondensedRecording& recording) {
-    TestBed& bed = recording.bed;
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      ChannelData& data = bed.channels[c];
-      const Eigen::Index from = bed.offset(c), n = data.mean.size();
-      data.mean = t.measured.segment(from, n);
-      data.noise = t.noise_variance.segment(from, n).asDiagonal();
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const std::size_t k = data.conditions[static_cast<std::size_t>(i)];
-        for (const std::size_t run : bed.conditions[k].runs) {
-          recording.adjusted[c][run] += t.shared[from + i];
-        }
-      }
-    }
   }
 
   const DiagnosisOptions& options_;

@@ -1,25 +1,16 @@
 #include "diagnosis/checks/shared_shortcomings.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "diagnosis/bed/discrepancy.h"
+#include "diagnosis/checks/shared_surface.h"
 #include "diagnosis/fit/calibration.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
 namespace {
-
-/// One value that a reference gives of the base model's shortcoming in a channel.
-struct Points {
-  ConditionsAt at;
-  Eigen::VectorXd residual;
-  Eigen::MatrixXd noise;
-  double scale = 0;
-};
 
 const ChannelData* channel_of(const TestBed& bed, Channel channel, std::size_t* index) {
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
@@ -31,9 +22,9 @@ const ChannelData* channel_of(const TestBed& bed, Channel channel, std::size_t* 
 }
 
 /// \param predictions of the base model, one vector a reference
-Points points_of(const std::vector<CondensedRecording>& references,
-                 const std::vector<Eigen::VectorXd>& predictions, Channel channel) {
-  Points points;
+ShortcomingPoints points_of(const std::vector<CondensedRecording>& references,
+                            const std::vector<Eigen::VectorXd>& predictions, Channel channel) {
+  ShortcomingPoints points;
   for (std::size_t r = 0; r < references.size(); ++r) {
     const TestBed& bed = references[r].bed;
     std::size_t c = 0;
@@ -52,79 +43,9 @@ Points points_of(const std::vector<CondensedRecording>& references,
   return points;
 }
 
-struct Surface {
-  Eigen::VectorXd mean;
-  Eigen::MatrixXd covariance;
-};
-
-/// Squared error of a point predicted by all others, over what it is told to be: 1 in the mean of a
-/// surface that errs as it says.
-double left_out_misfit(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::VectorXd& residual) {
-  const Eigen::MatrixXd precision =
-      factor.solve(Eigen::MatrixXd::Identity(residual.size(), residual.size()));
-  const Eigen::VectorXd weighed = precision * residual;
-  return (weighed.array().square() / precision.diagonal().array()).mean();
-}
-
-/// A surface under one setting of the discrepancy.
-struct Member {
-  double log_weight = 0;
-  Surface surface;
-  double left_out_misfit = 1;
-};
-
-/// Every setting of the discrepancy by its likelihood: the mean over them all, and their spread. A
-/// surface that predicts its own points worse than it says errs as much between them.
-Surface surface_through(const Points& points, Channel channel, const ConditionsAt& wanted,
-                        const std::stop_token& stop) {
-  const auto n = static_cast<Eigen::Index>(wanted.size());
-  Surface sum{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
-  if (points.at.empty()) {
-    return sum;
-  }
-  std::vector<Member> members;
-  const auto add_members = [&](const DiscrepancyScales& scales, Sides sides) {
-    const Eigen::MatrixXd kernel =
-        discrepancy_kernels(scales, channel, points.at, points.at, sides);
-    const Eigen::MatrixXd cross = discrepancy_kernels(scales, channel, wanted, points.at, sides);
-    const Eigen::MatrixXd own = discrepancy_kernels(scales, channel, wanted, wanted, sides);
-    for (const double amplitude : {0.0, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
-      throw_if_stopped(stop);
-      const double variance = std::pow(amplitude * points.scale, 2);
-      const Eigen::LLT<Eigen::MatrixXd> factor(points.noise + variance * kernel);
-      const double fit = factor.matrixL().solve(points.residual).squaredNorm();
-      const double log_det = 2 * factor.matrixLLT().diagonal().array().log().sum();
-      const Eigen::MatrixXd half = factor.matrixL().solve(variance * cross.transpose());
-      members.push_back(
-          {.log_weight = -0.5 * (fit + log_det) + (sides == Sides::kApart ? kApart_log_prior : 0.0),
-           .surface = {variance * cross * factor.solve(points.residual),
-                       variance * own - half.transpose() * half},
-           .left_out_misfit = left_out_misfit(factor, points.residual)});
-    }
-  };
-  for (const DiscrepancyScales& scales : discrepancy_scales()) {
-    for (const Sides sides : {Sides::kMirrored, Sides::kApart}) add_members(scales, sides);
-  }
-  double top = -INFINITY, whole = 0, misfit = 0;
-  for (const Member& m : members) top = std::max(top, m.log_weight);
-  for (const Member& m : members) whole += std::exp(m.log_weight - top);
-  for (const Member& m : members) {
-    const double weight = std::exp(m.log_weight - top) / whole;
-    sum.mean += weight * m.surface.mean;
-    misfit += weight * m.left_out_misfit;
-  }
-  for (const Member& m : members) {
-    const double weight = std::exp(m.log_weight - top) / whole;
-    const Eigen::VectorXd off = m.surface.mean - sum.mean;
-    sum.covariance += weight * (m.surface.covariance + off * off.transpose());
-  }
-  sum.covariance *= std::max(1.0, misfit);
-  return sum;
-}
-
-ConditionsAt conditions_of(const TestBed& bed) {
+ConditionsAt all_of(const std::vector<Condition>& conditions) {
   ConditionsAt all;
-  for (const Condition& at : bed.conditions) all.push_back(&at);
+  for (const Condition& at : conditions) all.push_back(&at);
   return all;
 }
 
@@ -204,9 +125,12 @@ Soil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& r
 /// Gives every condition the sinkage that the references measured, over the model's; where the
 /// surface through it would leave no sinkage or an axle in the ground, a tenth of the model's and
 /// four fifths of the radius.
-void impose_sinkage(TestBed& bed, const Soil& soil, const Points& sinkage) {
+/// \param places of its conditions, as references know them
+void impose_sinkage(TestBed& bed, const std::vector<Condition>& places, const Soil& soil,
+                    const ShortcomingPoints& sinkage) {
   constexpr double kLeast = 0.1, kMost = 0.8;
-  const Surface surface = surface_through(sinkage, Channel::kSinkage, conditions_of(bed), bed.stop);
+  const SharedSurface surface =
+      surface_through(sinkage, Channel::kSinkage, all_of(places), bed.stop);
   const WheelModel model({.variant = bed.setup.variant,
                           .wheel = bed.setup.wheel,
                           .soil = soil,
@@ -227,6 +151,31 @@ void impose_sinkage(TestBed& bed, const Soil& soil, const Points& sinkage) {
       if (channels_at(model, at.load_n, at.slip_ratio, at.slip_angle_rad, at.conditions)) break;
     }
     if (std::abs(offset) <= kNone_m) at.conditions.sinkage_offset_m = 0;
+  }
+}
+
+/// When a run was made is told as a share of its own recording's course: no place that two have in
+/// common.
+void forget_times(std::vector<Condition>& conditions) {
+  for (Condition& at : conditions) at.when = 0;
+}
+
+/// What replicates follow in the course of one recording is no difference from another: along it
+/// the noise is as large as it.
+void add_course_to_noise(CondensedRecording& recording) {
+  if (!recording.course || !recording.course->in_time()) return;
+  for (std::size_t c = 0; c < recording.bed.channels.size(); ++c) {
+    const std::vector<double>& trend = recording.course->trend[c];
+    ChannelData& data = recording.bed.channels[c];
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(data.mean.size());
+    for (Eigen::Index i = 0; i < along.size(); ++i) {
+      const Condition& at = recording.bed.conditions[data.conditions[static_cast<std::size_t>(i)]];
+      for (const std::size_t run : at.runs) {
+        along[i] += recording.noise[c].trend * trend[run] / static_cast<double>(at.runs.size());
+      }
+    }
+    along.array() -= along.mean();
+    data.noise += along * along.transpose();
   }
 }
 
@@ -263,34 +212,39 @@ DifferenceBed difference_bed(const CondensedRecording& test,
   DifferenceBed result{.base = base, .soil = test.bed.setup.soil.mean, .test = test};
   if (base == SharedBase::kCalibrated) result.soil = calibrated_on(test.bed, references);
   std::vector<CondensedRecording> told = references;
+  for (CondensedRecording& r : told) {
+    forget_times(r.bed.conditions);
+    add_course_to_noise(r);
+  }
   TestBed& bed = result.test.bed;
+  std::vector<Condition> places = bed.conditions;
+  forget_times(places);
   std::vector<Eigen::VectorXd> predictions;
   for (const CondensedRecording& r : told) predictions.push_back(prediction_of(r.bed, result.soil));
   if (base == SharedBase::kSinkageImposed) {
-    const Points sinkage = points_of(told, predictions, Channel::kSinkage);
+    const ShortcomingPoints sinkage = points_of(told, predictions, Channel::kSinkage);
     if (!sinkage.at.empty()) {
-      impose_sinkage(bed, result.soil, sinkage);
+      impose_sinkage(bed, places, result.soil, sinkage);
       predictions.clear();
       for (CondensedRecording& r : told) {
-        impose_sinkage(r.bed, result.soil, sinkage);
+        impose_sinkage(r.bed, r.bed.conditions, result.soil, sinkage);
         predictions.push_back(prediction_of(r.bed, result.soil));
       }
     }
   }
-  std::vector<Condition> places = bed.conditions;
   forget_passes(references, places);
-  result.measured = bed.measured();
-  result.shared.setZero(bed.size());
-  result.noise_variance.resize(bed.size());
+  result.measured = {.mean = bed.measured(),
+                     .shared = Eigen::VectorXd::Zero(bed.size()),
+                     .noise_variance = Eigen::VectorXd::Zero(bed.size())};
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     ChannelData& data = bed.channels[c];
     ConditionsAt wanted;
     for (const std::size_t k : data.conditions) wanted.push_back(&places[k]);
-    const Surface surface =
+    const SharedSurface surface =
         surface_through(points_of(told, predictions, data.channel), data.channel, wanted, bed.stop);
     const Eigen::Index from = bed.offset(c), n = data.mean.size();
-    result.noise_variance.segment(from, n) = data.noise.diagonal();
-    result.shared.segment(from, n) = surface.mean;
+    result.measured.noise_variance.segment(from, n) = data.noise.diagonal();
+    result.measured.shared.segment(from, n) = surface.mean;
     data.mean -= surface.mean;
     data.noise += surface.covariance;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -300,6 +254,7 @@ DifferenceBed difference_bed(const CondensedRecording& test,
       }
     }
   }
+  add_course_to_noise(result.test);
   UncertainSoil& known = bed.setup.soil;
   known = {.mean = result.soil};
   return result;

@@ -18,16 +18,22 @@ enum class SharedBase {
 /// `prior means`, `calibrated on the reference`, `the reference's sinkage imposed`.
 std::string_view name(SharedBase base);
 
-/// The test recording less what the base model lacks on the reference too: the mean of a Gaussian
-/// process through the reference's residuals is taken off each channel, its covariance joins the
-/// noise. What the two recordings differ in is left.
-struct DifferenceBed {
-  SharedBase base = SharedBase::kPriorMeans;
-  Soil soil;                       ///< fixed: a difference has no soil numbers of its own
-  CondensedRecording test;         ///< of its bed, means and noise as said above
-  Eigen::VectorXd measured;        ///< of the test, nothing taken off
+/// A test as it was measured, and what was taken off it to compare it; rows as those of its bed.
+struct MeasuredTest {
+  Eigen::VectorXd mean;            ///< of the test, nothing taken off
   Eigen::VectorXd shared;          ///< what was taken off
   Eigen::VectorXd noise_variance;  ///< of the test's means alone
+};
+
+/// The test recording less what the base model lacks on the reference too: the mean of a Gaussian
+/// process through the reference's residuals is taken off each channel, its covariance joins the
+/// noise. When a run was made is no place that two recordings have in common; what replicates
+/// follow in the course of one counts as noise along it. What the two recordings differ in is left.
+struct DifferenceBed {
+  SharedBase base = SharedBase::kPriorMeans;
+  Soil soil;                ///< fixed: a difference has no soil numbers of its own
+  CondensedRecording test;  ///< of its bed, means and noise as said above
+  MeasuredTest measured;
 };
 
 /// \throws InputError as condense(), naming the reference where it is at fault

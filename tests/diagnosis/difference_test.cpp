@@ -64,6 +64,41 @@ TEST(Difference, ThatOneEffectMakesHasItsNameAndItsShare) {
   EXPECT_GE(claim.share->high, claim.share->explained);
 }
 
+/// Root mean square of a channel of the test less what the corrected model says of it without it,
+/// and less what the base model says.
+struct Errors {
+  double held_out = 0, base = 0;
+};
+
+Errors errors_of(const Diagnosis& found, Channel channel) {
+  Errors sum;
+  double runs = 0;
+  for (const RunResidual& run : found.residuals) {
+    if (run.channel != channel) continue;
+    sum.held_out += std::pow(run.measured - run.held_out, 2);
+    sum.base += std::pow(run.measured - run.baseline, 2);
+    ++runs;
+  }
+  return {std::sqrt(sum.held_out / runs), std::sqrt(sum.base / runs)};
+}
+
+TEST(Difference, IsHandedOnWithWhatTheReferenceSaysOfSharedShortcomings) {
+  TrueWheel flat;
+  flat.sinkage = [](const WheelRun& run, double h) {
+    return h * (run.slip_angle_rad > 0.1 ? 1.9 : 0.9) * (run.slip_ratio > 0.1 ? 0.6 : 1.5);
+  };
+  TrueWheel digging = flat;
+  digging.sinkage = [flat](const WheelRun& run, double h) {
+    return flat.sinkage(run, h) * (1 + 1.2 * (1 - std::exp(-2 * std::max(run.slip_ratio, 0.0))));
+  };
+  const Diagnosis found = compared(digging, flat, 4);
+  ASSERT_FALSE(found.claims.empty()) << found.sentence;
+  EXPECT_TRUE(std::ranges::any_of(found.corrected_model.mechanisms,
+                                  [](const Mechanism& m) { return m.id == "slip_sinkage"; }));
+  const Errors errors = errors_of(found, Channel::kSinkage);
+  EXPECT_LT(errors.held_out, errors.base / 3);
+}
+
 /// A test whose drawbar pull lies off its reference's by a constant, on a bed of one load.
 Diagnosis off_by(double bias_n) {
   const DiagnosisSetup setup = simulant_setup();
