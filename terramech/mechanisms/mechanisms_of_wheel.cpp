@@ -46,8 +46,9 @@ std::vector<Definition> of_wheel() {
        }},
       {{"grousers",
         "soil_block",
-        "soil between lugs shears as one with the wheel at r + x hg, driving or braking: "
-        "there c (1 + g) (1 + 2 hg/b), tan(phi) (1 + g) (1 + 0.64 (hg/b) acot(hg/b)), "
+        "soil between lugs shears as one with the wheel at r + x hg, driving or braking, by the "
+        "slip of that radius where slip is told of r: there c (1 + g) (1 + 2 hg/b), tan(phi) (1 + "
+        "g) (1 + 0.64 (hg/b) acot(hg/b)), "
         "g what soil grips on soil more than on a smooth rim; "
         "of all that, the share k acts sideways; digging d hg s",
         "Bekker 1960; Ding et al. 2011, J. Terramechanics 48, 27-45; g after Potyondy 1961, "
@@ -60,11 +61,12 @@ std::vector<Definition> of_wheel() {
        [](E e, P p, S at) {
          const double radius = 1 + p[1] * p[0] / e.wheel.radius_m;
          const double slender = p[0] / e.wheel.width_m;
-         // the way along both axes is that of the larger radius
+         // the way along both axes is that of the larger radius, which slips more than the rim
          for (double* modulus_m : {&e.soil.kx0_m, &e.soil.kx1_m, &e.soil.ky0_m, &e.soil.ky1_m}) {
            *modulus_m /= radius;
          }
          e.shear_radius *= radius;
+         e.rim_factor *= radius;
          e.block_cohesion *= (1 + p[3]) * (1 + 2 * slender);
          e.block_friction *= (1 + p[3]) * (1 + 0.64 * slender * std::atan2(1, slender));
          e.block_held *= p[4];

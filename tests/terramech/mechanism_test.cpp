@@ -255,6 +255,28 @@ TEST(Mechanism, SoilBetweenLugsGripsTheSoilBelowMoreThanASmoothRimDoes) {
   EXPECT_GT(forces(0.3).torque_nm, forces(0).torque_nm);
 }
 
+TEST(Mechanism, SoilBetweenLugsSlipsByTheCircleThatItShearsOn) {
+  WheelModelSpec spec = wheel_specs::ishigami2007();
+  spec.soil.cohesion_pa = 0;
+  constexpr double kHeight_m = 0.01, kShare = 0.8;
+  const double circle = 1 + kShare * kHeight_m / spec.wheel.radius_m,
+               slender = kHeight_m / spec.wheel.width_m,
+               friction = 1 + 0.64 * slender * std::atan2(1, slender);
+  const WheelModel block = with(spec, "grousers", "soil_block",
+                                {{"lug_height_m", kHeight_m}, {"share", kShare}, {"digging", 0}});
+  WheelModelSpec smooth = spec;
+  smooth.soil.kx0_m /= circle;  // along a larger circle soil goes farther
+  smooth.soil.kx1_m /= circle;
+  for (const double slip : {0.1, 0.3, 0.6}) {
+    const double of_rim = 1 - (1 - slip) * circle;
+    const double smooth_nm = WheelModel(smooth).forces(60, motion_at(slip, 0)).torque_nm;
+    // arc and arm are larger alike
+    EXPECT_NEAR(block.forces(60, motion_at(of_rim, 0)).torque_nm,
+                circle * circle * friction * smooth_nm, 0.05 * smooth_nm)
+        << slip;
+  }
+}
+
 TEST(Mechanism, SoilThatLugsHoldRoundAloneAddsNothingSideways) {
   const WheelModelSpec spec = wheel_specs::ishigami2007();
   const WheelMotion motion = motion_at(0.4, 20 * kDegree);
