@@ -32,6 +32,12 @@ KINDS = ("same", "nameless", "grousers", "slip_sinkage", "soil_change", "flank_f
          "side_surcharge")
 
 
+# A diagnosis trusts its model within these slip ratios and up to this slip angle; the numpy wheel
+# can be driven within the former.
+TRUSTED_SLIP = -.9, .95
+TRUSTED_ANGLE_DEG = 60
+
+
 def read(path):
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
@@ -53,18 +59,20 @@ def means_of(setup):
 
 
 def runs_of(rows):
-    """Runs at the slip ratios that the numpy wheel can be driven at."""
+    """Runs at slip ratios that the numpy wheel can be driven at."""
     def column(name):
         return np.array([float(row[name]) for row in rows])
     still = np.zeros(len(rows))
-    return Runs(load_n=column("load_n"), slip_ratio=np.clip(column("slip_ratio"), -.9, .95),
+    return Runs(load_n=column("load_n"), slip_ratio=np.clip(column("slip_ratio"), *TRUSTED_SLIP),
                 slip_angle_rad=np.deg2rad(column("slip_angle_deg")), speed_mps=still + .01,
                 wheel_pass=still + 1, position_m=still, time_s=np.arange(1., len(rows) + 1))
 
 
 def is_judged(row):
-    """Whether a diagnosis judges a run: at other slips and slip angles it trusts no model."""
-    return -.9 <= float(row["slip_ratio"]) <= .95 and abs(float(row["slip_angle_deg"])) <= 60
+    """Whether a diagnosis judges a run."""
+    low, high = TRUSTED_SLIP
+    return (low <= float(row["slip_ratio"]) <= high
+            and abs(float(row["slip_angle_deg"])) <= TRUSTED_ANGLE_DEG)
 
 
 def scatter_of(rows, channel):
