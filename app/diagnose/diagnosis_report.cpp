@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -149,6 +150,56 @@ std::string verdict_sentence(Verdict verdict, bool has_reference) {
   return "";
 }
 
+/// What the correction of one recording explains of it.
+std::string explained_sentence(const Diagnosis& diagnosis) {
+  return diagnosis.excess_is_clear
+             ? fmt::format(
+                   " On conditions held out of the fit (by {}) the correction explains {:.0f} % of "
+                   "the excess misfit.",
+                   diagnosis.held_out_by, 100 * std::min(diagnosis.share_explained, 1.0))
+             : fmt::format(
+                   " On conditions held out of the fit (by {}) the calibrated model's misfit is "
+                   "not clear of noise: no share of it can be told.",
+                   diagnosis.held_out_by);
+}
+
+/// Root of the mean square of what a model leaves of the runs of one channel.
+double rms_left(const Diagnosis& diagnosis, Channel channel, double RunResidual::*model) {
+  double sum = 0, rows = 0;
+  for (const RunResidual& at : diagnosis.residuals) {
+    const double left = at.measured - at.*model;
+    if (at.channel != channel || !std::isfinite(left)) continue;
+    sum += left * left;
+    ++rows;
+  }
+  return rows > 0 ? std::sqrt(sum / rows) : 0;
+}
+
+/// What the names explain of a difference, and how well the model handed on, which has more than
+/// the names, tells the test.
+std::string difference_sentence(const Diagnosis& diagnosis) {
+  std::string text;
+  if (!diagnosis.claims.empty() && diagnosis.excess_is_clear) {
+    text = fmt::format(
+        " On conditions held out of the fit (by {}) the names explain {:.0f} % of what the "
+        "difference is above noise.",
+        diagnosis.held_out_by, 100 * std::min(diagnosis.share_explained, 1.0));
+  }
+  std::string channels;
+  for (const ChannelFit& fit : diagnosis.fit) {
+    channels +=
+        fmt::format("{}{} by {:.3g} ({:.3g})", channels.empty() ? "" : ", ", name(fit.channel),
+                    rms_left(diagnosis, fit.channel, &RunResidual::held_out),
+                    rms_left(diagnosis, fit.channel, &RunResidual::baseline));
+  }
+  if (channels.empty()) return text;
+  return text + fmt::format(
+                    " The corrected model, which has what the references tell of the test too, is "
+                    "off on held-out conditions in {} RMS; in brackets the model at the soil "
+                    "numbers' prior means.",
+                    channels);
+}
+
 std::string basis_sentence(const DiagnosisRun& run) {
   const Recording& recording = run.recording.recording;
   std::string names;
@@ -159,15 +210,8 @@ std::string basis_sentence(const DiagnosisRun& run) {
       fmt::format("{} runs of {}; measured: {}.", recording.runs.size(),
                   std::filesystem::path(run.recording.file).filename().string(), names);
   if (!run.diagnosis.claims.empty() || run.diagnosis.verdict == Verdict::kUnexplained) {
-    text += run.diagnosis.excess_is_clear
-                ? fmt::format(
-                      " On conditions held out of the fit (by {}) the correction explains {:.0f} "
-                      "% of the excess misfit.",
-                      run.diagnosis.held_out_by, 100 * std::min(run.diagnosis.share_explained, 1.0))
-                : fmt::format(
-                      " On conditions held out of the fit (by {}) the calibrated model's misfit is "
-                      "not clear of noise: no share of it can be told.",
-                      run.diagnosis.held_out_by);
+    text += run.references.empty() ? explained_sentence(run.diagnosis)
+                                   : difference_sentence(run.diagnosis);
   }
   return text;
 }

@@ -21,6 +21,22 @@ TEST(DiagnosisReport, BeginsWithTheFinding) {
   EXPECT_NE(page.find("explains 97 % of the excess misfit"), std::string::npos);
 }
 
+TEST(DiagnosisReport, OfADifferenceTellsNamesApartFromTheModelHandedOn) {
+  DiagnosisRun run = unexplained_diagnosis();
+  run.diagnosis.share_explained = 0;  // by no name
+  run.references.push_back(run.recording);
+  const std::string unnamed = diagnosis_report(run);
+  EXPECT_EQ(unnamed.find("explains 0 %"), std::string::npos);
+  EXPECT_NE(unnamed.find("off on held-out conditions in fx_n by 0.07 (0.9), sinkage_m by 0.00014 "
+                         "(0.0018) RMS"),
+            std::string::npos);
+  run = claimed_diagnosis();
+  run.references.push_back(run.recording);
+  const std::string named = diagnosis_report(run);
+  EXPECT_NE(named.find("the names explain 97 % of what the difference is above noise"),
+            std::string::npos);
+}
+
 TEST(DiagnosisReport, SaysThatItWasInterrupted) {
   DiagnosisRun run = claimed_diagnosis();
   run.diagnosis = {.interrupted = true};

@@ -198,6 +198,25 @@ function soilTable(host) {
           'Pull: shift from the prior mean in prior standard deviations; dashed lines at 4.5, beyond which a fit hides missing physics.'));
 }
 
+/// The models of the fit's columns: of a difference the names alone, of one recording the
+/// correction as it is handed on.
+function fitColumns() {
+  return DIAGNOSIS.references.length ? ['Prior means', 'What both share', 'With the names'] :
+                                       ['Prior means', 'Calibrated', 'Corrected'];
+}
+
+/// How much of the misfit on held-out conditions is explained; of a difference the names' share.
+function explainedWords() {
+  if (!DIAGNOSIS.excess_is_clear)
+    return 'On held-out conditions the misfit is not clear of noise: no share of it can be told.';
+  const share = percent(DIAGNOSIS.share_explained);
+  if (!DIAGNOSIS.references.length)
+    return `Share of the excess misfit that the correction explains: ${share}.`;
+  return DIAGNOSIS.mechanisms.length ?
+      `Share of the difference above noise that the names explain: ${share}.` :
+      'No name is claimed of the difference: what the corrected model predicts is told at the top.';
+}
+
 function fitTable(host) {
   const entries = Object.entries(DIAGNOSIS.fit);
   if (entries.length) {
@@ -218,8 +237,8 @@ function fitTable(host) {
                 DIAGNOSIS.held_out_by ? ` by ${words(DIAGNOSIS.held_out_by)}` :
                                         ''}; in brackets over the noise of replicates`,
             [
-              {text: 'Channel'}, {text: 'Noise', number: true}, {text: 'Prior means', number: true},
-              {text: 'Calibrated', number: true}, {text: 'Corrected', number: true}
+              {text: 'Channel'}, {text: 'Noise', number: true},
+              ...fitColumns().map(text => ({text, number: true}))
             ],
             rows)));
   }
@@ -236,13 +255,7 @@ function fitTable(host) {
             {text: 'p', number: true}, {text: 'Degrees of freedom', number: true}
           ],
           [lack('Before', before), lack('After', after)])));
-  if (HAS_CORRECTION)
-    host.append(element(
-        'p', {class: 'note'},
-        DIAGNOSIS.excess_is_clear ?
-            `Share of the excess misfit that the correction explains: ${
-                percent(DIAGNOSIS.share_explained)}.` :
-            'On held-out conditions the misfit is not clear of noise: no share of it can be told.'));
+  if (HAS_CORRECTION) host.append(element('p', {class: 'note'}, explainedWords()));
 }
 
 /// What comparing recordings would decide, where something was found that it may.
