@@ -365,8 +365,17 @@ class Differing {
     if (!correction.refused.empty() && adds) {
       found_.notes.push_back("the corrected model is the base model: " + correction.refused);
     }
+    if (!correction.carried.empty()) found_.notes.push_back(correction.carried);
     found_.corrected_model = std::move(correction.model);
     found_.corrected_soil = correction.soil;
+    found_.soil = std::move(correction.soil_pulls);
+    for (const SoilPull& pull : found_.soil) {
+      if (std::abs(pull.pull) <= Thresholds::kSuspectPull) continue;
+      found_.notes.push_back(
+          fmt::format("fitted to the reference, {} of the soil lies {:.1f} standard deviations off "
+                      "its tests: it may stand for physics that both recordings lack",
+                      pull.parameter, std::abs(pull.pull)));
+    }
     found_.residuals = std::move(correction.residuals);
   }
 

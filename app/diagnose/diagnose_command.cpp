@@ -19,6 +19,7 @@
 #include "app/io/interrupt.h"
 #include "app/io/staged_files.h"
 #include "app/settings/scenario_settings.h"
+#include "diagnosis/bed/compared_recordings.h"
 #include "diagnosis/difference.h"
 
 namespace regoplan {
@@ -50,9 +51,22 @@ void notify_of_left_out(const std::vector<LeftOutRow>& rows, bool quiet) {
       quiet);
 }
 
+void notify_of_unused(const RecordingFile& file, bool quiet) {
+  if (file.recording.ignored.empty()) return;
+  notify(fmt::format("{}: {} kept and not used", file.file, fmt::join(ignored_columns(file), ", ")),
+         quiet);
+}
+
+std::vector<std::vector<Channel>> channels_of(const std::vector<RecordingFile>& files) {
+  std::vector<std::vector<Channel>> channels;
+  for (const RecordingFile& file : files) channels.push_back(file.recording.channels);
+  return channels;
+}
+
 /// What is odd about a recording, which is left without channels that tell next to nothing or whose
 /// unit is in question.
-std::vector<std::string> checked(RecordingFile& file, const DiagnosisSetup& setup) {
+std::vector<std::string> checked(RecordingFile& file, const DiagnosisSetup& of_file) {
+  const DiagnosisSetup setup = setup_with(of_file, file.wheel);
   std::vector<std::string> told = std::exchange(file.recording.warnings, {});
   std::ranges::copy(leave_out_nearly_empty(file, setup), std::back_inserter(told));
   std::ranges::copy(doubtful_values(file, setup), std::back_inserter(told));
@@ -130,6 +144,7 @@ ExitStatus run_diagnosis(const Options& options) {
           fmt::format("{}: the same runs as the recording's: nothing can differ", reference));
     }
     notify_of_left_out(run.references.back().left_out, options.quiet);
+    notify_of_unused(run.references.back(), options.quiet);
   }
   for (std::string& warning : checked(run.recording, run.setup.setup)) {
     recording.warnings.push_back(std::move(warning));
@@ -138,11 +153,9 @@ ExitStatus run_diagnosis(const Options& options) {
     for (const std::string& warning : *warnings) notify(warning, options.quiet);
   }
   notify_of_left_out(run.recording.left_out, options.quiet);
-  if (!recording.ignored.empty()) {
-    notify(fmt::format("{}: {} kept and not used", options.recording,
-                       fmt::join(ignored_columns(run.recording), ", ")),
-           options.quiet);
-  }
+  notify_of_unused(run.recording, options.quiet);
+  const std::string apart = not_compared(recording.channels, channels_of(run.references));
+  if (!apart.empty()) notify(apart, options.quiet);
 
   require_results_fit(options.folder, diagnosis_file_names());
   notify_of_kept_page(options.folder, "diagnose", options.quiet);

@@ -10,6 +10,7 @@
 #include "app/diagnose/diagnosis_report.h"
 #include "app/io/staged_files.h"
 #include "app/settings/model_settings.h"
+#include "diagnosis/fit/effect.h"
 #include "terramech/tables/csv_cells.h"
 
 namespace regoplan {
@@ -146,6 +147,10 @@ std::vector<std::string> notes(const DiagnosisRun& run) {
   std::vector<std::string> all = run.setup.warnings;
   const auto& found = run.diagnosis.notes;  // begins with the warnings of the recording
   all.insert(all.end(), found.begin(), found.end());
+  for (const RecordingFile& reference : run.references) {
+    if (reference.left_out.empty()) continue;
+    all.push_back(fmt::format("{}: rows left out: {}", reference.file, reference.left_out.size()));
+  }
   return all;
 }
 
@@ -219,10 +224,10 @@ std::string left_out_text(const std::vector<Claim>& claims, const WheelModelSpec
   std::string text;
   for (const Claim& claim : claims) {
     if (std::ranges::count(model.mechanisms, claim.id, &Mechanism::id) > 0) continue;
-    const bool of_wheel = std::ranges::count(mechanism_forms(), claim.id, &MechanismForm::id) > 0;
     text += fmt::format("# {} is left out: {}\n", claim.id,
-                        of_wheel ? "see the notes of diagnosis.json"
-                                 : "a fault of an instrument is no part of a model of the wheel");
+                        is_instrument(claim.id)
+                            ? "a fault of an instrument is no part of a model of the wheel"
+                            : "see the notes of diagnosis.json");
   }
   return text;
 }
@@ -231,7 +236,7 @@ std::string left_out_text(const std::vector<Claim>& claims, const WheelModelSpec
 
 std::string corrected_model_text(const DiagnosisRun& run) {
   const Diagnosis& diagnosis = run.diagnosis;
-  const DiagnosisSetup& setup = run.setup.setup;
+  const DiagnosisSetup setup = setup_with(run.setup.setup, run.recording.wheel);
   ModelSettings settings{.spec = diagnosis.corrected_model,
                          .soil = diagnosis.corrected_soil,
                          .soil_name = run.setup.soil_name};

@@ -95,8 +95,8 @@ std::string diagnosis_summary(const DiagnosisRun& run) {
   if (!diagnosis.fit.empty()) {
     // Of a difference the last two models are what both share and the names alone.
     const bool differs = !run.references.empty();
-    text += fmt::format("{:>8} {:>11} {:>9} {:>9} {:>10} {:>9}   on runs held out by {}\n", "rmse:",
-                        "", "noise", "baseline", differs ? "shared" : "calibrated",
+    text += fmt::format("{:>8} {:>11} {:>9} {:>9} {:>10} {:>9}   on runs held out by {}\n",
+                        "rmse:", "", "noise", "baseline", differs ? "shared" : "calibrated",
                         differs ? "by names" : "corrected", diagnosis.held_out_by);
   }
   for (const ChannelFit& fit : diagnosis.fit) {

@@ -112,7 +112,9 @@ std::string picture(const std::vector<std::optional<Change>>& changes, double Ch
 
 /// The unit that a parameter's name ends in.
 std::string unit_of(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kEndings{{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kEndings{{
+      {"kx1_m", "m/rad"},
+      {"ky1_m", "m/rad"},
       {"_per_rad", "1/rad"},
       {"per_n", "1/N"},
       {"per_s", "1/s"},
@@ -181,7 +183,10 @@ std::string form_text(const MechanismForm& form) {
 /// \throws InputError where it names a mechanism, form or parameter that is not known
 ExitStatus check_model(const std::string& file) {
   const ModelSettings settings = read_model_file(file);
-  if (settings.spec.mechanisms.empty()) fmt::print("{}: the base model, no mechanism\n", file);
+  const std::optional<GenericCorrection>& unnamed = settings.spec.generic;
+  if (settings.spec.mechanisms.empty()) {
+    fmt::print("{}: the base model, no mechanism{}\n", file, unnamed ? " with a name" : "");
+  }
   for (const Mechanism& mechanism : settings.spec.mechanisms) {
     const MechanismForm& form = form_of(mechanism);
     fmt::print("{}: {} {}\n", file, form.id, form.form);
@@ -195,6 +200,15 @@ ExitStatus check_model(const std::string& file) {
                    usual ? "" : fmt::format(" (usual: {:.3g} to {:.3g})", p.low, p.high));
       }
     }
+  }
+  if (unnamed) {
+    fmt::print(
+        "{}: a correction without a name (generic), {} bumps\n"
+        "  slip ratio {:.3g} to {:.3g}, slip angle to either side {:.3g} to {:.3g} deg, load "
+        "{:.3g} to {:.3g} N; elsewhere the wheel is `outside_correction`\n",
+        file, unnamed->nodes.size(), unnamed->slip_ratio_region[0], unnamed->slip_ratio_region[1],
+        degrees(unnamed->slip_angle_rad_region[0]), degrees(unnamed->slip_angle_rad_region[1]),
+        unnamed->load_n_region[0], unnamed->load_n_region[1]);
   }
   return kYes;
 }

@@ -267,6 +267,18 @@ std::string foreign_passes_note(int runs) {
 
 }  // namespace
 
+std::string not_compared(const std::vector<Channel>& test,
+                         const std::vector<std::vector<Channel>>& references) {
+  std::string text;
+  for (const Channel channel : test) {
+    const bool everywhere = std::ranges::all_of(references, [&](const auto& channels) {
+      return std::ranges::find(channels, channel) != channels.end();
+    });
+    if (!everywhere) text += fmt::format("{}{}", text.empty() ? "" : ", ", name(channel));
+  }
+  return text.empty() ? text : "not compared, as a reference lacks it: " + text;
+}
+
 ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup,
                               const std::vector<Reference>& references,
                               const std::stop_token& stop) {
@@ -285,9 +297,12 @@ ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup
   compared.notes = test.warnings;
   compared.notes.insert(compared.notes.end(), compared.test.notes.begin(),
                         compared.test.notes.end());
-  if (test.channels.size() > channels.size()) {
-    compared.notes.push_back("channels that the reference lacks are not compared");
+  std::vector<std::vector<Channel>> of_references;
+  for (const Reference& reference : references) {
+    of_references.push_back(reference.recording.channels);
   }
+  const std::string apart = not_compared(test.channels, of_references);
+  if (!apart.empty()) compared.notes.push_back(apart);
   if (foreign > 0) compared.notes.push_back(foreign_passes_note(foreign));
   return compared;
 }

@@ -17,6 +17,11 @@ struct ComparedRecordings {
   std::vector<std::string> notes;              ///< warnings of the test, and what was left out
 };
 
+/// Which of the test's channels are not compared, for a person; empty where all are.
+/// \param references channels of each
+std::string not_compared(const std::vector<Channel>& test,
+                         const std::vector<std::vector<Channel>>& references);
+
 /// Keeps the channels that test and references measure, and the passes that a reference drove where
 /// the test drove others too. One run is taken to scatter alike on all of them: a recording without
 /// replicates takes the scatter of those that have them, and is as sure of it as they are; where

@@ -40,8 +40,8 @@ inline constexpr std::array kDiscrepancyAmplitudes{0.0, 0.5, 1.0, 2.0, 4.0, 8.0,
 /// last those of a run's noise twice and more with sides apart.
 const std::vector<DiscrepancySetting>& discrepancy_settings();
 
-/// Squared-exponential kernel of unit variance over slip, slip angle, log load, and pass, speed,
-/// position and time where they vary. Where sides are mirrored the slip angle counts by its size,
+/// Squared-exponential kernel of unit variance over slip, slip angle, log load, and pass, speed and
+/// time where they vary. Where sides are mirrored the slip angle counts by its size,
 /// and the side force's part is odd in it.
 double discrepancy_kernel(const DiscrepancyScales& scales, Channel channel, const Condition& a,
                           const Condition& b, Sides sides = Sides::kMirrored);

@@ -216,9 +216,10 @@ std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording) 
   std::optional<MismatchRegion> clearest;
   double most = 0;
   for (std::size_t c = 0; c < recording.noise.size(); ++c) {
-    double early = 0, late = 0, earlies = 0, lates = 0, late_from = INFINITY;
+    double early = 0, late = 0, all = 0, earlies = 0, lates = 0, late_from = INFINITY;
     for (std::size_t run = 0; run < course.value.size(); ++run) {
       const double part = recording.noise[c].trend * course.trend[c][run];
+      all += part / runs;
       if (course.value[run] < 1.0 / 3) early += part, ++earlies;
       if (course.value[run] <= 2.0 / 3) continue;
       late += part;
@@ -226,10 +227,12 @@ std::optional<MismatchRegion> last_part_of(const CondensedRecording& recording) 
       late_from = std::min(late_from, course.along[run]);
     }
     if (earlies == 0 || lates == 0) continue;
-    const double effect = late / lates - early / earlies;
-    const double deviation = recording.noise[c].constant * std::sqrt(4 / std::max(runs, 1.0));
-    if (std::abs(effect) / deviation <= most) continue;
-    most = std::abs(effect) / deviation;
+    const double step = std::abs(late / lates - early / earlies) / recording.noise[c].constant;
+    if (step <= most) continue;
+    most = step;
+    // Off the model, which was fitted to all of the course.
+    const double effect = late / lates - all;
+    const double deviation = recording.noise[c].constant * std::sqrt(2 / std::max(runs, 1.0));
     const double from = course.is_stretch ? course.low : late_from;
     clearest = MismatchRegion{.channel = recording.bed.channels[c].channel,
                               .region = {{course.column, {from, course.high}}},

@@ -93,8 +93,8 @@ std::vector<TestBed> beds_by_wheel(const std::vector<CondensedRecording>& refere
 }
 
 /// The soil that fits all references together: each wheel in turn tells the next what it knows. On
-/// the way back to the prior means where the test has no forces on it.
-Soil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& references) {
+/// the way back to the prior means, as uncertain as these, where the test has no forces on it.
+UncertainSoil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& references) {
   UncertainSoil soil = references.front().bed.setup.soil;
   for (TestBed& bed : beds_by_wheel(references)) {
     const std::vector<SoilCoordinate> coordinates = soil_coordinates(soil);
@@ -107,7 +107,8 @@ Soil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& r
           coordinates[i].coordinate.spread * std::sqrt(calibration.covariance(k, k));
     }
   }
-  const Soil& means = test.setup.soil.mean;
+  const UncertainSoil& tested = test.setup.soil;
+  const Soil& means = tested.mean;
   for (const double share : {1.0, 0.7, 0.4, 0.2}) {
     Soil between = means;
     for (const SoilParameter& p : soil_parameters()) {
@@ -117,9 +118,12 @@ Soil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& r
         predict(test, between, {}) && std::ranges::all_of(references, [&](const auto& reference) {
           return predict(reference.bed, between, {}).has_value();
         });
-    if (everywhere) return between;
+    if (!everywhere) continue;
+    const bool is_fitted = share == 1;
+    return {.mean = between, .standard_deviation = is_fitted ? soil.standard_deviation
+                                                             : tested.standard_deviation};
   }
-  return means;
+  return tested;
 }
 
 /// Gives every condition the sinkage that the references measured, over the model's; where the
@@ -209,8 +213,11 @@ std::string_view name(SharedBase base) {
 
 DifferenceBed difference_bed(const CondensedRecording& test,
                              const std::vector<CondensedRecording>& references, SharedBase base) {
-  DifferenceBed result{.base = base, .soil = test.bed.setup.soil.mean, .test = test};
-  if (base == SharedBase::kCalibrated) result.soil = calibrated_on(test.bed, references);
+  DifferenceBed result{.base = base, .test = test};
+  const UncertainSoil& tested = test.bed.setup.soil;
+  const UncertainSoil known =
+      base == SharedBase::kCalibrated ? calibrated_on(test.bed, references) : tested;
+  const Soil& soil = known.mean;
   std::vector<CondensedRecording> told = references;
   for (CondensedRecording& r : told) {
     forget_times(r.bed.conditions);
@@ -220,22 +227,24 @@ DifferenceBed difference_bed(const CondensedRecording& test,
   std::vector<Condition> places = bed.conditions;
   forget_times(places);
   std::vector<Eigen::VectorXd> predictions;
-  for (const CondensedRecording& r : told) predictions.push_back(prediction_of(r.bed, result.soil));
+  for (const CondensedRecording& r : told) predictions.push_back(prediction_of(r.bed, soil));
   if (base == SharedBase::kSinkageImposed) {
     const ShortcomingPoints sinkage = points_of(told, predictions, Channel::kSinkage);
     if (!sinkage.at.empty()) {
-      impose_sinkage(bed, places, result.soil, sinkage);
+      impose_sinkage(bed, places, soil, sinkage);
       predictions.clear();
       for (CondensedRecording& r : told) {
-        impose_sinkage(r.bed, r.bed.conditions, result.soil, sinkage);
-        predictions.push_back(prediction_of(r.bed, result.soil));
+        impose_sinkage(r.bed, r.bed.conditions, soil, sinkage);
+        predictions.push_back(prediction_of(r.bed, soil));
       }
     }
   }
   forget_passes(references, places);
   result.measured = {.mean = bed.measured(),
                      .shared = Eigen::VectorXd::Zero(bed.size()),
-                     .noise_variance = Eigen::VectorXd::Zero(bed.size())};
+                     .noise_variance = Eigen::VectorXd::Zero(bed.size()),
+                     .tested_soil = tested,
+                     .soil = known};
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     ChannelData& data = bed.channels[c];
     ConditionsAt wanted;
@@ -255,8 +264,7 @@ DifferenceBed difference_bed(const CondensedRecording& test,
     }
   }
   add_course_to_noise(result.test);
-  UncertainSoil& known = bed.setup.soil;
-  known = {.mean = result.soil};
+  bed.setup.soil = {.mean = soil};
   return result;
 }
 

@@ -23,15 +23,16 @@ struct MeasuredTest {
   Eigen::VectorXd mean;            ///< of the test, nothing taken off
   Eigen::VectorXd shared;          ///< what was taken off
   Eigen::VectorXd noise_variance;  ///< of the test's means alone
+  UncertainSoil tested_soil;       ///< as independent tests tell it
+  UncertainSoil soil;              ///< as the base model has it, and what is then known of it
 };
 
 /// The test recording less what the base model lacks on the reference too: the mean of a Gaussian
 /// process through the reference's residuals is taken off each channel, its covariance joins the
-/// noise. When a run was made is no place that two recordings have in common; what replicates
+/// noise. Soil numbers are fixed there: a difference has none of its own. When a run was made is no place that two recordings have in common; what replicates
 /// follow in the course of one counts as noise along it. What the two recordings differ in is left.
 struct DifferenceBed {
   SharedBase base = SharedBase::kPriorMeans;
-  Soil soil;                ///< fixed: a difference has no soil numbers of its own
   CondensedRecording test;  ///< of its bed, means and noise as said above
   MeasuredTest measured;
 };

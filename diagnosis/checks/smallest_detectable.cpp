@@ -23,12 +23,14 @@ Eigen::VectorXd usual_size(const Eigen::VectorXd& soil, const Effect& effect) {
   return x;
 }
 
-/// \param x of the first coordinate at the usual size \param share of that size that is shown
-SmallestDetectable smallest_of(const Effect& effect, double x, double share) {
+/// \param own coordinates of the effect at its usual size, none where it has no number
+/// \param share of that size that is shown
+SmallestDetectable smallest_of(const Effect& effect, const Eigen::VectorXd& own, double share) {
   SmallestDetectable smallest{
       .id = effect.id, .parameter = "share", .value = share, .high = 1, .is_usual = share <= 1};
   if (effect.coordinates.empty()) return smallest;
   const Coordinate& c = effect.coordinates.front();
+  const double x = own[0];
   smallest.parameter = c.name;
   smallest.value = c.is_factor() ? c.value(share * x) : share * c.value(x);
   smallest.low = c.is_positive() ? c.value(-1) : c.value(-1.5);
@@ -68,8 +70,8 @@ std::vector<SmallestDetectable> smallest_detectable(const FitProblem& problem,
     const double shown =
         misfit_of(problem.bed, problem.discrepancy, left, noise_only) + posterior.x.squaredNorm();
     if (!(shown > 0)) continue;
-    const SmallestDetectable smallest =
-        smallest_of(effect, x[base.x.size()], std::sqrt(lambda / shown));
+    const Eigen::VectorXd own = x.tail(x.size() - base.x.size());
+    const SmallestDetectable smallest = smallest_of(effect, own, std::sqrt(lambda / shown));
     if (same == all.end()) {
       all.push_back(smallest);
     } else if (same->parameter == smallest.parameter && smallest.value < same->value) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "diagnosis/bed/condition_axes.h"
+#include "diagnosis/fit/carried_surface.h"
 #include "diagnosis/recording/thresholds.h"
 #include "terramech/basics/parallel_for.h"
 
@@ -49,23 +50,16 @@ struct Prediction {
 void add_remainder(const TestBed& bed, const TestBed& rest, const Discrepancy& discrepancy,
                    const Eigen::VectorXd& left, const std::vector<std::size_t>& settings,
                    Prediction& prediction) {
+  const CarriedAt carried = CarriedAt::of(bed);
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const DiscrepancySetting& setting = discrepancy_settings()[settings[c]];
-    if (setting.amplitude == 0) continue;
+    if (discrepancy_settings()[settings[c]].amplitude == 0) continue;
     const ChannelData& all = bed.channels[c];
-    const ChannelData& seen = rest.channels[c];
-    const DiscrepancyScales& scales = discrepancy_scales()[setting.scales];
-    const double variance = std::pow(setting.amplitude * all.scale, 2);
-    const Eigen::MatrixXd cross =
-        variance * discrepancy_kernels(scales, all.channel, conditions_of(bed, all),
-                                       conditions_of(rest, seen), setting.sides);
-    const auto& factor = discrepancy.at(c, settings[c]).factor;
-    const Eigen::VectorXd part = left.segment(rest.offset(c), seen.mean.size());
-    prediction.remainder.segment(bed.offset(c), all.mean.size()) = cross * factor.solve(part);
-    const Eigen::MatrixXd half = factor.matrixL().solve(cross.transpose());
-    for (Eigen::Index i = 0; i < cross.rows(); ++i) {
-      prediction.variance[bed.offset(c) + i] += std::max(variance - half.col(i).squaredNorm(), 0.0);
-    }
+    const CarriedSurface surface(rest, c, settings[c], discrepancy,
+                                 left.segment(rest.offset(c), rest.channels[c].mean.size()),
+                                 carried);
+    const auto [mean, variance] = surface.at(conditions_of(bed, all));
+    prediction.remainder.segment(bed.offset(c), all.mean.size()) = mean;
+    prediction.variance.segment(bed.offset(c), all.mean.size()) += variance;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "diagnosis/bed/span.h"
+#include "diagnosis/fit/carried_surface.h"
 #include "terramech/basics/interruption.h"
 
 namespace regoplan {
@@ -83,13 +84,13 @@ GenericCorrection unnamed_correction(const FitProblem& problem, const CandidateF
   correction.load_n_region = {std::exp(lightest), std::exp(heaviest)};
   correction.fade_share = kMargin / (1 + 2 * kMargin);
   const Eigen::VectorXd left = bed.measured() - fit.prediction;
+  const CarriedAt carried = CarriedAt::of(bed);
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     const ChannelData& data = bed.channels[c];
-    const DiscrepancySetting& setting = discrepancy_settings()[settings[c]];
-    const double variance = std::pow(setting.amplitude * data.scale, 2);
-    const Eigen::VectorXd part = left.segment(bed.offset(c), data.mean.size());
-    const Eigen::VectorXd height =
-        share[c] * variance * problem.discrepancy.at(c, settings[c]).factor.solve(part);
+    if (discrepancy_settings()[settings[c]].amplitude == 0) continue;
+    const CarriedSurface surface(bed, c, settings[c], problem.discrepancy,
+                                 left.segment(bed.offset(c), data.mean.size()), carried);
+    const Eigen::VectorXd height = share[c] * surface.heights();
     for (std::size_t i = 0; i < data.conditions.size(); ++i) {
       GenericCorrection::Node& node = correction.nodes[data.conditions[i]];
       const double h = height[static_cast<Eigen::Index>(i)];

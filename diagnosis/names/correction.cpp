@@ -5,24 +5,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/fit/carried_surface.h"
 #include "diagnosis/fit/unnamed_correction.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
 namespace {
 
-/// What a fit predicts with the mean of the discrepancy added, as far as it proved itself.
+/// What a fit predicts with what a model file carries of the discrepancy, as far as it proved
+/// itself.
 Eigen::VectorXd with_remainder(const CalibratedRecording& calibrated, const CandidateFit& fit,
                                const std::vector<std::size_t>& settings, const HeldOut& proof) {
   const TestBed& bed = calibrated.bed();
   const Eigen::VectorXd left = calibrated.remainder_of(fit).residual;
+  const CarriedAt carried = CarriedAt::of(bed);
   Eigen::VectorXd corrected = fit.prediction;
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    const Eigen::Index from = bed.offset(c), n = bed.channels[c].mean.size();
-    const ChannelCovariance& covariance = calibrated.discrepancy().at(c, settings[c]);
-    if (covariance.discrepancy.size() == 0) continue;
-    corrected.segment(from, n) += proof.remainder_share[c] * covariance.discrepancy *
-                                  covariance.factor.solve(left.segment(from, n));
+    if (discrepancy_settings()[settings[c]].amplitude == 0) continue;
+    const ChannelData& data = bed.channels[c];
+    const Eigen::Index from = bed.offset(c), n = data.mean.size();
+    const CarriedSurface surface(bed, c, settings[c], calibrated.discrepancy(),
+                                 left.segment(from, n), carried);
+    corrected.segment(from, n) +=
+        proof.remainder_share[c] * surface.at(conditions_of(bed, data)).mean;
   }
   return corrected;
 }
@@ -102,7 +107,10 @@ Correction handed_out(const CalibratedRecording& calibrated, const CandidateFit&
     GenericCorrection generic =
         unnamed_correction(calibrated.problem(), fit, settings, proof.remainder_share);
     // one that adds nothing would only make the rest of the world `outside_correction`
-    if (!generic.nodes.empty()) correction.model.generic = std::move(generic);
+    if (!generic.nodes.empty()) {
+      correction.model.generic = std::move(generic);
+      correction.carried = words_of_carried(calibrated.bed());
+    }
     corrected = with_remainder(calibrated, fit, settings, proof);
     correction.remainder.residual = calibrated.bed().measured() - corrected;
   }

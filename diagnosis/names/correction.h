@@ -18,6 +18,7 @@ struct Correction {
   FitRemainder remainder;       ///< on the conditions it was fitted to
   bool adds_remainder = false;  ///< the mean of a discrepancy is part of it
   std::vector<RunResidual> residuals;
+  std::string carried;  ///< where its correction without a name stands; empty: nothing else varies
   std::string
       refused;  ///< why the model asked for gave way to the calibrated one; empty: it did not
 };

@@ -227,6 +227,21 @@ std::optional<PartialClaim> class_by_shares(const CalibratedRecording& calibrate
   return claim;
 }
 
+/// Shares tell the names of a class no further apart: each is as likely as another.
+std::vector<ScoredCandidate> ranking_of_class(const Claim& claim,
+                                              const std::vector<CappedName>& names) {
+  const auto members = static_cast<double>(
+      std::ranges::count_if(names, [&](const CappedName& name) { return claim.is_of(name.id); }));
+  std::vector<ScoredCandidate> ranking = capped_ranking({}, 1);
+  ranking.front().probability = 1 - claim.probability;
+  for (const CappedName& name : names) {
+    ranking.push_back(
+        {name.id, claim.is_of(name.id) ? claim.probability / members : 0, name.gain_nats});
+  }
+  std::ranges::stable_sort(ranking, std::greater{}, &ScoredCandidate::probability);
+  return ranking;
+}
+
 /// What stands by its evidence beside a remainder. A sensor's fault that is refused for its size
 /// may be there all the same: what does far worse does not take its place.
 /// \param names marked where they are refused
@@ -286,12 +301,7 @@ PartialDecision decide_partly(const CalibratedRecording& calibrated,
   if (decision.claim) return decision;
   decision.claim = class_by_shares(calibrated, contest, effects, names, seed, threads);
   if (decision.claim) {
-    for (CappedName& name : names) {
-      for (const Claim& claim : decision.claim->claims) {
-        if (claim.is_of(name.id)) name.refused = false;
-      }
-    }
-    decision.ranking = capped_ranking(names, 1 - decision.claim->claims.front().probability);
+    decision.ranking = ranking_of_class(decision.claim->claims.front(), names);
   }
   return decision;
 }

@@ -148,6 +148,10 @@ TEST(CorrectedModel, SaysWhichNamesItDoesWithout) {
   EXPECT_NE(corrected_model_text(run).find(
                 "# sensor_bias is left out: a fault of an instrument is no part"),
             std::string::npos);
+  run.diagnosis.claims = {{.id = "load_transfer", .form = "constant", .probability = 0.99}};
+  EXPECT_NE(corrected_model_text(run).find(
+                "# load_transfer is left out: a fault of an instrument is no part"),
+            std::string::npos);
   run.diagnosis.claims = {{.id = "bearing_drag", .form = "linear", .probability = 0.99}};
   EXPECT_NE(corrected_model_text(run).find("# bearing_drag is left out: see the notes"),
             std::string::npos);

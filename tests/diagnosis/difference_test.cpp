@@ -97,6 +97,18 @@ TEST(Difference, IsHandedOnWithWhatTheReferenceSaysOfSharedShortcomings) {
                                   [](const Mechanism& m) { return m.id == "slip_sinkage"; }));
   const Errors errors = errors_of(found, Channel::kSinkage);
   EXPECT_LT(errors.held_out, errors.base / 3);
+  // What is still unknown of the soil after the reference is handed on with it.
+  const UncertainSoil before = simulant_setup().soil;
+  for (const SoilPull& pull : found.soil) {
+    EXPECT_GT(pull.calibrated.standard_deviation, 0) << pull.parameter;
+    EXPECT_LE(pull.calibrated.standard_deviation, pull.prior.standard_deviation) << pull.parameter;
+  }
+  for (const SoilParameter& p : soil_parameters()) {
+    EXPECT_EQ(before.standard_deviation.*p.member > 0,
+              found.corrected_soil.standard_deviation.*p.member > 0)
+        << p.name;
+  }
+  EXPECT_FALSE(found.soil.empty());
 }
 
 /// A test whose drawbar pull lies off its reference's by a constant, on a bed of one load.

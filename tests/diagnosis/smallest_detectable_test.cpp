@@ -49,6 +49,19 @@ TEST(SmallestDetectable, AnEffectOfTwiceThatSizeIsDetected) {
 }
 
 /// A zone has no usual size, only a factor that may be anything about 1.
+TEST(SmallestDetectable, IsToldWhereEverySoilNumberIsKnown) {
+  DiagnosisSetup setup = simulant_setup();
+  setup.soil = {.mean = setup.soil.mean};
+  const CalibratedBed known(record({}, setup, setup.soil.mean, {.conditions = 12}, 2), setup);
+  ASSERT_EQ(known.fit.x.size(), 0);
+  // This effect has no number either: it is there, or it is not.
+  const Effect coupled{.id = "coupled_shear"};
+  const auto all = smallest_detectable(known.problem(), known.fit, {coupled}, 1.5);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all.front().parameter, "share");
+  EXPECT_GT(all.front().value, 0);
+}
+
 TEST(SmallestDetectable, AZoneTwiceAsFarFromTheSoilAroundIsDetectedWhereverItLies) {
   const DiagnosisSetup setup = simulant_setup();
   const BedPlan plan{.day = 0, .outliers = 0, .positions = true};

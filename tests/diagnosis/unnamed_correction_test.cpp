@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "diagnosis/bed/condensed_recording.h"
-#include "diagnosis/fit/calibration.h"
-#include "synthetic_bed.h"
+#include "calibrated_bed.h"
+#include "diagnosis/fit/carried_surface.h"
 
 namespace regoplan {
 namespace {
@@ -46,6 +45,52 @@ TEST(UnnamedCorrection, GivesWhatTheDiscrepancySaysAtEveryCondition) {
                   0.02);
     }
   }
+}
+
+TEST(UnnamedCorrection, IsThatOfTheCommonPassWhereALaterOneMeasuresSomethingElse) {
+  TrueWheel wheel;
+  wheel.fx_n = [](const WheelRun& run, double) { return 8 * std::sin(7 * run.slip_ratio); };
+  const DiagnosisSetup setup = simulant_setup();
+  Recording recording = record(wheel, setup, setup.soil.mean, {.conditions = 36}, 1);
+  constexpr double kInOldRut_n = 30;
+  std::size_t later = 0;
+  for (WheelRun& run : recording.runs) {
+    if (std::abs(run.slip_ratio - 0.3) > 0.05) continue;
+    run.conditions.pass = 2;
+    run.measured[0] += kInOldRut_n;
+    ++later;
+  }
+  recording.columns.pass = true;
+  ASSERT_GT(later, 0u);
+  const CalibratedBed calibrated(recording);
+  const TestBed& bed = calibrated.recording.bed;
+  const FitProblem problem = calibrated.problem();
+  const auto settings = remainder_settings(problem, calibrated.fit);
+  ASSERT_GT(discrepancy_settings()[settings[0]].amplitude, 0);
+  const GenericCorrection correction = unnamed_correction(
+      problem, calibrated.fit, settings, std::vector<double>(bed.channels.size(), 1.0));
+  const CarriedAt carried = CarriedAt::of(bed);
+  EXPECT_EQ(carried.pass, 1);
+  EXPECT_NE(words_of_carried(bed).find("it is that of pass 1"), std::string::npos);
+  const ChannelData& fx = bed.channels[0];
+  const Eigen::VectorXd left =
+      (bed.measured() - calibrated.fit.prediction).segment(bed.offset(0), fx.mean.size());
+  const ConditionsAt places = conditions_of(bed, fx);
+  const Eigen::VectorXd mean =
+      CarriedSurface(bed, 0, settings[0], calibrated.discrepancy, left, carried).at(places).mean;
+  double square = 0, count = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const CorrectionPoint point{.slip_ratio = places[i]->slip_ratio,
+                                .slip_angle_rad = std::abs(places[i]->slip_angle_rad),
+                                .load_n = places[i]->load_n};
+    EXPECT_NEAR(correction_at(correction, point).value.fx_n, mean[k], 1e-6);
+    if (places[i]->conditions.pass != 1) continue;
+    square += std::pow(mean[k] - left[k], 2);
+    ++count;
+  }
+  constexpr double kNoise_n = 1;
+  EXPECT_LT(std::sqrt(square / count), 2 * kNoise_n);
 }
 
 }  // namespace
