@@ -165,7 +165,14 @@ class Differing {
     if (primary().names.empty()) return;
     const CappedName& first = primary().names.front();
     found_.chance_nats = reached_by_chance(by_chance(first.id));
-    chance_p_ = chance_of(by_chance(first.id), first.over_unexplained_nats);
+    chance_p_ = nameless_p(first);
+  }
+
+  /// That a difference without a name lets some name do as well as this one. Odds that are told
+  /// beforehand of the name are odds against one without any, too.
+  double nameless_p(const CappedName& name) const {
+    const double p = chance_of(by_chance(name.id), name.over_unexplained_nats);
+    return p / (p + (1 - p) * std::exp(name.prior_nats));
   }
 
   /// Over a difference without a name, in worlds where it has none: of the best of all names, or of
@@ -205,7 +212,7 @@ class Differing {
   std::string objection_to_names(const std::vector<std::string>& ids) {
     double p = 1;
     for (const std::string& id : ids) {
-      p = std::min(p, chance_of(by_chance(id), primary().find(id)->over_unexplained_nats));
+      p = std::min(p, nameless_p(*primary().find(id)));
     }
     if (p > Thresholds::kByChance_p) {
       return fmt::format(
@@ -369,14 +376,23 @@ class Differing {
     found_.corrected_model = std::move(correction.model);
     found_.corrected_soil = correction.soil;
     found_.soil = std::move(correction.soil_pulls);
-    for (const SoilPull& pull : found_.soil) {
-      if (std::abs(pull.pull) <= Thresholds::kSuspectPull) continue;
-      found_.notes.push_back(
-          fmt::format("fitted to the reference, {} of the soil lies {:.1f} standard deviations off "
-                      "its tests: it may stand for physics that both recordings lack",
-                      pull.parameter, std::abs(pull.pull)));
-    }
+    tell_pulls();
     found_.residuals = std::move(correction.residuals);
+  }
+
+  void tell_pulls() {
+    std::string pulls;
+    for (const SoilPull& one : found_.soil) {
+      if (std::abs(one.pull) <= Thresholds::kSuspectPull) continue;
+      pulls += fmt::format("{}{} by {:.1f}", pulls.empty() ? "" : ", ", one.parameter,
+                           std::abs(one.pull));
+    }
+    if (pulls.empty()) return;
+    found_.notes.push_back(
+        fmt::format("fitted to the reference, the soil lies off its tests ({} of their standard "
+                    "deviations): it "
+                    "may stand for physics that both recordings lack",
+                    pulls));
   }
 
   /// Of every run from what test and references share, and what a fit makes of it.

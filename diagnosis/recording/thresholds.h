@@ -144,7 +144,7 @@ struct Thresholds {
   /// generated pairs, and none of the 4 false ones of 90 without a name.
   static constexpr double kDifferenceOverRemainder_nats = 5;
   /// That what setups tell to differ between test and reference is what differs, over any other
-  /// name: chosen, odds of twenty.
+  /// name and over none: chosen, odds of twenty.
   static constexpr double kTold_nats = 3;
   /// What is claimed of a difference is likelier than all else together, refused names included.
   static constexpr double kLikelierThanAll = 0.5;

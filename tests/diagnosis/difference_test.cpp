@@ -228,6 +228,8 @@ TEST(Difference, OfLugsThatAreToldIsAskedForBeforehand) {
   EXPECT_TRUE(asks_of_lugs_alone(told));
   EXPECT_FALSE(asks_of_lugs_alone(untold));
   EXPECT_GT(probability_of(told, "grousers"), 0);
+  // Odds that are told beforehand are odds over a difference without a name, too.
+  EXPECT_LT(probability_of(told, "unexplained"), probability_of(untold, "unexplained"));
   // one name reaches less by chance than the best of all
   EXPECT_LT(told.chance_nats, untold.chance_nats);
 }
