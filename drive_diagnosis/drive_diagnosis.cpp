@@ -14,6 +14,8 @@
 #include "drive_diagnosis/comparison/torque_sign.h"
 #include "drive_diagnosis/differing_drives.h"
 #include "drive_diagnosis/drive_claims.h"
+#include "drive_diagnosis/instruments/rim_sign.h"
+#include "drive_diagnosis/instruments/steering_sign.h"
 #include "drive_diagnosis/instruments/torque_unit.h"
 #include "drive_diagnosis/instruments/track_unit.h"
 #include "drive_diagnosis/instruments/yaw_unit.h"
@@ -133,10 +135,9 @@ void mend_yaw(const SensorChecks& checks, const DriveSetup& setup,
   windows = windows_of(drives, setup);
 }
 
-/// Takes yaws in radians for what they are: what smooths them must know.
-void mend_yaw_units(const DriveSetup& setup, std::vector<DriveRecording>& drives,
-                    DriveDiagnosis& result) {
-  std::vector<DriveFinding> mended = mend_yaw_in_radians(drives, result.windows);
+/// Columns were turned round or converted: windows hold what they are by now.
+void tell_mended(std::vector<DriveFinding> mended, const DriveSetup& setup,
+                 const std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
   if (mended.empty()) return;
   result.windows = windows_of(drives, setup);
   std::ranges::move(mended, std::back_inserter(result.findings));
@@ -341,14 +342,19 @@ void tell_what_drives_lack(const std::vector<DriveRecording>& drives, const Vehi
 void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
              const DriveDiagnosisOptions& options, DriveDiagnosis& result) {
   leave_doubtful_torques_out(setup, drives, result);
-  mend_yaw_units(setup, drives, result);
-  SensorChecks checks = check_sensors(drives, result.windows, sides_of(setup.vehicle));
+  const SideGeometry sides = sides_of(setup.vehicle);
+  tell_mended(mend_yaw_in_radians(drives, result.windows), setup, drives, result);
+  tell_mended(mend_rim_signs(drives, result.windows, sides), setup, drives, result);
+  SensorChecks checks = check_sensors(drives, result.windows, sides);
   mend_yaw(checks, setup, drives, result.windows);
-  for (DriveWindow& window : result.windows) window.sensed_speed_mps /= checks.sensed_speed_per_mps;
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
   throw_if_stopped(options.stop);
   check_place(setup, drives, result);
   if (checks.wheel_sides_swapped) mend_sides(setup, options, drives, result);
+  if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
+    tell_mended(mend_steering(drives, result.windows, *setup.vehicle), setup, drives, result);
+  }
+  for (DriveWindow& window : result.windows) window.sensed_speed_mps /= checks.sensed_speed_per_mps;
   mend_torque_signs(setup, options, drives, result);
   result.mountings = find_mountings(drives, result.windows, setup.map);
   throw_if_stopped(options.stop);

@@ -14,12 +14,6 @@
 namespace regoplan {
 namespace {
 
-/// A correlation that pairs without any relation reach once in a million.
-bool is_sure(double r, std::size_t n) {
-  return n >= SensorChecks::kChecked && std::abs(r) * std::sqrt(static_cast<double>(n)) > 5 &&
-         std::abs(r) > 0.4;
-}
-
 /// Whether a window drives backwards, as far as commands or wheels say.
 bool drives_back(const DriveRecording& drive, const DriveWindow& window) {
   const double command = channel_mean(drive, window, "command_speed");
@@ -238,6 +232,11 @@ void Checker::check_current_sides() {
 }
 
 }  // namespace
+
+bool is_sure(double r, std::size_t n) {
+  return n >= SensorChecks::kChecked && std::abs(r) * std::sqrt(static_cast<double>(n)) > 5 &&
+         std::abs(r) > 0.4;
+}
 
 double side_mean(const DriveRecording& drive, const DriveWindow& window, std::string_view quantity,
                  std::string_view unit, const std::vector<std::string>& wheels,

@@ -13,6 +13,9 @@ struct SideGeometry {
   std::vector<std::string> left_wheels, right_wheels;  ///< names; `left` and `right` need none
 };
 
+/// Whether pairs without any relation reach such a correlation less than once in a million times.
+bool is_sure(double r, std::size_t n);
+
 /// What only the drives together can show of a vehicle's instruments. Every check needs at least
 /// `kChecked` windows that move, and a correlation that chance gives once in a million.
 struct SensorChecks {
