@@ -13,6 +13,42 @@ namespace {
 
 constexpr double kTwoSided95 = 1.96;  ///< standard deviations of a normal number
 
+/// An angle of the attitude sensor, and how it goes with the ground's.
+struct Axis {
+  const char* name;
+  const std::optional<DriveEstimate> Mounting::*of;
+  const double Mounting::*slope;
+  const double Mounting::*scatter_rad;
+  const double Mounting::*ground_scatter_rad;
+  const DriveEstimate& prior;
+};
+
+/// What is to be told of an angle that hardly follows the ground. In another unit, or stuck, it
+/// hardly changes at all; one that changes as the ground does is off another ground.
+DriveFinding off_ground_finding(const Axis& axis, const Mounting& day) {
+  constexpr double kHardlyChanges = 0.25;  // of the ground
+  const double scatter_rad = day.*axis.scatter_rad, ground_rad = day.*axis.ground_scatter_rad;
+  const std::string_view when = day.day.empty() ? "not said" : std::string_view(day.day);
+  const double slope = day.*axis.slope;
+  if (scatter_rad < kHardlyChanges * ground_rad) {
+    return {.id = "unit",
+            .drive = "",
+            .text = fmt::format("{} rises {:.0f} times less than the ground (day {}): radians in a "
+                                "column of degrees, or a sensor that stands still?",
+                                axis.name, 1 / std::max(std::abs(slope), 1e-3), when),
+            .value = slope};
+  }
+  return {.id = "other_ground",
+          .drive = "",
+          .text = fmt::format(
+              "{} changes by {:.1f} deg where the map's ground does by {:.1f}, but not with it "
+              "(day {}): the map's slopes are not those of the ground that was driven, as where "
+              "positions lie off or the map smooths what wheels stand on; nothing is said of how "
+              "the sensor sits in {}",
+              axis.name, scatter_rad / kDegree, ground_rad / kDegree, when, axis.name),
+          .value = slope};
+}
+
 /// Where on the map a zone lies that a drive went through.
 DriveMismatch mismatch_of(const DriveDiagnosis& result, const std::vector<DriveRecording>& drives,
                           const VehicleFinding& finding) {
@@ -100,15 +136,11 @@ std::string fault_text(const VehicleFinding& finding) {
 }
 
 void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
-  struct Axis {
-    const char* name;
-    const std::optional<DriveEstimate> Mounting::*of;
-    const double Mounting::*slope;
-    const DriveEstimate& prior;
-  };
   const std::array<Axis, 2> axes{
-      {{"pitch", &Mounting::pitch_rad, &Mounting::pitch_slope, setup.mounting_pitch_rad},
-       {"roll", &Mounting::roll_rad, &Mounting::roll_slope, setup.mounting_roll_rad}}};
+      {{"pitch", &Mounting::pitch_rad, &Mounting::pitch_slope, &Mounting::pitch_scatter_rad,
+        &Mounting::pitch_ground_scatter_rad, setup.mounting_pitch_rad},
+       {"roll", &Mounting::roll_rad, &Mounting::roll_slope, &Mounting::roll_scatter_rad,
+        &Mounting::roll_ground_scatter_rad, setup.mounting_roll_rad}}};
   // Radians in a column of degrees rise by .017 of what the ground does.
   constexpr double kHardlyFollows = 0.1;
   DriveClaim claim{.id = "attitude_mounting", .equivalent = {"attitude_mounting"}};
@@ -124,15 +156,7 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
                                  axis.name, day.day.empty() ? "not said" : day.day),
              .value = day.*axis.slope});
       } else if (std::abs(day.*axis.slope) < kHardlyFollows) {
-        result.findings.push_back(
-            {.id = "unit",
-             .drive = "",
-             .text =
-                 fmt::format("{} rises {:.0f} times less than the ground (day {}): radians in a "
-                             "column of degrees, or a sensor that stands still?",
-                             axis.name, 1 / std::max(std::abs(day.*axis.slope), 1e-3),
-                             day.day.empty() ? "not said" : day.day),
-             .value = day.*axis.slope});
+        result.findings.push_back(off_ground_finding(axis, day));
         continue;  // says nothing of how the sensor sits
       }
       const std::optional<DriveEstimate>& estimate = day.*axis.of;

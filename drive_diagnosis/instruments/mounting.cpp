@@ -45,6 +45,10 @@ double slope_of(const AnglePairs& pairs) {
   return slopes.size() < 20 ? 1 : median_value(std::move(slopes));
 }
 
+double scatter_of(const std::vector<double>& angles_rad) {
+  return angles_rad.empty() ? 0 : middle_and_scatter(angles_rad).scatter;
+}
+
 /// Days share one sensor: each one's estimate is drawn to the mean of all as far as its own scatter
 /// is larger than that between days (empirical Bayes; DerSimonian and Laird's variance).
 void share_between_days(std::vector<Mounting>& mountings,
@@ -146,6 +150,10 @@ std::vector<Mounting> find_mountings(const std::vector<DriveRecording>& drives,
     mountings[i].roll_rad = offset_of(roll[i]);
     mountings[i].pitch_slope = slope_of(pitch[i]);
     mountings[i].roll_slope = slope_of(roll[i]);
+    mountings[i].pitch_scatter_rad = scatter_of(pitch[i].measured);
+    mountings[i].pitch_ground_scatter_rad = scatter_of(pitch[i].ground);
+    mountings[i].roll_scatter_rad = scatter_of(roll[i].measured);
+    mountings[i].roll_ground_scatter_rad = scatter_of(roll[i].ground);
     mountings[i].windows = static_cast<int>(pitch[i].ground.size());
   }
   share_between_days(mountings, &Mounting::pitch_rad);

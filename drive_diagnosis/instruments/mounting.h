@@ -22,6 +22,9 @@ struct Mounting {
   std::optional<DriveEstimate> pitch_rad, roll_rad;
   double pitch_slope = 1;  ///< measured over ground; near -1: the sign is wrong
   double roll_slope = 1;
+  /// How far readings scatter from window to window, and the ground of the map; 0 of too few.
+  double pitch_scatter_rad = 0, pitch_ground_scatter_rad = 0;
+  double roll_scatter_rad = 0, roll_ground_scatter_rad = 0;
   int windows = 0;
 };
 

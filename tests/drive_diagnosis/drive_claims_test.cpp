@@ -120,6 +120,28 @@ TEST(DriveClaims, WhatComesNearestToAClaimIsTold) {
   EXPECT_FALSE(nearest_text(diagnosis));
 }
 
+/// Roll that scattered as the map's cross slope had been told for radians in a column of degrees.
+TEST(DriveClaims, AnAngleThatHardlyFollowsTheGroundIsOfAnotherUnitOnlyWhereItHardlyChanges) {
+  const auto told_of = [](double scatter_deg) {
+    DriveDiagnosis diagnosis;
+    diagnosis.mountings = {{.day = "monday",
+                            .pitch_rad = {},
+                            .roll_rad = DriveEstimate{0.1, 0.001},
+                            .roll_slope = 0.01,
+                            .roll_scatter_rad = scatter_deg * kDegree,
+                            .roll_ground_scatter_rad = 4.5 * kDegree}};
+    judge_mounting({.map = rolling_map()}, diagnosis);
+    EXPECT_TRUE(diagnosis.claims.empty());
+    EXPECT_EQ(diagnosis.findings.size(), 1U);
+    return diagnosis.findings.at(0);
+  };
+  EXPECT_EQ(told_of(0.08).id, "unit");
+  const DriveFinding other = told_of(4);
+  EXPECT_EQ(other.id, "other_ground");
+  EXPECT_EQ(count_of("roll changes by 4.0 deg where the map's ground does by 4.5", other.text), 1)
+      << other.text;
+}
+
 TEST(DriveClaims, WhyASoilStaysAsTheMapHasItIsToldInASentence) {
   const std::string text = withheld_text({.held_out_nats = std::log(0.5)}, {.name = "mare"});
   EXPECT_EQ(count_of("mare stays as the map has it", text), 1) << text;
