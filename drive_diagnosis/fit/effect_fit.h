@@ -129,6 +129,7 @@ class EffectFit {
                                                 const Eigen::VectorXd& zone) const;
   bool place_edges(EffectFound& zone);
   void take_edges(const EffectFound& zone);
+  SoilNumbers told_from(int soil, int before, const SoilNumbers& numbers) const;
   void go_on_from(Settled settled);
   void settle_zone(EffectFound& zone);
   WindowSet windows_far_from_linear(const LinearisedWindows& here) const;

@@ -88,9 +88,29 @@ EffectFit::Settled EffectFit::settled_with_edges(EffectFound& zone) {
   return settled;
 }
 
+/// The zone that was added last has these edges, and the soil that it had: its numbers are told
+/// from what the map says most of it to be, which may be another soil now.
 void EffectFit::take_edges(const EffectFound& zone) {
+  const std::size_t last = fit_.zones.size() - 1;
+  const int before = soil_of(last);
   contest_.zones_known.back().share = zone.share;
   edges_.back() = edges_of(zone);
+  if (const int now = soil_of(last); now != before) {
+    fit_.zones.back() = values_of(told_from(now, before, numbers_of(fit_.zones.back())));
+  }
+}
+
+/// What a zone's numbers that are told from one soil of the map are from another.
+SoilNumbers EffectFit::told_from(int soil, int before, const SoilNumbers& numbers) const {
+  std::vector<SoilNumbers> all_along = deviation().soils;
+  all_along.resize(map_.soils().size());
+  const auto now = static_cast<std::size_t>(soil), then = static_cast<std::size_t>(before);
+  SoilNumbers there = numbers;
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) there.at(k) += all_along[then].at(k);
+  SoilNumbers told =
+      deviations_between(map_.soils()[now].soil, deviating(map_.soils()[then].soil, there));
+  for (std::size_t k = 0; k < kSoilNumbers; ++k) told.at(k) -= all_along[now].at(k);
+  return told;
 }
 
 /// Moves the edges of the zone that was added last to where its soil makes them likeliest.
