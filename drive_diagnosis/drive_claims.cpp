@@ -235,15 +235,29 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
   }
 }
 
+namespace {
+
+/// Why a size cannot be.
+std::string_view impossible_text(const VehicleFinding& unnamed) {
+  if (unnamed.id == "cg_offset") {
+    return "no vehicle stands with its centre of gravity beside its wheels or below the ground";
+  }
+  if (unnamed.parameter.ends_with("_share")) return "nothing loses more than all of it";
+  return "nothing drags by less than nothing";
+}
+
+}  // namespace
+
 DriveFinding unnamed_finding(const VehicleFinding& unnamed) {
-  return {.id = "no_name",
-          .drive = "",
-          .text = fmt::format(
-              "something stands out that has no name: it would be {} of {}, and nothing drags by "
-              "less than nothing; a sensor of torque that reads less than there is may look so, or "
-              "a part that sits askew",
-              unnamed.id, size_text(unnamed.parameter, {unnamed.size, unnamed.std})),
-          .value = unnamed.size};
+  return {
+      .id = "no_name",
+      .drive = "",
+      .text = fmt::format(
+          "something stands out that has no name: it would be {} of {}, and {}; a sensor of torque "
+          "that reads less than there is may look so, or a part that sits askew",
+          unnamed.id, size_text(unnamed.parameter, {unnamed.size, unnamed.std}),
+          impossible_text(unnamed)),
+      .value = unnamed.size};
 }
 
 std::string withheld_text(const SoilFitted& fitted, const MapSoil& said) {

@@ -21,7 +21,7 @@ void claim_side_drag(DriveDiagnosis& result);
 void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                    DriveDiagnosis& result);
 
-/// Says that something stands out that would be a drag of less than nothing.
+/// Says that something stands out of a size that cannot be, as a drag of less than nothing.
 DriveFinding unnamed_finding(const VehicleFinding& unnamed);
 
 /// In what share of drives of a sound vehicle over the map's soils chance alone shows as much.

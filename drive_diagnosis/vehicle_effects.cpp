@@ -166,15 +166,22 @@ class EffectSearch {
     return channels;
   }
 
+  /// A drag that drives, a share of less than nothing left, a centre of gravity off the wheels.
   bool is_impossible(std::size_t parameter, double size) const {
-    return trials_[parameter].is_drag() && size < 0;
+    const VehicleTrial& trial = trials_[parameter];
+    if (trial.is_drag()) return size < 0;
+    if (trial.is_share()) return size * trial.unit <= -1;
+    VehicleDeviation off;
+    off.add(trial.deviation, size);
+    return vehicle_.cg_height_m + off.cg_up_m <= 0 ||
+           !stands_on_wheels(
+               with_centre_moved(vehicle_, off.cg_forward_m, off.cg_left_m, off.cg_up_m));
   }
   bool is_impossible(const EffectFound& effect) const {
     return !effect.is_zone && is_impossible(effect.parameter, effect.size);
   }
 
-  /// In place of a drag of less than nothing the strongest of those that explain as much and may
-  /// be.
+  /// In place of what cannot be the strongest of those that explain as much and may be.
   EffectFound named(EffectFound strongest) const {
     if (!is_impossible(strongest)) return strongest;
     const FaultAlone* best = nullptr;

@@ -80,7 +80,8 @@ struct SoilFitted {
 struct VehicleEffects {
   std::vector<VehicleFinding> found;
   VehicleFinding strongest_left;  ///< what did not stand out
-  /// What did, and would be a drag of less than nothing: no name explains it.
+  /// What did, and is of a size that cannot be, as a drag of less than nothing: no name explains
+  /// it.
   std::optional<VehicleFinding> unnamed;
   /// Beside what was found; without those that are shown at no usual size.
   std::vector<FaultShown> faults_shown;

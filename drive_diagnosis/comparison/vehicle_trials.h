@@ -26,6 +26,8 @@ struct VehicleTrial {
   VehicleDeviation deviation;  ///< of that size
   /// A drag: nothing that drags makes a vehicle go by itself, so that none is less than 0.
   bool is_drag() const { return id.ends_with("_drag"); }
+  /// By which something that is positive is more than it is said to be: more than -1.
+  bool is_share() const { return parameter.ends_with("_share"); }
 };
 
 /// Everything that may be otherwise all along: faults, and numbers of the map's soils.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "drive_diagnosis/silent_effects.h"
 #include "terramech/basics/angles.h"
@@ -77,6 +78,30 @@ TEST(DriveClaims, ADragOfLessThanNothingIsNotClaimedButTold) {
   EXPECT_EQ(count_of("wheel_drag of drag_", told->text), 1) << told->text;
   EXPECT_LT(told->value.value(), -4);
   EXPECT_FALSE(nearest_text(diagnosis));
+}
+
+/// Why what stands out has no name is told of what it would be.
+TEST(DriveClaims, WhySomethingHasNoNameIsToldOfWhatItWouldBe) {
+  const auto text = [](const std::string& id, const std::string& parameter) {
+    return unnamed_finding({.id = id, .parameter = parameter, .size = -1.2}).text;
+  };
+  EXPECT_EQ(count_of("nothing loses more than all of it", text("payload", "mass_share")), 1);
+  EXPECT_EQ(count_of("centre of gravity beside its wheels", text("cg_offset", "left_m")), 1);
+  EXPECT_EQ(count_of("drags by less than nothing", text("tow_drag", "drag_n")), 1);
+}
+
+/// Nothing weighs less than nothing: a payload of -88 % had been claimed.
+TEST(DriveClaims, AMassOfLessThanNothingIsNotClaimedButTold) {
+  SimulatedDrive drive{.torque_scatter = 0,
+                       .weave_1pm = [](double, double x_m) { return 0.012 * std::sin(x_m / 9); },
+                       .seed = 21};
+  drive.deviation.motor_share.fill(-1.2);
+  const DriveDiagnosis diagnosis = diagnose_drives(
+      {record(drive, rolling_map())},
+      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
+      {});
+  for (const DriveClaim& claim : diagnosis.claims) ADD_FAILURE() << claim.id << claim.text;
+  EXPECT_EQ(std::ranges::count(diagnosis.findings, "no_name", &DriveFinding::id), 1);
 }
 
 /// Whatever is not sought is told: how wheels stand that are not steered, where others are.
