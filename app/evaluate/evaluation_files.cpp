@@ -178,6 +178,11 @@ bool EvaluationResult::any_feasible() const {
   return std::ranges::any_of(paths, [](const EvaluatedPath& p) { return p.evaluation.feasible; });
 }
 
+PlanStatus EvaluationResult::status() const {
+  if (any_feasible()) return PlanStatus::kFeasible;
+  return interrupted ? PlanStatus::kUndecided : PlanStatus::kInfeasible;
+}
+
 void rank(EvaluationResult& result) {
   std::vector<Standing> standings;
   for (const EvaluatedPath& path : result.paths) standings.push_back(standing_of(path.evaluation));
@@ -205,7 +210,7 @@ std::string evaluation_json(const PlanningProblem& problem, const EvaluationResu
   Json paths = Json::array();
   for (const EvaluatedPath& path : result.paths) paths.push_back(path_json(path));
   const SteeringLaw& law = result.settings.follower.law;
-  const Json json{{"status", result.any_feasible() ? "feasible" : "infeasible"},
+  const Json json{{"status", name(result.status())},
                   {"paths", paths},
                   {"follower", name(result.settings.follower.kind)},
                   {"steering_law",

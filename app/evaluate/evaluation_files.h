@@ -7,6 +7,7 @@
 #include "app/io/staged_files.h"
 #include "app/settings/input_files.h"
 #include "planner/evaluation/evaluation.h"
+#include "planner/problem/plan_result.h"
 
 namespace regoplan {
 
@@ -37,6 +38,9 @@ struct EvaluationResult {
   bool interrupted = false;
 
   bool any_feasible() const;
+
+  /// Feasible where any path is; undecided where none is and some were not judged.
+  PlanStatus status() const;
 };
 
 /// Feasible ones first, see `rank` of evaluations.

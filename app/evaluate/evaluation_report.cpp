@@ -59,9 +59,7 @@ std::optional<RejectedState> as_mark(const Refusal& refusal) {
 
 nlohmann::json picture_data(const PlanningProblem& problem, const EvaluationResult& result) {
   PlanResult picture{
-      .status = result.any_feasible() ? PlanStatus::kFeasible : PlanStatus::kInfeasible,
-      .seed = result.settings.seed,
-      .interrupted = result.interrupted};
+      .status = result.status(), .seed = result.settings.seed, .interrupted = result.interrupted};
   for (const EvaluatedPath& path : result.paths) {
     if (path.plane) continue;
     const PathEvaluation& e = path.evaluation;

@@ -100,7 +100,8 @@ std::string narrowest_place(const PlanningProblem& problem,
 std::string why_undecided(const PlanningProblem& problem, const PlanResult& result,
                           const SearchEnd& end) {
   std::string time;
-  if (problem.search.time_s && (end.cut_short || end.unverified > 0)) {
+  const bool used_up = !end.interrupted && (end.cut_short || end.unverified > 0);
+  if (problem.search.time_s && used_up) {
     time = fmt::format("{:.4g} s did not suffice, give it {:.4g} s", *problem.search.time_s,
                        more_time_s(*problem.search.time_s, result.before_search));
   }

@@ -137,7 +137,9 @@ class SearchStage {
   }
 
   SearchEnd search_end() const {
-    SearchEnd end{.found = plan_.announcements.found(), .cut_short = true};
+    SearchEnd end{.found = plan_.announcements.found(),
+                  .cut_short = true,
+                  .interrupted = plan_.stop.stop_requested()};
     for (const RunResult& run : runs_) {
       if (run.found() && run.state != RunResult::kJudged) ++end.unverified;
       constexpr double kShare = 0.98;

@@ -327,6 +327,7 @@ TEST_F(Evaluate, HeedsInterruptsWhileItDrives) {
     EXPECT_EQ(folder_.read("errors"), "regoplan: interrupted\n");
     EXPECT_EQ(result()["interrupted"], true);
     EXPECT_TRUE(result()["paths"].empty());
+    EXPECT_EQ(result()["status"], "undecided");
   }
 }
 

@@ -251,6 +251,22 @@ TEST(Plan, AStopRequestEndsItWithWhatThereIs) {
   EXPECT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
 }
 
+TEST(Plan, AStopRequestBeforeAnyPathSaysNothingOfTheTime) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.search.iterations.reset();
+  problem.search.time_s = 600;
+  std::stop_source stop;
+  const PlanResult result = plan(problem, {.on_progress =
+                                               [&](const PlanProgress& progress) {
+                                                 if (progress.stage == "searching")
+                                                   stop.request_stop();
+                                               },
+                                           .stop = stop.get_token()});
+  EXPECT_TRUE(result.interrupted);
+  EXPECT_EQ(result.status, PlanStatus::kUndecided);
+  EXPECT_EQ(result.reason.find("suffice"), std::string::npos) << result.reason;
+}
+
 TEST(PlanTime, BeforeTheSearchIsToldStepByStepFromTheStartOn) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   problem.search.planner = "Lattice";

@@ -33,6 +33,13 @@ TEST(Undecided, ASearchThatCameToItsEndIsNotSentOnForTime) {
   EXPECT_EQ(why_undecided(problem_with({}), {}, {.cut_short = true}), "no path was found");
 }
 
+TEST(Undecided, AnInterruptedSearchSaysNothingOfTheTime) {
+  EXPECT_EQ(why_undecided(problem_with(60), {}, {.cut_short = true, .interrupted = true}),
+            "no path was found");
+  EXPECT_EQ(why_undecided(problem_with(60), {}, {.found = 1, .unverified = 1, .interrupted = true}),
+            "1 path was found and not yet verified");
+}
+
 TEST(Undecided, APathThatWaitsForItsVerificationIsSaid) {
   const std::string why =
       why_undecided(problem_with(1), {}, {.found = 1, .unverified = 1, .cut_short = false});
