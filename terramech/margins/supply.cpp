@@ -30,7 +30,8 @@ SupplyEnd end_of(const SteadyManoeuvre& manoeuvre, const SteadyManoeuvre::Point&
 }
 
 NoSupply reason_for(BranchLimit limit) {
-  return limit == BranchLimit::kSlip ? NoSupply::kTraction : NoSupply::kYaw;
+  const bool of_drive = limit == BranchLimit::kSlip || limit == BranchLimit::kTorque;
+  return of_drive ? NoSupply::kTraction : NoSupply::kYaw;
 }
 
 double deepest_sinkage_m(const Trim& trim) {

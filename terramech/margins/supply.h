@@ -24,7 +24,7 @@ struct SupplyEnd {
 /// Why there is no supply at all.
 enum class NoSupply {
   kSinkage,   ///< it takes no force, but a wheel sinks deeper than it may
-  kTraction,  ///< the forward force cannot be had, or not within slip
+  kTraction,  ///< the forward force cannot be had, or not within slip and motor torque
   kYaw,       ///< no balance of the yaw moment, or not within slip angle and steering range
 };
 

@@ -93,6 +93,17 @@ TEST(CorneringSupply, IsNoneForWantOfTractionOnASlopeTooSteepToClimb) {
   EXPECT_EQ(result.reason, NoSupply::kTraction);
 }
 
+TEST(CorneringSupply, IsNoneForWantOfTractionWhereTheMotorsAreTooWeakToRoll) {
+  Vehicle vehicle = preset_vehicle("lrv");
+  const VehicleOnSoil free(vehicle, firm_regolith(), kMoon_mps2);
+  ASSERT_TRUE(free.supply(0).supply);
+  vehicle.torque_max_nm = 0.5;
+  const VehicleOnSoil on(vehicle, firm_regolith(), kMoon_mps2);
+  const SupplyResult result = on.supply(0);
+  EXPECT_FALSE(result.supply);
+  EXPECT_EQ(result.reason, NoSupply::kTraction);
+}
+
 TEST(CorneringSupply, IsNoneForItsSinkageWhereTheVehicleSinksTooDeepInATrim) {
   Vehicle vehicle = preset_vehicle("lrv");
   const VehicleOnSoil free(vehicle, firm_regolith(), kMoon_mps2);
