@@ -60,16 +60,19 @@ SupplyResult cornering_supply(const SteadyManoeuvre& manoeuvre, double forward_n
                               const TrimLimits& limits, bool find_folds) {
   const ForceLine left = sideways(manoeuvre, forward_n, 1);
   const auto start = manoeuvre.solve_from_rolling(left);
-  if (!start) return {.supply = {}, .reason = NoSupply::kTraction};
-  const Trim trim = manoeuvre.trim(*start, left);
-  const double deepest_m = deepest_sinkage_m(trim);
+  const std::optional<Trim> trim =
+      start ? std::optional(manoeuvre.trim(*start, left)) : std::nullopt;
+  const double deepest_m = trim ? deepest_sinkage_m(*trim) : manoeuvre.rolling_sinkage_m(left);
+  const double allowed_m =
+      std::min(limits.sinkage_max_m, manoeuvre.vehicle().wheel.radius_m);  // at most to the axle
   // No force mends that: it is told before all else.
-  if (deepest_m >= limits.sinkage_max_m) {
+  if (deepest_m >= allowed_m) {
     return {.supply = {},
             .reason = NoSupply::kSinkage,
-            .too_deep = TooDeep{.sinkage_m = deepest_m, .allowed_m = limits.sinkage_max_m}};
+            .too_deep = TooDeep{.sinkage_m = deepest_m, .allowed_m = allowed_m}};
   }
-  const LimitUse use = limit_use(trim, limits);
+  if (!trim) return {.supply = {}, .reason = NoSupply::kTraction};
+  const LimitUse use = limit_use(*trim, limits);
   if (use.used >= 1) return {.supply = {}, .reason = reason_for(use.limit)};
   return {.supply = Supply{.right = end_of(manoeuvre, *start, forward_n, -1, limits, find_folds),
                            .left = end_of(manoeuvre, *start, forward_n, 1, limits, find_folds)}};

@@ -39,7 +39,8 @@ struct Supply {
   SupplyEnd left;   ///< A+, normally positive
 };
 
-/// How deep a wheel sinks in a trim, and how deep it may.
+/// How deep a wheel sinks in a trim, or where it rolls slip-free if there is none, and how deep it
+/// may. Of a wheel that nothing carries: its radius.
 struct TooDeep {
   double sinkage_m = 0;
   double allowed_m = 0;

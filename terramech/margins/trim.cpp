@@ -249,6 +249,32 @@ std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve(const Point& guess,
   return std::nullopt;
 }
 
+/// Along the path without slip, but for what the drive has beyond free rolling.
+SteadyManoeuvre::Point SteadyManoeuvre::rolling(double drive) const {
+  if (on_the_spot_) return {0, 0, drive / kAngleScale, 0};
+  const double slip_angle = kinematic_body_slip_angle_rad(vehicle_, curvature_1pm_) + crab_rad_;
+  return {slip_angle / kAngleScale, curvature_1pm_ * length_m_ / kAngleScale, drive / kAngleScale,
+          0};
+}
+
+double SteadyManoeuvre::rolling_sinkage_m(const ForceLine& line) const {
+  const Point at = rolling();
+  const GroundReaction ground = reaction(at, line);
+  const BodyMotion body = body_motion(at);
+  const auto steered = wheels(at);
+  double deepest_m = 0;
+  for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+    const double load_n = sharing_.load_n(i, ground);
+    if (!(load_n > 0)) continue;
+    WheelMotion motion = wheel_motion(vehicle_.wheels[i], steered[i], body, 0);
+    motion.rim_speed_mps = rim_pace() * steered[i].rim_speed_per_speed;
+    const WheelForces forces = laws_[i].forces(load_n, motion);
+    const bool sunk = forces.status == WheelStatus::kSinksToAxle;
+    deepest_m = std::max(deepest_m, sunk ? vehicle_.wheel.radius_m : forces.sinkage_m);
+  }
+  return deepest_m;
+}
+
 std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve_from_rolling(
     const ForceLine& line) const {
   // Outward from free rolling on either side, the first sign change of the missing drive: of the
@@ -259,21 +285,16 @@ std::optional<SteadyManoeuvre::Point> SteadyManoeuvre::solve_from_rolling(
   constexpr std::array<double, 12> kTorque{0,    0.03, 0.07, 0.12, 0.18, 0.25,
                                            0.33, 0.42, 0.52, 0.63, 0.75, 0.9};
   const bool by_torque = vehicle_.drive_law == DriveLaw::kEqualTorque;
-  const double slip_angle = kinematic_body_slip_angle_rad(vehicle_, curvature_1pm_) + crab_rad_;
-  const auto point_at = [&](double drive) {
-    const double unknown = (by_torque ? drive : drive - 1) / kAngleScale;
-    if (on_the_spot_) return Point{0, 0, unknown, 0};
-    return Point{slip_angle / kAngleScale, curvature_1pm_ * length_m_ / kAngleScale, unknown, 0};
-  };
+  const auto point_at = [&](double drive) { return rolling(by_torque ? drive : drive - 1); };
   const auto drive_at = [&](std::size_t i, bool brakes) {
     if (by_torque) return brakes ? -kTorque[i] : kTorque[i];
     return brakes ? 1 / kDriving[i] : kDriving[i];
   };
-  const auto rolling = residual(point_at(drive_at(0, false)), line);
-  if (!rolling) return std::nullopt;
+  const auto at_rolling = residual(point_at(drive_at(0, false)), line);
+  if (!at_rolling) return std::nullopt;
   const int driven = on_the_spot_ ? 2 : 0;
-  const bool must_brake = direction_ * (*rolling)[driven] > 0;
-  double before = (*rolling)[driven];
+  const bool must_brake = direction_ * (*at_rolling)[driven] > 0;
+  double before = (*at_rolling)[driven];
   for (std::size_t i = 1; i < kDriving.size(); ++i) {
     const double drive = drive_at(i, must_brake), drive_before = drive_at(i - 1, must_brake);
     const auto missing = residual(point_at(drive), line);

@@ -105,6 +105,10 @@ class SteadyManoeuvre {
   /// where the forward force or the yaw moment cannot be balanced.
   std::optional<Point> solve_from_rolling(const ForceLine& line) const;
 
+  /// The deepest that a wheel sinks while all roll slip-free on the path, or its radius where it
+  /// sinks to its axle, which no trim has.
+  double rolling_sinkage_m(const ForceLine& line) const;
+
   /// What a point stands for.
   Trim trim(const Point& at, const ForceLine& line) const;
 
@@ -124,6 +128,7 @@ class SteadyManoeuvre {
   BodyMotion body_motion(const Point& at) const;
   double rim_pace() const;
   SteeringCommand steering(const Point& at) const;
+  Point rolling(double drive = 0) const;
   std::array<SteeredWheel, kMaxWheels> wheels(const Point& at) const;
   double rim_speed_mps(std::size_t wheel, const Point& at, const SteeredWheel& steered,
                        double load_n, const WheelMotion& motion) const;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "terramech/margins/margins.h"
@@ -116,6 +117,21 @@ TEST(CorneringSupply, IsNoneForItsSinkageWhereTheVehicleSinksTooDeepInATrim) {
   ASSERT_TRUE(result.too_deep);
   EXPECT_GT(result.too_deep->sinkage_m, vehicle.sinkage_max_m);
   EXPECT_EQ(result.too_deep->allowed_m, vehicle.sinkage_max_m);
+}
+
+TEST(CorneringSupply, IsNoneForItsSinkageWhereNothingKeepsAWheelFromItsAxle) {
+  Vehicle vehicle = preset_vehicle("lrv");
+  vehicle.mass_kg *= 100;
+  for (const double allowed_m : {0.1, 1.0}) {
+    vehicle.sinkage_max_m = allowed_m;
+    const VehicleOnSoil on(vehicle, firm_regolith(), 9.81);
+    const SupplyResult result = on.supply(0);
+    EXPECT_FALSE(result.supply);
+    EXPECT_EQ(result.reason, NoSupply::kSinkage);
+    ASSERT_TRUE(result.too_deep);
+    EXPECT_EQ(result.too_deep->sinkage_m, vehicle.wheel.radius_m);
+    EXPECT_EQ(result.too_deep->allowed_m, std::min(allowed_m, vehicle.wheel.radius_m));
+  }
 }
 
 TEST(CorneringSupply, IsNoneForWantOfYawBalanceWhereFixedWheelsMustTurnTightly) {
