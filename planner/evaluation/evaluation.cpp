@@ -196,18 +196,31 @@ double energy_at_j(const TrackingRun::Moment& before, const TrackingRun::Moment&
   return before.energy_j + share * (after.energy_j - before.energy_j);
 }
 
-/// The strains and the energy that the run had where the station lies.
+void set_strain(TrajectoryPoint& point, const WheelStrain& strain) {
+  point.slip_max = strain.slip;
+  point.slip_angle_max_rad = strain.slip_angle_rad;
+  point.sinkage_max_m = strain.sinkage_m;
+  point.torque_max_nm = strain.torque_max_nm;
+}
+
+/// The strains and the energy that the run had where the station lies; none where it did not get,
+/// and no strain where it stood before its first step.
 void add_strains(std::vector<TrajectoryPoint>& points, const std::vector<double>& s_m,
                  const TrackingRun& run) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr WheelStrain kNotDriven{.slip = kNone,
+                                   .slip_angle_rad = kNone,
+                                   .sinkage_m = kNone,
+                                   .load_min_n = kNone,
+                                   .torque_max_nm = kNone};
   std::size_t k = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
+    set_strain(points[i], kNotDriven);
     while (k + 1 < run.moments.size() && run.moments[k + 1].s_m <= s_m[i]) ++k;
-    if (run.moments.empty() || s_m[i] > run.last.s_m + 1) break;
-    const WheelStrain& strain = run.moments[k].strain;
-    points[i].slip_max = strain.slip;
-    points[i].slip_angle_max_rad = strain.slip_angle_rad;
-    points[i].sinkage_max_m = strain.sinkage_m;
-    points[i].torque_max_nm = strain.torque_max_nm;
+    if (run.moments.empty() || s_m[i] > run.last.s_m + 1) continue;
+    // The first moment is that before the first step.
+    const bool stands = s_m[i] <= run.moments.front().s_m || run.moments.size() == 1;
+    if (!stands) set_strain(points[i], run.moments[std::max<std::size_t>(k, 1)].strain);
     points[i].energy_j = energy_at_j(
         run.moments[k], k + 1 < run.moments.size() ? run.moments[k + 1] : run.last, s_m[i]);
     points[i].yaw_rate_rad_s = run.moments[k].state.motion.yaw_rate_rad_s;

@@ -56,7 +56,8 @@ struct PathEvaluation {
   double duration_s = 0;  ///< of the commanded speeds
   double speed_max_mps = 0;
   std::vector<double> s_m;              ///< of each of `points`
-  std::vector<TrajectoryPoint> points;  ///< the commanded path; strains are those of the run
+  std::vector<TrajectoryPoint> points;  ///< the commanded path; strains are those of the run, NaN
+                                        ///< where there is none
   double margin_min = 0;                ///< what is missing counts as -1
   PathMargins margins;                  ///< the smallest of each
   double margin_worst_tenth = 0;

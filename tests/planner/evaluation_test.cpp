@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "planner/plan.h"
@@ -30,6 +31,28 @@ TEST(Evaluation, AlongThePathStandWhatTheDriveTookOfTorqueAndEnergy) {
   const TrajectoryPoint &a = e.points[e.points.size() / 3], &b = e.points[e.points.size() * 2 / 3];
   const double pull_n = (b.energy_j - a.energy_j) / (b.x_m - a.x_m);
   EXPECT_NEAR(4 * a.torque_max_nm / flat_problem().vehicle.wheel.radius_m, pull_n, 0.2 * pull_n);
+}
+
+TEST(Evaluation, WhatWasNeverDrivenHasNoStrainAndNoEnergy) {
+  PlanningProblem problem = flat_problem();
+  problem.map = one_soil_map(60, firm_regolith(), flat, {{30, 25, 1, 1}});
+  const PathEvaluation e = evaluated(problem, reference({{10, 25}, {45, 25}}, 2));
+  ASSERT_TRUE(e.refusal);
+  const auto strains = [](const TrajectoryPoint& point) {
+    return std::array{point.slip_max, point.slip_angle_max_rad, point.sinkage_max_m,
+                      point.torque_max_nm};
+  };
+  for (std::size_t i = 0; i < e.points.size(); ++i) {
+    const bool driven = e.s_m[i] <= e.tracking.last.s_m;
+    for (const double strain : strains(e.points[i])) {
+      EXPECT_EQ(std::isnan(strain), i == 0 || e.s_m[i] > e.tracking.last.s_m + 1) << e.s_m[i];
+    }
+    if (driven) {
+      EXPECT_FALSE(std::isnan(e.points[i].energy_j));
+    }
+  }
+  EXPECT_GT(e.points[1].sinkage_max_m, 0);
+  EXPECT_TRUE(std::isnan(e.points.back().energy_j));
 }
 
 TEST(Evaluation, APathThatEndsAtSpeedMustLeaveRoomToStop) {
