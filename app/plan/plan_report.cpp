@@ -63,6 +63,9 @@ std::string broken_margin_sentence(const MarginSpread& spread) {
 std::string soil_sentence(const Candidate& best) {
   if (!best.spread) return "How its margin spreads over the soils' uncertainty was not drawn.";
   const MarginSpread& spread = *best.spread;
+  if (spread.draws == 0) {
+    return "Every number of the soils is known exactly: there was nothing to draw.";
+  }
   return fmt::format(
       "Over {} draws of the soils within their uncertainty, the best path keeps its margins in "
       "{:.0f} % of them (95 % interval of the share: {:.0f} to {:.0f} %); in 5 % of them its "
@@ -88,6 +91,10 @@ std::string best_words(const Candidate& best) {
   const std::string at_mean = number(best.verified.margin_min, 2);
   if (!best.spread) {
     return fmt::format("the best keeps a stability margin of {} at the mean soils", at_mean);
+  }
+  if (best.spread->draws == 0) {
+    return fmt::format("the best keeps a stability margin of {} on soils that are known exactly",
+                       at_mean);
   }
   const MarginSpread& spread = *best.spread;
   if (spread.p05 <= MarginSpread::kBroken) {
@@ -183,7 +190,8 @@ std::string tie_sentence(const std::vector<Candidate>& ranked) {
   std::vector<std::string> drawn, undrawn;
   for (const auto& [first, last] : tied_ranks(ranked)) {
     // A group is of one tier: either all of it was judged over draws of the soils, or none.
-    const bool is_drawn = ranked.at(static_cast<std::size_t>(first) - 1).spread.has_value();
+    const auto& spread = ranked.at(static_cast<std::size_t>(first) - 1).spread;
+    const bool is_drawn = spread && spread->draws > 0;
     (is_drawn ? drawn : undrawn)
         .push_back(fmt::format("{} {} {}", first, last == first + 1 ? "and" : "to", last));
   }

@@ -34,8 +34,10 @@ std::string candidate_row(const Candidate& candidate) {
       candidate.planner, candidate.length_m, candidate.duration_s, energy_text(candidate.energy_j),
       spread ? fmt::format("{:.3f}", spread->p05) : std::string(kNotKnown), candidate.margin_min,
       name(candidate.limiting.margin),
-      spread ? fmt::format("{:.0f}/{}", spread->feasible.share * spread->draws, spread->draws)
-             : std::string(kNotKnown));
+      !spread ? std::string(kNotKnown)
+      : spread->draws == 0
+          ? "no need"
+          : fmt::format("{:.0f}/{}", spread->feasible.share * spread->draws, spread->draws));
 }
 
 /// Where the time before the search went, where that is more than a tenth of what the answer may

@@ -137,7 +137,7 @@ TerrainRasters terrain_rasters(const PlanningProblem& problem) {
 std::vector<float> straight_on_probability(const PlanningProblem& problem) {
   const std::size_t soils = problem.map.soils().size();
   constexpr std::size_t kDraws = 20;
-  const std::size_t count = std::ranges::any_of(problem.map.soils(), is_uncertain) ? kDraws : 1;
+  const std::size_t count = has_uncertain_soil(problem) ? kDraws : 1;
   std::vector<ChartSettings> draws(count, raster_settings(problem));
   for (std::size_t k = 0; k < count; ++k) {
     const SoilDraw draw = soil_draw(problem, problem.search.seed, static_cast<int>(k));

@@ -18,4 +18,13 @@ MarginSpread margin_spread(const std::vector<double>& smallest, double margin_mi
           .feasible = probability_of(static_cast<int>(allowed), draws)};
 }
 
+MarginSpread known_margin(double smallest, double margin_min) {
+  const double share = smallest >= margin_min ? 1 : 0;
+  return {.draws = 0,
+          .p05 = smallest,
+          .p05_low = smallest,
+          .p05_high = smallest,
+          .feasible = {.share = share, .low = share, .high = share}};
+}
+
 }  // namespace regoplan

@@ -11,7 +11,7 @@ struct MarginSpread {
   /// What a place without any steady trim counts as: limits are broken there.
   static constexpr double kBroken = -1;
 
-  int draws = 0;
+  int draws = 0;                     ///< 0 where every soil number is known
   double p05 = 0;                    ///< 5 % quantile of the smallest margin
   double p05_low = 0, p05_high = 0;  ///< its 95 % interval, of sampling alone
   /// The share of the draws in which every judged place has a steady manoeuvre within all limits,
@@ -21,5 +21,9 @@ struct MarginSpread {
 
 /// \param smallest margin of each draw, at least one \param margin_min the least that is allowed
 MarginSpread margin_spread(const std::vector<double>& smallest, double margin_min);
+
+/// Where every soil number is known there is nothing to draw: the margin itself, without any
+/// sampling error.
+MarginSpread known_margin(double smallest, double margin_min);
 
 }  // namespace regoplan

@@ -13,6 +13,7 @@
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
 #include "terramech/parameters/gravity_range.h"
+#include "terramech/parameters/soil.h"
 
 namespace regoplan {
 namespace {
@@ -86,6 +87,17 @@ WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil
           .generic = problem.generic};
 }
 
+bool is_uncertain(const MapSoil& soil) {
+  return std::any_of(soil_parameters().begin(), soil_parameters().end(),
+                     [&soil](const SoilParameter& parameter) {
+                       return soil.soil.standard_deviation.*parameter.member > 0;
+                     });
+}
+
+bool has_uncertain_soil(const PlanningProblem& problem) {
+  return std::ranges::any_of(problem.map.soils(), is_uncertain);
+}
+
 void validate(const PlanningProblem& problem) {
   validate(problem.vehicle);
   require("gravity_mps2", problem.gravity_mps2, kGravity_mps2);
@@ -114,7 +126,7 @@ void validate(const PlanningProblem& problem) {
   validate(problem.limits);
   validate(problem.search);
   const double shown = probability_of(problem.search.soil_draws, problem.search.soil_draws).low;
-  if (shown < problem.limits.probability_min) {
+  if (shown < problem.limits.probability_min && has_uncertain_soil(problem)) {
     throw InputError(
         fmt::format("planner.soil_draws: {} draws show at most {:.4f}, less than "
                     "limits.probability_min {} (allowed: more draws)",

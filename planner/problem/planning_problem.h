@@ -93,6 +93,12 @@ WheelModelSpec wheel_model_spec(const PlanningProblem& problem, const Soil& soil
 /// The limits of the wheels' strain, as margins are judged under them.
 StrainLimits strain_limits(const Limits& limits);
 
+/// Whether any of its numbers has a standard deviation.
+bool is_uncertain(const MapSoil& soil);
+
+/// Whether any soil of the map is; else there is nothing to draw.
+bool has_uncertain_soil(const PlanningProblem& problem);
+
 /// \throws ValueError or InputError for what cannot be asked: start or goal outside the map or on
 /// unknown ground, start inside a rock, a limit or a budget that is not positive, ...
 void validate(const PlanningProblem& problem);

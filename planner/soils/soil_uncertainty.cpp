@@ -142,13 +142,6 @@ PathMargins margins_at(const TrajectoryPoint& point) {
           .traction = or_else(point.traction_margin, std::min(cornering, 0.0))};
 }
 
-bool is_uncertain(const MapSoil& soil) {
-  return std::any_of(soil_parameters().begin(), soil_parameters().end(),
-                     [&soil](const SoilParameter& parameter) {
-                       return soil.soil.standard_deviation.*parameter.member > 0;
-                     });
-}
-
 SoilDraw soil_draw(const PlanningProblem& problem, std::uint64_t seed, int number) {
   std::seed_seq sequence{seed, static_cast<std::uint64_t>(number)};
   std::mt19937_64 random(sequence);

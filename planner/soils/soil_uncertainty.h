@@ -12,9 +12,6 @@
 
 namespace regoplan {
 
-/// Whether any of its numbers has a standard deviation.
-bool is_uncertain(const MapSoil& soil);
-
 /// One draw of each soil of a map, in their order.
 using SoilDraw = std::vector<Soil>;
 

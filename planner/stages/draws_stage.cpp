@@ -23,7 +23,10 @@ class DrawsStage {
   void run() {
     const int draws = plan_.problem.search.soil_draws;
     std::vector<std::map<int, std::vector<double>>> drawn(chosen_.size());
-    std::vector<int> given(chosen_.size());
+    constexpr int kFirst = 20;  // draws of every candidate come first
+    // Where every soil number is known there is nothing to draw.
+    const bool varies = has_uncertain_soil(plan_.problem);
+    std::vector<int> given(chosen_.size(), varies ? 0 : std::max(draws, kFirst));
     bool bounded = false, mapped = false, weighed = false;
     const double half_left_s = plan_.budget.left_s(kDrawsShare) / 2;
     work_off(plan_, [&]() -> std::optional<Piece> {
@@ -35,7 +38,6 @@ class DrawsStage {
           !std::exchange(mapped, true)) {
         return rasters_piece();
       }
-      constexpr int kFirst = 20;  // draws of every candidate come first
       if (!given.empty() && *std::ranges::min_element(given) >= kFirst &&
           !std::exchange(weighed, true)) {
         return probability_piece();
@@ -64,12 +66,18 @@ class DrawsStage {
     });
     if (result_.rasters) result_.rasters->probability = std::move(probability_);
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
+      Candidate& candidate = chosen_[i].candidate;
+      const double margin_min = plan_.problem.limits.margin_min;
+      if (!varies) {
+        candidate.spread = known_margin(candidate.margin_min, margin_min);
+        continue;
+      }
       std::vector<double> smallest;
       for (const auto& [first, margins] : drawn[i]) {
         smallest.insert(smallest.end(), margins.begin(), margins.end());
       }
       if (smallest.empty()) continue;
-      chosen_[i].candidate.spread = margin_spread(smallest, plan_.problem.limits.margin_min);
+      candidate.spread = margin_spread(smallest, margin_min);
     }
   }
 

@@ -154,7 +154,7 @@ TEST_F(PlanReport, WritesWhatIsNotKnownAsNull) {
 TEST_F(PlanReport, TiesAreToldByDrawsOnlyOfPathsThatWereDrawn) {
   const Candidate undrawn{.margin_min = 0.2};
   Candidate drawn = undrawn;
-  drawn.spread = MarginSpread{.p05 = 0.1, .p05_high = 0.2};
+  drawn.spread = MarginSpread{.draws = 40, .p05 = 0.1, .p05_high = 0.2};
   EXPECT_EQ(tie_sentence({drawn, undrawn}), "");
   EXPECT_NE(tie_sentence({drawn, drawn}).find("1 and 2 are tied: over the draws"),
             std::string::npos);
@@ -190,6 +190,15 @@ TEST_F(PlanReport, ExplainsAMarginOfMinusOne) {
   EXPECT_TRUE(tells("Its lower end of -1.00 says that so many draws do not rule out soils"));
   spread.p05 = -1;
   EXPECT_TRUE(tells("A margin of -1.00 stands for a place where the soil of that draw bears no"));
+}
+
+TEST_F(PlanReport, OfKnownSoilsSaysNothingOfDraws) {
+  result_.candidates = {result_.candidates.front()};
+  result_.candidates.front().spread = known_margin(0.3, 0.05);
+  const std::string page = plan_report(problem_, result_);
+  EXPECT_NE(page.find("there was nothing to draw"), std::string::npos);
+  EXPECT_EQ(page.find("95 % interval of"), std::string::npos);
+  EXPECT_NE(headline_of(page).find("on soils that are known exactly"), std::string::npos);
 }
 
 TEST_F(PlanReport, EscapesTextThatComesFromFiles) {

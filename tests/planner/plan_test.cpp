@@ -217,6 +217,23 @@ TEST(Plan, UncertainSoilLowersTheMarginThatMostDrawsKeep) {
   EXPECT_EQ(certain.candidates.front().spread->feasible.share, 1);
 }
 
+TEST(Plan, KnownSoilsHaveNoSamplingErrorAndKeepAnyChanceConstraint) {
+  PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
+  problem.search.soil_draws = 20;  // 20 of 20 draws would show .84
+  problem.limits.probability_min = 0.999;
+  const PlanResult result = planned(problem);
+  ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+  const Candidate& best = result.candidates.front();
+  ASSERT_TRUE(best.spread);
+  EXPECT_EQ(best.spread->draws, 0);
+  for (const double p05 : {best.spread->p05_low, best.spread->p05, best.spread->p05_high}) {
+    EXPECT_EQ(p05, best.margin_min);
+  }
+  EXPECT_EQ(best.spread->feasible.low, 1);
+  EXPECT_EQ(best.spread->feasible.high, 1);
+  EXPECT_TRUE(result.rasters && !result.rasters->probability.empty());
+}
+
 TEST(Plan, AChanceConstraintLeavesOutWhatTheSoilMayNotHold) {
   UncertainSoil uncertain = firm_regolith();
   uncertain.standard_deviation.friction_angle_rad = 4 * kTestDegree;
@@ -346,7 +363,12 @@ TEST(PlanningProblem, WhatCannotBeAskedNamesFieldAndRange) {
   names("limits.margin_min", [](PlanningProblem& p) { p.limits.margin_min = -0.1; });
   names("limits.slip_max", [](PlanningProblem& p) { p.limits.slip_max = NAN; });
   names("limits.probability_min", [](PlanningProblem& p) { p.limits.probability_min = 1; });
-  names("planner.soil_draws", [](PlanningProblem& p) { p.limits.probability_min = 0.9; });
+  names("planner.soil_draws", [](PlanningProblem& p) {
+    UncertainSoil uncertain = firm_regolith();
+    uncertain.standard_deviation.cohesion_pa = 60;
+    p.map = one_soil_map(50, uncertain, flat);
+    p.limits.probability_min = 0.9;
+  });
   names("planner.objective", [](PlanningProblem& p) { p.search.objective = {.per_s = 0}; });
   names("planner.objective.per_j", [](PlanningProblem& p) { p.search.objective.per_j = -1; });
   names("gravity_mps2", [](PlanningProblem& p) { p.gravity_mps2 = 0; });
