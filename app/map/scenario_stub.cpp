@@ -20,8 +20,6 @@
 namespace regoplan {
 namespace {
 
-constexpr double kGoalRadius_m = 3;
-
 struct StubVehicle {
   Vehicle vehicle;
   std::string name;  ///< in the scenario
@@ -59,8 +57,10 @@ double heading_deg(const Place& from, const Place& to) {
 /// none.
 std::optional<Place> nearest_place(const GridFrame& frame, const Place& wanted,
                                    const std::function<bool(const Place&)>& may) {
-  const double step_m = std::max({frame.cell_width_m, frame.cell_height_m, 1.0});
   const double reach_m = std::hypot(frame.east_m() - frame.west_m, frame.north_m - frame.south_m());
+  constexpr double kOfReach = 1.0 / 30, kMost_m = 1;
+  const double step_m =
+      std::max({frame.cell_width_m, frame.cell_height_m, std::min(kMost_m, kOfReach * reach_m)});
   for (int ring = 0; ring * step_m <= reach_m; ++ring) {
     const double radius_m = ring * step_m;
     const int places = 1 + static_cast<int>(2 * std::numbers::pi * radius_m / step_m);
@@ -172,6 +172,16 @@ StartAndGoal start_and_goal(const TerrainMap& map, const StubVehicle& vehicle,
       vehicle.vehicle.name, ground.usual_refusal()));
 }
 
+/// About as far as the vehicle is long, and well within the way there: a goal that holds the start
+/// leaves nothing to plan.
+double goal_radius_m(const Vehicle& vehicle, const StartAndGoal& ends) {
+  constexpr double kMost_m = 3, kLeast_m = 0.05, kShareOfWay = 0.2;
+  const double way_m = std::hypot(ends.goal.x_m - ends.start.x_m, ends.goal.y_m - ends.start.y_m);
+  const double radius_m =
+      std::min({kMost_m, vehicle.body.x_max_m - vehicle.body.x_min_m, kShareOfWay * way_m});
+  return std::max(kLeast_m, std::floor(20 * radius_m) / 20);
+}
+
 }  // namespace
 
 Vehicle stub_vehicle(const ScenarioStub& stub) {
@@ -180,7 +190,8 @@ Vehicle stub_vehicle(const ScenarioStub& stub) {
 
 StubFiles stub_files(const TerrainMap& map, const ScenarioStub& stub) {
   StubVehicle vehicle = vehicle_of(stub.vehicle);
-  const auto [start, goal] = start_and_goal(map, vehicle, stub.gravity_mps2);
+  const StartAndGoal ends = start_and_goal(map, vehicle, stub.gravity_mps2);
+  const auto [start, goal] = ends;
   std::string text = "# A scenario to go on from: set start, goal, vehicle and limits.\n";
   text += fmt::format("map:\n  elevation: dem.tif\n{}  soils: soils.yaml\n{}",
                       map.classes() ? "  soil_class: classes.tif\n" : "",
@@ -192,7 +203,7 @@ StubFiles stub_files(const TerrainMap& map, const ScenarioStub& stub) {
       "goal: {{x_m: {:.2f}, y_m: {:.2f}, radius_m: {}}}\n"
       "planner: {{name: auto, time_s: 20, seed: 1, candidates: 5}}\n",
       quoted_text(vehicle.name), stub.gravity_mps2, start.x_m, start.y_m, heading_deg(start, goal),
-      goal.x_m, goal.y_m, kGoalRadius_m);
+      goal.x_m, goal.y_m, goal_radius_m(vehicle.vehicle, ends));
   return {.scenario = {.name = "scenario.yaml", .content = std::move(text)},
           .vehicle = std::move(vehicle.file)};
 }

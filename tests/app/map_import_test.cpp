@@ -94,6 +94,22 @@ TEST_F(MapImport, TheStartStandsWhereThePlannerLetsTheVehicleStand) {
   EXPECT_FALSE(rejection) << name(rejection->reason);
 }
 
+TEST_F(MapImport, TheGoalFitsASmallMapAndASmallVehicle) {
+  write_elevations(flat_ground, 0.05);  // 2 m by 2 m
+  const ProgramRun run = import("--vehicle tohoku");
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const PlanningProblem problem = read_scenario(folder_.path("map/scenario.yaml"), {}).problem;
+  EXPECT_NO_THROW(validate(problem));
+  EXPECT_LT(problem.goal.radius_m, 0.5);
+  EXPECT_GT(problem.goal.radius_m, 0.1);
+}
+
+TEST_F(MapImport, AUsualVehicleOnAUsualMapHasAGoalOfThreeMetres) {
+  write_elevations(flat_ground);
+  ASSERT_EQ(import("").status, 0);
+  EXPECT_EQ(read_scenario(folder_.path("map/scenario.yaml"), {}).problem.goal.radius_m, 3);
+}
+
 TEST_F(MapImport, GroundFullOfHolesIsNoPlaceToStand) {
   write_elevations([](double x_m, double y_m) {
     return std::fmod(x_m, 2) < 1 && std::fmod(y_m, 2) < 1 ? std::nan("") : 0.25;
