@@ -117,9 +117,9 @@ Command add_export_command(CLI::App& program) {
       ->type_name("DIR");
   parser
       ->add_option("--spacing-m", options->spacing_m,
-                   "distance between nodes of the route; default: 2")
+                   "most distance between nodes of the route; default: 2")
       ->type_name("M")
-      ->check(in_range(kAbove0));
+      ->check(in_range({.min = 0.01}));
   parser->add_flag_callback(
       "--force", [options] { options->nav2.force = options->qgis.force = true; },
       "replace files that others wrote or edited as well");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -86,6 +88,36 @@ Json feature(const Json& properties, const char* type, const Json& coordinates) 
           {"geometry", {{"type", type}, {"coordinates", coordinates}}}};
 }
 
+/// Places along a line from its first to its last, as far from each other by the way as equal
+/// pieces of at most `spacing_m` are: its own points lie closer in some places and wider in others.
+std::vector<std::array<double, 2>> evenly_spaced(const Json& line, double spacing_m) {
+  std::vector<std::array<double, 2>> points;
+  std::vector<double> way_m;
+  for (const Json& point : line) {
+    const std::array<double, 2> place{point.at(0), point.at(1)};
+    const double step_m =
+        points.empty() ? 0 : std::hypot(place[0] - points.back()[0], place[1] - points.back()[1]);
+    way_m.push_back((way_m.empty() ? 0 : way_m.back()) + step_m);
+    points.push_back(place);
+  }
+  const double length_m = way_m.back();
+  if (!(length_m > 0)) return {points.front()};
+  constexpr double kRounding = 1e-9;
+  const double pieces = std::ceil(length_m / spacing_m * (1 - kRounding));
+  std::vector<std::array<double, 2>> places{points.front()};
+  std::size_t i = 1;
+  for (int k = 1; k < pieces; ++k) {
+    const double at_m = length_m * k / pieces;
+    while (i + 1 < points.size() && way_m[i] < at_m) ++i;
+    const double piece_m = way_m[i] - way_m[i - 1];
+    const double share = piece_m > 0 ? (at_m - way_m[i - 1]) / piece_m : 0;
+    places.push_back({std::lerp(points[i - 1][0], points[i][0], share),
+                      std::lerp(points[i - 1][1], points[i][1], share)});
+  }
+  places.push_back(points.back());
+  return places;
+}
+
 }  // namespace
 
 std::vector<RenderedFile> nav2_masks(const PlanningProblem& problem,
@@ -104,15 +136,8 @@ std::vector<RenderedFile> nav2_masks(const PlanningProblem& problem,
 RenderedFile nav2_route(const Json& candidate, double spacing_m) {
   const Json& line = candidate.at("features").at(0).at("geometry").at("coordinates");
   std::vector<Json> nodes;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const Json here = Json::array({line[i].at(0), line[i].at(1)});
-    const bool last = i + 1 == line.size();
-    if (!nodes.empty() && !last &&
-        std::hypot(here[0].get<double>() - nodes.back()[0].get<double>(),
-                   here[1].get<double>() - nodes.back()[1].get<double>()) < spacing_m) {
-      continue;
-    }
-    nodes.push_back(here);
+  for (const std::array<double, 2>& place : evenly_spaced(line, spacing_m)) {
+    nodes.push_back(Json::array({place[0], place[1]}));
   }
   Json features = Json::array();
   for (std::size_t i = 0; i < nodes.size(); ++i) {

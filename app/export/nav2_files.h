@@ -16,7 +16,8 @@ namespace regoplan {
 /// \throws InputError where cells are not square
 std::vector<RenderedFile> nav2_masks(const PlanningProblem& problem, const TerrainRasters& rasters);
 
-/// `route.geojson`: a path as a graph for the route server, a node about every `spacing_m`.
+/// `route.geojson`: a path as a graph for the route server, nodes at equal distances along it, at
+/// most `spacing_m` apart.
 /// \param candidate its candidate-K.geojson
 RenderedFile nav2_route(const nlohmann::ordered_json& candidate, double spacing_m);
 

@@ -1,6 +1,9 @@
 // A plan's files for other programs, read back as those read them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -123,6 +126,28 @@ TEST_F(Export, TheRouteIsAGraphFromStartToGoal) {
   EXPECT_EQ(edges + 1, static_cast<int>(nodes.size()));
   EXPECT_NEAR(nodes.begin()->second[0], 10, 0.01);
   EXPECT_LT(std::hypot(nodes.rbegin()->second[0] - 40, nodes.rbegin()->second[1] - 25), 3);
+}
+
+TEST_F(Export, NodesOfTheRouteLieNoFartherApartThanAsked) {
+  for (const double spacing_m : {0.3, 2.0, 5.0}) {
+    const ProgramRun run =
+        run_program(folder_, fmt::format("export '{}' --force --nav2 '{}' --spacing-m {}",
+                                         folder_.path("result"), folder_.path("nav2"), spacing_m));
+    ASSERT_EQ(run.status, 0) << run.errors;
+    const auto route = nlohmann::json::parse(folder_.read("nav2/route.geojson"));
+    double longest_m = 0;
+    for (const auto& feature : route.at("features")) {
+      if (feature.at("geometry").at("type") == "Point") continue;
+      const auto& ends = feature.at("geometry").at("coordinates").at(0);
+      const std::array<double, 2> from = ends.at(0), to = ends.at(1);
+      longest_m = std::max(longest_m, std::hypot(to[0] - from[0], to[1] - from[1]));
+    }
+    EXPECT_LE(longest_m, spacing_m + 1e-9);
+    EXPECT_GT(longest_m, 0.8 * spacing_m);
+  }
+  expect_refusal(run_program(folder_, "export '" + folder_.path("result") + "' --nav2 '" +
+                                          folder_.path("nav2") + "' --spacing-m 1e-9"),
+                 {"--spacing-m", "0.01"});
 }
 
 TEST_F(Export, TheStyleOfQgisRisesThroughTheLeastMargin) {
