@@ -44,8 +44,9 @@ struct VehicleControl {
 /// What a step leads to.
 struct StepResult {
   VehicleState state;
-  WheelStrain strain;         ///< at the end of the step
-  double drive_energy_j = 0;  ///< torque times turning rate of the wheels that drive
+  WheelStrain strain;  ///< at the end of the step
+  /// Torque times turning rate of each wheel where that is above 0: braking gives nothing back.
+  double drive_energy_j = 0;
   bool on_known_ground = true;
   bool converged = true;  ///< false: no step size balanced the forces; the state is the last good
 };

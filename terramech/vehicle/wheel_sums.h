@@ -62,7 +62,7 @@ struct WheelSums {
   BodyForce force;
   WheelStrain contact;                             ///< but for the slips
   std::array<double, kMaxWheels> rim_speed_mps{};  ///< at which the wheels turn
-  double drive_power_w = 0;  ///< torque times turning rate of the wheels that drive
+  double drive_power_w = 0;  ///< of each wheel while it drives; braking gives nothing back
   bool as_commanded = true;  ///< every wheel turns at its commanded speed
   bool strain_known = true;  ///< `contact` and `rim_speed_mps` are filled in
 };

@@ -77,7 +77,7 @@ const CHARTS = [
     unit: 'W',
     decimals: 0,
     zero: true,
-    note: 'Torque times turning rate of the wheels that drive, mean to the next point.',
+    note: 'Torque times turning rate of each wheel while it drives, mean to the next point; braking gives nothing back.',
     series: [{name: 'all wheels', key: 'power_w', colour: '--series-2'}]
   },
   {
