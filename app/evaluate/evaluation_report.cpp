@@ -103,6 +103,7 @@ std::string evaluation_report(const PlanningProblem& problem, const EvaluationRe
   data["courses"] = courses_data(result);
   std::vector<std::string> lead;
   if (result.interrupted) lead.emplace_back("Interrupted: this is what was evaluated by then.");
+  if (std::string ties = tie_sentence(result); !ties.empty()) lead.push_back(std::move(ties));
   return render(
       {.command = "evaluate",
        .title = fmt::format("Evaluation for {}", problem.vehicle.name),

@@ -61,6 +61,7 @@ std::string summary(const EvaluationResult& result) {
           std::max({error.cornering, error.tip_over, error.traction}));
     }
   }
+  if (const std::string ties = tie_sentence(result); !ties.empty()) text += ties + "\n";
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/io/quantity_text.h"
+#include "app/page/tie_sentence.h"
 
 namespace regoplan {
 
@@ -60,6 +61,17 @@ std::string influence_text(const std::optional<SoilSpread>& spread, std::size_t 
   }
   if (!text.empty()) return text;
   return spread->draws == 0 ? "soil numbers known" : "no uncertain number";
+}
+
+std::string tie_sentence(const EvaluationResult& result) {
+  std::vector<Standing> standings;  // those that are feasible stand first
+  for (const EvaluatedPath& path : result.paths) {
+    if (path.evaluation.feasible) standings.push_back(standing_of(path.evaluation));
+  }
+  return tie_sentence(tied_ranks(standings), [&](int rank) {
+    const auto& spread = result.paths.at(static_cast<std::size_t>(rank) - 1).evaluation.spread;
+    return spread && spread->draws > 0;
+  });
 }
 
 std::string too_doubtful_text(const EvaluatedPath& path) {

@@ -30,6 +30,10 @@ std::string limiting_text(const PathEvaluation& evaluation);
 /// could be drawn.
 std::string influence_text(const std::optional<SoilSpread>& spread, std::size_t count_max);
 
+/// Which feasible paths share a rank, as draws of the soils cannot tell them apart; empty where
+/// each has one.
+std::string tie_sentence(const EvaluationResult& result);
+
 /// That `plan` would not count a path that is feasible at the mean soils, as it is not shown to
 /// hold in `probability_min` of the draws; empty where it is, or none is asked for.
 std::string too_doubtful_text(const EvaluatedPath& path);

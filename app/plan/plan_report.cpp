@@ -10,6 +10,7 @@
 #include "app/page/plan_report_data.h"
 #include "app/page/report_assets.h"
 #include "app/page/report_page.h"
+#include "app/page/tie_sentence.h"
 #include "planner/verdict/ranking.h"
 
 namespace regoplan {
@@ -187,24 +188,10 @@ std::string plan_headline(const PlanResult& result, const Limits& limits) {
 }
 
 std::string tie_sentence(const std::vector<Candidate>& ranked) {
-  std::vector<std::string> drawn, undrawn;
-  for (const auto& [first, last] : tied_ranks(ranked)) {
-    // A group is of one tier: either all of it was judged over draws of the soils, or none.
-    const auto& spread = ranked.at(static_cast<std::size_t>(first) - 1).spread;
-    const bool is_drawn = spread && spread->draws > 0;
-    (is_drawn ? drawn : undrawn)
-        .push_back(fmt::format("{} {} {}", first, last == first + 1 ? "and" : "to", last));
-  }
-  std::string text;
-  const auto tell = [&text](const std::vector<std::string>& groups, std::string_view why) {
-    if (groups.empty()) return;
-    text += fmt::format("{}Ranks {} are tied: {}; of tied paths the faster stands first.",
-                        text.empty() ? "" : " ", fmt::join(groups, ", and "), why);
-  };
-  tell(drawn, "over the draws of the soils they differ by less than chance does");
-  tell(undrawn,
-       "no draws of the soils were made of them, and their margins at the mean are the same");
-  return text;
+  return tie_sentence(tied_ranks(ranked), [&](int rank) {
+    const auto& spread = ranked.at(static_cast<std::size_t>(rank) - 1).spread;
+    return spread && spread->draws > 0;
+  });
 }
 
 std::string plan_report(const PlanningProblem& problem, const PlanResult& result) {

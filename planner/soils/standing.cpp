@@ -49,6 +49,17 @@ std::vector<std::vector<std::size_t>> rank_groups(const std::vector<Standing>& s
   return groups;
 }
 
+std::vector<std::pair<int, int>> tied_ranks(const std::vector<Standing>& standings) {
+  std::vector<std::pair<int, int>> tied;
+  int last = 0;
+  for (const std::vector<std::size_t>& group : rank_groups(standings)) {
+    const int first = last + 1;
+    last += static_cast<int>(group.size());
+    if (first < last) tied.emplace_back(first, last);
+  }
+  return tied;
+}
+
 std::vector<std::size_t> rank_order(const std::vector<Standing>& standings) {
   std::vector<std::size_t> order;
   for (const std::vector<std::size_t>& group : rank_groups(standings)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "planner/runtime/draw_statistics.h"
@@ -37,6 +38,9 @@ bool leads(const Standing& a, const Standing& b);
 /// ranks first, then the shorter; where limits break in draws, those off doubtful soils before
 /// them.
 std::vector<std::vector<std::size_t>> rank_groups(const std::vector<Standing>& standings);
+
+/// Ranks that are tied: first and last of each group of two and more, counted from 1.
+std::vector<std::pair<int, int>> tied_ranks(const std::vector<Standing>& standings);
 
 /// The same without the groups.
 std::vector<std::size_t> rank_order(const std::vector<Standing>& standings);

@@ -99,14 +99,7 @@ void rank(std::vector<VerifiedPath>& paths) {
 std::vector<std::pair<int, int>> tied_ranks(const std::vector<Candidate>& ranked) {
   std::vector<Standing> standings;
   for (const Candidate& candidate : ranked) standings.push_back(standing_of(candidate));
-  std::vector<std::pair<int, int>> tied;
-  int last = 0;
-  for (const std::vector<std::size_t>& group : rank_groups(standings)) {
-    const int first = last + 1;
-    last += static_cast<int>(group.size());
-    if (first < last) tied.emplace_back(first, last);
-  }
-  return tied;
+  return tied_ranks(standings);
 }
 
 bool probable_enough(const Candidate& candidate, const Limits& limits) {

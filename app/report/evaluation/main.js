@@ -15,7 +15,7 @@ spreads(byId('spreads'));
 courses(document.querySelectorAll('.course'));
 candidateTable(byId('candidates'));
 byId('candidates').querySelector('p').textContent =
-    'Feasible paths first, by the margin that 95 % of the soil draws keep. The deviation is that of the driven path from the given one. \u25c6 marks what no other feasible path beats in smallest margin, duration and energy at once.';
+    'Feasible paths first, by the margin that 95 % of the soil draws keep, or by the share of draws that hold where that breaks limits; what lies within its own sampling error of a better path is tied with it, and the faster stands first. The deviation is that of the driven path from the given one. \u25c6 marks what no other feasible path beats in smallest margin, duration and energy at once.';
 readout(byId('readout'), byId('position'));
 playback(byId('playback'));
 vehicleFigure(byId('vehicle'));
