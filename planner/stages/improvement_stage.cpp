@@ -10,7 +10,10 @@ namespace regoplan {
 
 std::vector<VerifiedPath> improved_choice(const PlanUnderway& plan,
                                           std::vector<VerifiedPath> paths) {
-  std::vector<VerifiedPath> chosen = different_paths(paths, plan.problem.search.candidates);
+  const auto different = [&problem = plan.problem](std::vector<VerifiedPath> of) {
+    return different_paths(std::move(of), problem.vehicle, problem.search.candidates);
+  };
+  std::vector<VerifiedPath> chosen = different(paths);
   if (!plan.problem.search.improve) return chosen;
   std::vector<std::optional<VerifiedPath>> better(chosen.size());
   std::size_t next = 0;
@@ -41,7 +44,7 @@ std::vector<VerifiedPath> improved_choice(const PlanUnderway& plan,
     if (path) all.push_back(std::move(*path));
   }
   std::move(paths.begin(), paths.end(), std::back_inserter(all));
-  return different_paths(std::move(all), plan.problem.search.candidates);
+  return different(std::move(all));
 }
 
 }  // namespace regoplan

@@ -24,10 +24,11 @@ double stray_m(const Candidate& path, const Candidate& other) {
   return farthest;
 }
 
-bool differ(const Candidate& path, const Candidate& other) {
-  constexpr double kLeast_m = 2, kShareOfWay = 0.04;
+bool differ(const Candidate& path, const Candidate& other, const Vehicle& vehicle) {
+  constexpr double kMost_m = 2, kShareOfWay = 0.04;
+  const double least_m = std::min(kMost_m, vehicle.body.y_max_m - vehicle.body.y_min_m);
   const double apart = std::max(stray_m(path, other), stray_m(other, path));
-  return apart >= std::max(kLeast_m, kShareOfWay * other.length_m);
+  return apart >= std::max(least_m, kShareOfWay * other.length_m);
 }
 
 /// Puts the one with the largest margin first, then the fastest, then the rest by margin.
@@ -73,12 +74,13 @@ Standing standing_of(const Candidate& candidate) {
 
 }  // namespace
 
-std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, int most) {
+std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, const Vehicle& vehicle,
+                                          int most) {
   std::vector<VerifiedPath> chosen;
   for (VerifiedPath& path : in_order_of_choice(std::move(paths))) {
     if (static_cast<int>(chosen.size()) == most) break;
     const auto differs = [&](const VerifiedPath& other) {
-      return differ(path.candidate, other.candidate);
+      return differ(path.candidate, other.candidate, vehicle);
     };
     if (std::all_of(chosen.begin(), chosen.end(), differs)) chosen.push_back(std::move(path));
   }

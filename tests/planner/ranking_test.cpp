@@ -116,7 +116,7 @@ TEST(DifferentPaths, KeepTheWidestThenTheFastestAndNoneTwice) {
   const std::vector<VerifiedPath> chosen = different_paths(
       {path("slow", 0.25, 90, 10), path("fast", 0.08, 50, 20), path("twin", 0.29, 60, 0.5),
        path("widest", 0.30, 80, 0), path("fourth", 0.20, 70, 30)},
-      3);
+      preset_vehicle("lrv"), 3);
   std::string names;
   for (const VerifiedPath& one : chosen) names += one.candidate.planner + " ";
   EXPECT_EQ(names, "widest fast slow ");
@@ -126,7 +126,7 @@ TEST(DifferentPaths, WhereSoilsAreDoubtfulTwoOfThoseSearchedOffThemComeFirst) {
   const std::vector<VerifiedPath> chosen = different_paths(
       {path("fast", 0.08, 50, 10), path("widest", 0.30, 80, 20), off(path("w-slow", 0.05, 99, 30)),
        off(path("w-fast", 0.04, 90, 40)), off(path("w-wide", 0.06, 95, 50))},
-      4);
+      preset_vehicle("lrv"), 4);
   std::string names;
   for (const VerifiedPath& one : chosen) names += one.candidate.planner + " ";
   EXPECT_EQ(names, "w-wide w-fast widest fast ");
@@ -138,7 +138,21 @@ TEST(DifferentPaths, APathThatMakesADetourDiffersFromTheOneThatItOtherwiseFollow
   detour.candidate.points.insert(detour.candidate.points.begin() + 2, {.x_m = 15, .y_m = 10});
   for (const auto& paths : {std::vector{path("straight", 0.3, 50), detour},
                             std::vector{detour, path("straight", 0.1, 50)}}) {
-    EXPECT_EQ(different_paths(paths, 2).size(), 2);
+    EXPECT_EQ(different_paths(paths, preset_vehicle("lrv"), 2).size(), 2);
+  }
+}
+
+TEST(DifferentPaths, DifferByTheWidthOfASmallVehicle) {
+  const auto count = [](const char* vehicle, double apart_m) {
+    std::vector<VerifiedPath> paths{path("widest", 0.3, 112), path("fastest", 0.1, 75, apart_m)};
+    for (VerifiedPath& path : paths) path.candidate.length_m = 4;
+    return different_paths(paths, preset_vehicle(vehicle), 5).size();
+  };
+  EXPECT_EQ(count("tohoku", 0.6), 2);
+  EXPECT_EQ(count("tohoku", 0.4), 1);
+  for (const char* large : {"lrv", "curiosity"}) {
+    EXPECT_EQ(count(large, 1.9), 1) << large;
+    EXPECT_EQ(count(large, 2.1), 2) << large;
   }
 }
 
