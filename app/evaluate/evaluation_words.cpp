@@ -22,10 +22,13 @@ std::string short_name(const EvaluatedPath& path) {
 }
 
 std::string limited_by(const PathEvaluation& evaluation) {
-  if (evaluation.spread || !evaluation.refusal) {
+  const auto& refusal = evaluation.refusal;
+  const bool too_deep = refusal && refusal->reason == Rejection::kSinkage &&
+                        evaluation.margin_min <= MarginSpread::kBroken;
+  if (!refusal || (evaluation.spread && !too_deep)) {
     return as_words(name(evaluation.limiting.margin));
   }
-  return as_words(name(evaluation.refusal->reason));
+  return as_words(name(refusal->reason));
 }
 
 std::string margin_text(const PathEvaluation& evaluation, double margin) {

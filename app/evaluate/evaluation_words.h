@@ -14,7 +14,8 @@ std::string as_words(std::string_view file_name);
 /// A path's file without its folder; a manoeuvre as it is called.
 std::string short_name(const EvaluatedPath& path);
 
-/// The margin that is smallest, or where the path has none: what refuses it.
+/// The margin that is smallest, or where the path has none, or sinks too deep for one: what refuses
+/// it.
 std::string limited_by(const PathEvaluation& evaluation);
 
 /// With three decimals; a dash where the path has no margins.

@@ -126,6 +126,12 @@ bool hangs_on_soil(Rejection reason) {
   return is_margin(reason) || reason == Rejection::kSinkage;
 }
 
+/// Whether the commanded path is refused where no steady trim has the forward force.
+bool is_short_of_drive(const std::optional<Refusal>& refusal) {
+  return refusal && refusal->reason == Rejection::kTraction && !refusal->exceeded &&
+         !refusal->while_tracking;
+}
+
 /// Why the vehicle cannot stop where it has arrived.
 std::optional<RejectedState> refused_stop(const World& world, const TrackingRun& run) {
   if (run.end != TrackingEnd::kArrived) return std::nullopt;
@@ -331,6 +337,10 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   evaluation.margin_worst_tenth = margin_of_worst_tenth(without_gaps);
   evaluation.limiting = limiting_place(evaluation.points);
   const std::size_t worst = smallest_margin_index(evaluation.points);
+  // Without a trim the margins are told apart by what it is wanting for.
+  if (is_short_of_drive(evaluation.refusal) && evaluation.refusal->s_m == evaluation.s_m[worst]) {
+    evaluation.limiting.margin = MarginKind::kTraction;
+  }
   if (evaluation.limiting.margin == MarginKind::kCornering) {
     evaluation.cornering_limit = cornering_limit(verdict, stations[worst].state);
   }

@@ -125,6 +125,15 @@ TEST(Evaluation, AVehicleThatSinksTooDeepIsToldSoAndOtherSoilsMayBearIt) {
   EXPECT_TRUE(e.spread);
 }
 
+TEST(Evaluation, MotorsTooWeakToRollAreAWantOfTraction) {
+  PlanningProblem problem = flat_problem();
+  problem.vehicle.torque_max_nm = 0.5;
+  const PathEvaluation e = evaluated(problem, reference({{10, 25}, {30, 25}}, 1));
+  ASSERT_FALSE(e.feasible);
+  EXPECT_EQ(e.refusal->reason, Rejection::kTraction);
+  EXPECT_EQ(e.limiting.margin, MarginKind::kTraction);
+}
+
 TEST(Evaluation, ARockOnThePathIsAnObstacle) {
   PlanningProblem problem = lrv_problem(one_soil_map(
       60, firm_regolith(), flat, {{.x_m = 30, .y_m = 25, .radius_m = 1, .height_m = 1}}));
