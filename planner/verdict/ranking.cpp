@@ -82,7 +82,13 @@ std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, const
     const auto differs = [&](const VerifiedPath& other) {
       return differ(path.candidate, other.candidate, vehicle);
     };
-    if (std::all_of(chosen.begin(), chosen.end(), differs)) chosen.push_back(std::move(path));
+    const auto faster = [&](const VerifiedPath& other) {
+      constexpr double kClearly = 0.9;
+      return path.candidate.duration_s < kClearly * other.candidate.duration_s;
+    };
+    if (std::ranges::all_of(chosen, differs) || std::ranges::all_of(chosen, faster)) {
+      chosen.push_back(std::move(path));
+    }
   }
   return chosen;
 }

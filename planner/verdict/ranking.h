@@ -8,10 +8,10 @@
 namespace regoplan {
 
 /// Of paths that passed, at most so many that really differ: each strays from every other by at
-/// least the vehicle's width (of a wide one 2 m) and 4 % of the way somewhere. The one with the
-/// largest margin comes first, then the fastest, then the others from the largest margin down.
-/// Where some were searched off doubtful soils, the first two of these come before all: what the
-/// others cross is doubtful.
+/// least the vehicle's width (of a wide one 2 m) and 4 % of the way somewhere, or is faster than
+/// all before it by more than a tenth. The one with the largest margin comes first, then the
+/// fastest, then the others from the largest margin down. Where some were searched off doubtful
+/// soils, the first two of these come before all: what the others cross is doubtful.
 std::vector<VerifiedPath> different_paths(std::vector<VerifiedPath> paths, const Vehicle& vehicle,
                                           int most);
 

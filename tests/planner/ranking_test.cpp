@@ -144,7 +144,7 @@ TEST(DifferentPaths, APathThatMakesADetourDiffersFromTheOneThatItOtherwiseFollow
 
 TEST(DifferentPaths, DifferByTheWidthOfASmallVehicle) {
   const auto count = [](const char* vehicle, double apart_m) {
-    std::vector<VerifiedPath> paths{path("widest", 0.3, 112), path("fastest", 0.1, 75, apart_m)};
+    std::vector<VerifiedPath> paths{path("widest", 0.3, 80), path("fastest", 0.1, 75, apart_m)};
     for (VerifiedPath& path : paths) path.candidate.length_m = 4;
     return different_paths(paths, preset_vehicle(vehicle), 5).size();
   };
@@ -154,6 +154,16 @@ TEST(DifferentPaths, DifferByTheWidthOfASmallVehicle) {
     EXPECT_EQ(count(large, 1.9), 1) << large;
     EXPECT_EQ(count(large, 2.1), 2) << large;
   }
+}
+
+TEST(DifferentPaths, TheFastestStaysBesideTheWidestOfTheSameWayWhereItIsClearlyFaster) {
+  const auto count = [](double duration_s) {
+    return different_paths({path("widest", 0.43, 100), path("fastest", 0.42, duration_s, 0.1)},
+                           preset_vehicle("lrv"), 5)
+        .size();
+  };
+  EXPECT_EQ(count(95), 1);
+  EXPECT_EQ(count(75), 2);
 }
 
 TEST(Doubt, GoesByTheShareOfDrawsAgainstWhatIsCountedOn) {
