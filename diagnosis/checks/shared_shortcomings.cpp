@@ -94,7 +94,8 @@ std::vector<TestBed> beds_by_wheel(const std::vector<CondensedRecording>& refere
 
 /// The soil that fits all references together: each wheel in turn tells the next what it knows. On
 /// the way back to the prior means, as uncertain as these, where the test has no forces on it.
-UncertainSoil calibrated_on(const TestBed& test, const std::vector<CondensedRecording>& references) {
+UncertainSoil calibrated_on(const TestBed& test,
+                            const std::vector<CondensedRecording>& references) {
   UncertainSoil soil = references.front().bed.setup.soil;
   for (TestBed& bed : beds_by_wheel(references)) {
     const std::vector<SoilCoordinate> coordinates = soil_coordinates(soil);
@@ -120,8 +121,8 @@ UncertainSoil calibrated_on(const TestBed& test, const std::vector<CondensedReco
         });
     if (!everywhere) continue;
     const bool is_fitted = share == 1;
-    return {.mean = between, .standard_deviation = is_fitted ? soil.standard_deviation
-                                                             : tested.standard_deviation};
+    return {.mean = between,
+            .standard_deviation = is_fitted ? soil.standard_deviation : tested.standard_deviation};
   }
   return tested;
 }

@@ -29,8 +29,9 @@ struct MeasuredTest {
 
 /// The test recording less what the base model lacks on the reference too: the mean of a Gaussian
 /// process through the reference's residuals is taken off each channel, its covariance joins the
-/// noise. Soil numbers are fixed there: a difference has none of its own. When a run was made is no place that two recordings have in common; what replicates
-/// follow in the course of one counts as noise along it. What the two recordings differ in is left.
+/// noise. Soil numbers are fixed there: a difference has none of its own. When a run was made is no
+/// place that two recordings have in common; what replicates follow in the course of one counts as
+/// noise along it. What the two recordings differ in is left.
 struct DifferenceBed {
   SharedBase base = SharedBase::kPriorMeans;
   CondensedRecording test;  ///< of its bed, means and noise as said above
