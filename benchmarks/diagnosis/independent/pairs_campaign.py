@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Draws pairs of a reference and a test, diagnoses the test against the reference, and counts.
 
-    pairs_campaign.py PROGRAM FOLDER FIRST LAST [--kinds same,grousers] [--jobs 2]
+    pairs_campaign.py PROGRAM FOLDER FIRST LAST [--kinds same,grousers] [--false-lugs] [--jobs 2]
 
 Seeds FIRST to LAST of each kind. The program is given none of the truths. Pairs and results that
-are there already are kept, so that a campaign goes on where it was killed.
+are there already are kept, so that a campaign goes on where it was killed. With --false-lugs every
+test of another kind than `grousers` tells of lugs that it has not, and its reference of none.
 """
 import argparse
 import collections
 import concurrent.futures
+import csv
 import json
 import pathlib
 
@@ -16,13 +18,31 @@ from campaign import diagnosis_of, wilson
 from pairs import EFFECTS, FEW_REPLICATES, KINDS, write_pair
 
 COLUMNS = ("right", "wrong", "silent", "too weak", "too weak, wrong")
+FALSE_LUG_HEIGHT_M, FALSE_LUGS = 0.01, 12
 
 
-def draw(folder, kind, seed):
+def tell_lugs(path, lug_height_m, lug_count):
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for row in rows:
+        row.update(lug_height_m=lug_height_m, lug_count=lug_count)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def draw(folder, false_lugs, kind, seed):
     """A name, or None where no pair could be drawn."""
     name = f"{kind}-{seed}"
-    made = (folder / name / "truth.json").exists() or write_pair(folder / name, seed, kind)
-    return name if made else None
+    if (folder / name / "truth.json").exists():
+        return name
+    if not write_pair(folder / name, seed, kind):
+        return None
+    if false_lugs and kind != "grousers":
+        tell_lugs(folder / name / "test.csv", FALSE_LUG_HEIGHT_M, FALSE_LUGS)
+        tell_lugs(folder / name / "reference.csv", 0, 0)
+    return name
 
 
 def diagnose(arguments, name):
@@ -97,6 +117,8 @@ def main():
     parser.add_argument("last", type=int)
     parser.add_argument("--kinds", type=lambda text: text.split(","), default=list(KINDS))
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--false-lugs", action="store_true",
+                        help="let tests tell of lugs that they have not")
     parser.add_argument("--silent", action="store_true", help="tell of the silent ones as well")
     arguments = parser.parse_args()
     if unknown := set(arguments.kinds) - set(KINDS):
@@ -106,7 +128,8 @@ def main():
     cases = [(kind, seed) for seed in range(arguments.first, arguments.last + 1)
              for kind in arguments.kinds]
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
-        drawn = list(pool.map(draw, [arguments.folder] * len(cases), *zip(*cases)))
+        drawn = list(pool.map(draw, [arguments.folder] * len(cases),
+                              [arguments.false_lugs] * len(cases), *zip(*cases)))
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
         results = dict(pool.map(lambda name: diagnose(arguments, name), filter(None, drawn)))
 
