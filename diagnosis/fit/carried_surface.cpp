@@ -19,7 +19,7 @@ CarriedAt CarriedAt::of(const TestBed& bed) {
   }
   CarriedAt carried;
   const auto most =
-      std::ranges::max_element(passes, {}, [](const auto& pass) { return pass.second; });
+      std::ranges::max_element(passes, {}, [](const auto& one) { return one.second; });
   carried.pass = most->first;
   if (speeds.size() == bed.conditions.size()) {
     const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
