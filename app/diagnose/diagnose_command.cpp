@@ -74,25 +74,17 @@ std::vector<std::string> checked(RecordingFile& file, const DiagnosisSetup& of_f
   return told;
 }
 
-/// Whether a test's own columns tell of lugs and a reference's of none: it is taken to be smooth.
-/// Lugs of the setup alone may be meant for both.
-bool tells_lugs_that(const RecordedWheel& test, const RecordedWheel& reference_lacks) {
-  return test.lug_height_m.has_value() && !reference_lacks.lug_height_m.has_value();
-}
-
 /// `diagnose` knows runs, not files: its errors get the file in front.
 Diagnosis diagnose_file(const DiagnosisRun& run, const DiagnosisOptions& options) {
   try {
-    const DiagnosisSetup setup = setup_with(run.setup.setup, run.recording.wheel);
+    const DiagnosisSetup setup = run.own_setup();
     if (run.references.empty()) return diagnose(run.recording.recording, setup, options);
     DiagnosisSetup without_lugs = run.setup.setup;
     without_lugs.lug_height_m.reset();
     without_lugs.lug_count.reset();
     std::vector<Reference> references;
     for (const RecordingFile& file : run.references) {
-      DiagnosisSetup of_reference = setup_with(without_lugs, file.wheel);
-      if (tells_lugs_that(run.recording.wheel, file.wheel)) of_reference.lug_height_m = 0;
-      references.push_back({file.file, file.recording, std::move(of_reference)});
+      references.push_back({file.file, file.recording, setup_with(without_lugs, file.wheel)});
     }
     return diagnose_difference(run.recording.recording, setup, references, options);
   } catch (const InputError& bad) {
@@ -153,7 +145,10 @@ ExitStatus run_diagnosis(const Options& options) {
     }
     notify_of_left_out(run.references.back().left_out, options.quiet);
     notify_of_unused(run.references.back(), options.quiet);
-    if (tells_lugs_that(run.recording.wheel, run.references.back().wheel)) {
+    // Lugs of the setup alone may be meant for both; those of the recording's own columns are not.
+    RecordedWheel& wheel = run.references.back().wheel;
+    if (run.recording.wheel.lug_height_m && !wheel.lug_height_m) {
+      wheel.lug_height_m = 0;
       recording.warnings.push_back(fmt::format(
           "{}: no lug_height_m: taken to be smooth, as the recording tells of lugs", reference));
     }

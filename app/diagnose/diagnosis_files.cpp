@@ -236,7 +236,7 @@ std::string left_out_text(const std::vector<Claim>& claims, const WheelModelSpec
 
 std::string corrected_model_text(const DiagnosisRun& run) {
   const Diagnosis& diagnosis = run.diagnosis;
-  const DiagnosisSetup setup = setup_with(run.setup.setup, run.recording.wheel);
+  const DiagnosisSetup setup = run.own_setup();
   ModelSettings settings{.spec = diagnosis.corrected_model,
                          .soil = diagnosis.corrected_soil,
                          .soil_name = run.setup.soil_name};

@@ -19,6 +19,9 @@ struct DiagnosisRun {
   std::uint64_t seed = 1;
   Diagnosis diagnosis;
   std::vector<RecordingFile> references = {};  ///< what the recording is compared with
+
+  /// That of the recording, its wheel as the recording itself tells it.
+  DiagnosisSetup own_setup() const { return setup_with(setup.setup, recording.wheel); }
 };
 
 /// What diagnosis.json holds; numbers that are not finite become null. Same input, same text.

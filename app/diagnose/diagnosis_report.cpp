@@ -114,7 +114,7 @@ json report_data(const DiagnosisRun& run) {
   data["run_differences"] = differences_json(run.diagnosis);
   data["forms"] = forms_json(run.diagnosis);
   data["formulas"] = formulas_json();
-  const DiagnosisSetup setup = setup_with(run.setup.setup, run.recording.wheel);
+  const DiagnosisSetup setup = run.own_setup();
   data["base_model"] = {{"model", variant_name(setup.variant)},
                         {"radius_m", setup.wheel.radius_m},
                         {"width_m", setup.wheel.width_m},

@@ -11,7 +11,6 @@ than without it, at the setup's soil and wheel. Sizes are drawn there. Needs num
 import argparse
 import collections
 import concurrent.futures
-import csv
 import json
 import pathlib
 import sys
@@ -21,6 +20,7 @@ import yaml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "diagnosis" / "independent"))
 from campaign import diagnosis_of  # noqa: E402
+from csv_rows import read_rows, write_rows  # noqa: E402
 from pairs import (ACCEPTED, EFFECTS, WEAK_CHI_SQUARE, SmoothField, draw_effects,  # noqa: E402
                    draw_shared, draw_soil_change)
 from pairs_campaign import outcome, print_table  # noqa: E402
@@ -36,18 +36,6 @@ KINDS = ("same", "nameless", "grousers", "slip_sinkage", "soil_change", "flank_f
 # can be driven within the former.
 TRUSTED_SLIP = -.9, .95
 TRUSTED_ANGLE_DEG = 60
-
-
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def write(path, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, rows[0].keys())
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def means_of(setup):
@@ -128,7 +116,7 @@ def draw_change(chance, kind, setup, rows, test):
 def draw(arguments, kind, seed):
     """Writes a pair; its name, or None where 20 draws could not be driven."""
     chance = np.random.default_rng([seed, KINDS.index(kind)])
-    rows = read(arguments.recording)
+    rows = read_rows(arguments.recording)
     setup = yaml.safe_load(arguments.setup.read_text(encoding="utf-8"))
     first = set(chance.permutation(len(rows))[:len(rows) // 2].tolist())
     reference = [dict(row) for at, row in enumerate(rows) if at in first]
@@ -152,8 +140,8 @@ def draw(arguments, kind, seed):
     chi_square = float(sum(np.sum((change[c][judged] / noise[c]) ** 2) for c in measured))
     folder = arguments.folder / f"{kind}-{seed}"
     folder.mkdir(parents=True, exist_ok=True)
-    write(folder / "test.csv", test)
-    write(folder / "reference.csv", reference)
+    write_rows(folder / "test.csv", test)
+    write_rows(folder / "reference.csv", reference)
     (folder / "setup.yaml").write_text(arguments.setup.read_text(encoding="utf-8"),
                                        encoding="utf-8")
     truth = {"kind": kind, "accepted": ACCEPTED.get(kind, [kind] if kind in EFFECTS else []),

@@ -13,7 +13,6 @@ Needs numpy.
 """
 import argparse
 import concurrent.futures
-import csv
 import pathlib
 import sys
 
@@ -22,6 +21,7 @@ import numpy as np
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "diagnosis" / "independent"))
 from campaign import diagnosis_of  # noqa: E402
+from csv_rows import read_rows, write_rows  # noqa: E402
 
 CHANNELS = ("fx_n", "fy_n", "sinkage_m")
 DRUM_RADIUS_M = 0.09
@@ -29,18 +29,6 @@ SLIP_SCALE, ANGLE_SCALE_DEG = 0.3, 25.0
 NUGGET = 0.01  # of the smooth function's variance
 SLIPS, ANGLE_MAX_DEG = (-0.03, 0.98), 50.0
 LUGS = 15
-
-
-def read(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def write(path, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def means(rows):
@@ -59,8 +47,8 @@ class LugsOfTheDrum:
     """What lugs add to each channel: shares of the load, and of the radius."""
 
     def __init__(self):
-        smooth = means(read(HERE / "granular_bed" / "smooth.csv"))
-        lugged = means(read(HERE / "granular_bed" / "grousered.csv"))
+        smooth = means(read_rows(HERE / "granular_bed" / "smooth.csv"))
+        lugged = means(read_rows(HERE / "granular_bed" / "grousered.csv"))
         both = sorted(smooth.keys() & lugged.keys())
         self.at = np.array([self.place(slip, angle) for slip, angle, _ in both])
         added = np.array([(lugged[at] - smooth[at]) / (at[2], at[2], DRUM_RADIUS_M)
@@ -97,14 +85,15 @@ def with_lugs(row, lugs, radius_m, lug_height_m):
 
 
 def draw(arguments, lugs, seed):
-    rows = [row for row in read(arguments.recording) if is_driven_by_drums(row)]
+    rows = [row for row in read_rows(arguments.recording) if is_driven_by_drums(row)]
     order = np.random.default_rng(seed).permutation(len(rows))
     half = len(rows) // 2
     folder = arguments.folder / str(seed)
     folder.mkdir(parents=True, exist_ok=True)
-    write(folder / "test.csv", [with_lugs(rows[i], lugs, arguments.radius_m, arguments.lug_height_m)
-                                for i in sorted(order[:half])])
-    write(folder / "reference.csv", [rows[i] for i in sorted(order[half:])])
+    write_rows(folder / "test.csv",
+               [with_lugs(rows[i], lugs, arguments.radius_m, arguments.lug_height_m)
+                for i in sorted(order[:half])])
+    write_rows(folder / "reference.csv", [rows[i] for i in sorted(order[half:])])
     (folder / "setup.yaml").write_text(arguments.setup.read_text(encoding="utf-8"),
                                        encoding="utf-8")
     return folder

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -29,16 +30,24 @@ Recording restricted(Recording recording, const std::vector<Channel>& channels) 
   return recording;
 }
 
-std::vector<Channel> common_channels(const Recording& test,
-                                     const std::vector<Reference>& references) {
+std::vector<std::vector<Channel>> channels_of(const std::vector<Reference>& references) {
+  std::vector<std::vector<Channel>> channels;
+  for (const Reference& reference : references) channels.push_back(reference.recording.channels);
+  return channels;
+}
+
+bool all_have(const std::vector<std::vector<Channel>>& recordings, Channel channel) {
+  return std::ranges::all_of(recordings, [channel](const std::vector<Channel>& channels) {
+    return std::ranges::find(channels, channel) != channels.end();
+  });
+}
+
+/// \throws InputError where there is none
+std::vector<Channel> common_channels(const std::vector<Channel>& test,
+                                     const std::vector<std::vector<Channel>>& references) {
   std::vector<Channel> common;
-  for (const Channel channel : test.channels) {
-    const bool everywhere = std::ranges::all_of(references, [&](const Reference& reference) {
-      return std::ranges::find(reference.recording.channels, channel) !=
-             reference.recording.channels.end();
-    });
-    if (everywhere) common.push_back(channel);
-  }
+  std::ranges::copy_if(test, std::back_inserter(common),
+                       [&](Channel channel) { return all_have(references, channel); });
   if (common.empty()) throw InputError("test and reference have no measured channel in common");
   return common;
 }
@@ -271,10 +280,8 @@ std::string not_compared(const std::vector<Channel>& test,
                          const std::vector<std::vector<Channel>>& references) {
   std::string text;
   for (const Channel channel : test) {
-    const bool everywhere = std::ranges::all_of(references, [&](const auto& channels) {
-      return std::ranges::find(channels, channel) != channels.end();
-    });
-    if (!everywhere) text += fmt::format("{}{}", text.empty() ? "" : ", ", name(channel));
+    if (!all_have(references, channel))
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", name(channel));
   }
   return text.empty() ? text : "not compared, as a reference lacks it: " + text;
 }
@@ -282,7 +289,8 @@ std::string not_compared(const std::vector<Channel>& test,
 ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup,
                               const std::vector<Reference>& references,
                               const std::stop_token& stop) {
-  const std::vector<Channel> channels = common_channels(test, references);
+  const std::vector<std::vector<Channel>> of_references = channels_of(references);
+  const std::vector<Channel> channels = common_channels(test.channels, of_references);
   ComparedRecordings compared{.recording = restricted(test, channels)};
   const int foreign = leave_foreign_passes_out(references, compared.recording);
   std::vector<Compared> all;
@@ -297,10 +305,6 @@ ComparedRecordings read_alike(const Recording& test, const DiagnosisSetup& setup
   compared.notes = test.warnings;
   compared.notes.insert(compared.notes.end(), compared.test.notes.begin(),
                         compared.test.notes.end());
-  std::vector<std::vector<Channel>> of_references;
-  for (const Reference& reference : references) {
-    of_references.push_back(reference.recording.channels);
-  }
   const std::string apart = not_compared(test.channels, of_references);
   if (!apart.empty()) compared.notes.push_back(apart);
   if (foreign > 0) compared.notes.push_back(foreign_passes_note(foreign));

@@ -12,24 +12,26 @@
 namespace regoplan {
 namespace {
 
-/// What a fit predicts with what a model file carries of the discrepancy, as far as it proved
-/// itself.
-Eigen::VectorXd with_remainder(const CalibratedRecording& calibrated, const CandidateFit& fit,
-                               const std::vector<std::size_t>& settings, const HeldOut& proof) {
-  const TestBed& bed = calibrated.bed();
-  const Eigen::VectorXd left = calibrated.remainder_of(fit).residual;
-  const CarriedAt carried = CarriedAt::of(bed);
-  Eigen::VectorXd corrected = fit.prediction;
+/// What a fit predicts with an unnamed correction, as the model file has it.
+Eigen::VectorXd with_correction(const TestBed& bed, Eigen::VectorXd prediction,
+                                const GenericCorrection& correction) {
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-    if (discrepancy_settings()[settings[c]].amplitude == 0) continue;
     const ChannelData& data = bed.channels[c];
-    const Eigen::Index from = bed.offset(c), n = data.mean.size();
-    const CarriedSurface surface(bed, c, settings[c], calibrated.discrepancy(),
-                                 left.segment(from, n), carried);
-    corrected.segment(from, n) +=
-        proof.remainder_share[c] * surface.at(conditions_of(bed, data)).mean;
+    for (std::size_t i = 0; i < data.conditions.size(); ++i) {
+      const Condition& at = bed.conditions[data.conditions[i]];
+      const CorrectionValue added =
+          correction_at(correction, {.slip_ratio = at.slip_ratio,
+                                     .slip_angle_rad = std::abs(at.slip_angle_rad),
+                                     .load_n = at.load_n})
+              .value;
+      double& value = prediction[bed.offset(c) + static_cast<Eigen::Index>(i)];
+      if (data.channel == Channel::kFx) value += added.fx_n;
+      if (data.channel == Channel::kFy) value += at.slip_angle_rad > 0 ? added.fy_n : -added.fy_n;
+      if (data.channel == Channel::kTorque) value += added.torque_nm;
+      if (data.channel == Channel::kSinkage) value += added.sinkage_m;
+    }
   }
-  return corrected;
+  return prediction;
 }
 
 /// Faults of instruments are no part of a model of the wheel.
@@ -108,10 +110,10 @@ Correction handed_out(const CalibratedRecording& calibrated, const CandidateFit&
         unnamed_correction(calibrated.problem(), fit, settings, proof.remainder_share);
     // one that adds nothing would only make the rest of the world `outside_correction`
     if (!generic.nodes.empty()) {
+      corrected = with_correction(calibrated.bed(), std::move(corrected), generic);
       correction.model.generic = std::move(generic);
       correction.carried = words_of_carried(calibrated.bed());
     }
-    corrected = with_remainder(calibrated, fit, settings, proof);
     correction.remainder.residual = calibrated.bed().measured() - corrected;
   }
   correction.residuals = residuals_of(calibrated, proof, by_calibrated, corrected);

@@ -23,13 +23,15 @@ class Listener {
     EXPECT_EQ(bind(socket_, any, size), 0);
     EXPECT_EQ(listen(socket_, 16), 0);
     EXPECT_EQ(getsockname(socket_, any, &size), 0);
-    address_ = "http://127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+    port_ = ntohs(address.sin_port);
+    address_ = "http://127.0.0.1:" + std::to_string(port_);
   }
   ~Listener() { close(socket_); }
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
 
   const std::string& address() const { return address_; }
+  int port() const { return port_; }
 
   /// Whether anybody has called since this was asked last.
   bool was_called() const {
@@ -44,6 +46,7 @@ class Listener {
 
  private:
   int socket_;
+  int port_ = 0;
   std::string address_;
 };
 

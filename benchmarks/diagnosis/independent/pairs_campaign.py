@@ -10,11 +10,11 @@ test of another kind than `grousers` tells of lugs that it has not, and its refe
 import argparse
 import collections
 import concurrent.futures
-import csv
 import json
 import pathlib
 
 from campaign import diagnosis_of, wilson
+from csv_rows import read_rows, write_rows
 from pairs import EFFECTS, FEW_REPLICATES, KINDS, write_pair
 
 COLUMNS = ("right", "wrong", "silent", "too weak", "too weak, wrong")
@@ -22,14 +22,10 @@ FALSE_LUG_HEIGHT_M, FALSE_LUGS = 0.01, 12
 
 
 def tell_lugs(path, lug_height_m, lug_count):
-    with open(path, newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file))
+    rows = read_rows(path)
     for row in rows:
         row.update(lug_height_m=lug_height_m, lug_count=lug_count)
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(path, rows)
 
 
 def draw(folder, false_lugs, kind, seed):
