@@ -19,38 +19,78 @@ bool all_between(double low, double high, double spacing, Visit visit) {
   return true;
 }
 
-struct HeightRange {
-  double low = INFINITY, high = -INFINITY;
+/// Heights as a plane and what they stray from it.
+struct SlopingGround {
+  double east = 0, north = 0;                   ///< the plane's slopes
+  double low_m = INFINITY, high_m = -INFINITY;  ///< heights less the plane, which is 0 at the place
+
+  double steepness() const { return std::hypot(east, north); }
+  double middle_m() const { return (low_m + high_m) / 2; }
+  double stray_m() const { return (high_m - low_m) / 2; }
 };
 
-/// Of every raster cell that a height in the square can come from; nothing where one that lies on
-/// the map is unknown.
-std::optional<HeightRange> heights_around(const TerrainMap& map, double x_m, double y_m,
-                                          double half_m) {
+/// Raster cells that a height in a square can come from.
+struct Window {
+  int first_column = 0, last_column = 0, first_row = 0, last_row = 0;
+  bool at_edge = false;  ///< the square reaches past the outermost centres of cells
+};
+
+Window window_around(const GridFrame& frame, double x_m, double y_m, double half_m) {
+  const auto cell_before = [](double away_m, double cell_m) {
+    return static_cast<int>(std::floor(away_m / cell_m - 0.5));
+  };
+  const int west = cell_before(x_m - half_m - frame.west_m, frame.cell_width_m);
+  const int east = cell_before(x_m + half_m - frame.west_m, frame.cell_width_m) + 1;
+  const int north = cell_before(frame.north_m - y_m - half_m, frame.cell_height_m);
+  const int south = cell_before(frame.north_m - y_m + half_m, frame.cell_height_m) + 1;
+  const int last_column = frame.columns - 1, last_row = frame.rows - 1;
+  return {.first_column = std::clamp(west, 0, last_column),
+          .last_column = std::clamp(east, 0, last_column),
+          .first_row = std::clamp(north, 0, last_row),
+          .last_row = std::clamp(south, 0, last_row),
+          .at_edge = west < 0 || north < 0 || east > last_column || south > last_row};
+}
+
+/// Of every raster cell that a height in the square around a place can come from; nothing where one
+/// that lies on the map is unknown. Any plane is sound; this one follows the square's corners.
+/// Bilinear heights keep planes as they are; within half a cell of the map's edge they are held.
+std::optional<SlopingGround> ground_around(const TerrainMap& map, double x_m, double y_m,
+                                           double half_m) {
   const ElevationRaster& raster = map.elevation();
   const GridFrame& frame = raster.frame;
-  const auto column_of = [&](double x) {
-    return std::clamp(static_cast<int>(std::floor((x - frame.west_m) / frame.cell_width_m - 0.5)),
-                      0, frame.columns - 1);
+  const Window cells = window_around(frame, x_m, y_m, half_m);
+  const auto height = [&](int column, int row) {
+    return static_cast<double>(
+        raster.height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.columns) +
+                        static_cast<std::size_t>(column)]);
   };
-  const auto row_of = [&](double y) {
-    return std::clamp(static_cast<int>(std::floor((frame.north_m - y) / frame.cell_height_m - 0.5)),
-                      0, frame.rows - 1);
-  };
-  const int last_column = std::min(column_of(x_m + half_m) + 1, frame.columns - 1);
-  const int last_row = std::min(row_of(y_m - half_m) + 1, frame.rows - 1);
-  HeightRange range;
-  for (int row = row_of(y_m + half_m); row <= last_row; ++row) {
-    for (int column = column_of(x_m - half_m); column <= last_column; ++column) {
-      const double height =
-          raster.height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.columns) +
-                          static_cast<std::size_t>(column)];
-      if (std::isnan(height)) return std::nullopt;
-      range.low = std::min(range.low, height);
-      range.high = std::max(range.high, height);
+  SlopingGround ground;
+  const int columns = cells.last_column - cells.first_column;
+  const int rows = cells.last_row - cells.first_row;
+  const double nw = height(cells.first_column, cells.first_row);
+  const double ne = height(cells.last_column, cells.first_row);
+  const double sw = height(cells.first_column, cells.last_row);
+  const double se = height(cells.last_column, cells.last_row);
+  if (columns > 0) ground.east = (ne + se - nw - sw) / (2 * columns * frame.cell_width_m);
+  if (rows > 0) ground.north = (nw + ne - sw - se) / (2 * rows * frame.cell_height_m);
+  for (int row = cells.first_row; row <= cells.last_row; ++row) {
+    for (int column = cells.first_column; column <= cells.last_column; ++column) {
+      const double east_m = frame.west_m + (column + 0.5) * frame.cell_width_m - x_m;
+      const double north_m = frame.north_m - (row + 0.5) * frame.cell_height_m - y_m;
+      const double above = height(column, row) - ground.east * east_m - ground.north * north_m;
+      if (!std::isfinite(above)) return std::nullopt;
+      ground.low_m = std::min(ground.low_m, above);
+      ground.high_m = std::max(ground.high_m, above);
     }
   }
-  return range;
+  if (cells.at_edge) {
+    const double held_m = (std::abs(ground.east) * frame.cell_width_m +
+                           std::abs(ground.north) * frame.cell_height_m) /
+                          2;
+    ground.low_m -= held_m;
+    ground.high_m += held_m;
+  }
+  return ground;
 }
 
 }  // namespace
@@ -66,15 +106,23 @@ ClosedBoxes::ClosedBoxes(const PlanningProblem& problem)
     wheel_reach_m_ = std::max(wheel_reach_m_, std::hypot(wheel.x_m, wheel.y_m));
   }
   // The plane is the least-squares fit to the contacts. Each slope is a sum of heights with
-  // coefficients that sum to zero: heights within +-d turn it by d times their absolute sum at
-  // most.
+  // coefficients that sum to zero: heights that stray by +-d turn it by d times their absolute sum
+  // at most. Its height at a place of the body is such a sum too.
   const Eigen::Matrix3d gram = place.transpose() * place;
   const Eigen::Matrix<double, 3, Eigen::Dynamic> fit = gram.inverse() * place.transpose();
-  slope_per_deviation_1pm_ = std::hypot(fit.row(1).cwiseAbs().sum(), fit.row(2).cwiseAbs().sum());
+  slope_per_stray_1pm_ = std::hypot(fit.row(1).cwiseAbs().sum(), fit.row(2).cwiseAbs().sum());
   const BodyBox& body = vehicle.body;
   for (const double x : {body.x_min_m, body.x_max_m}) {
     for (const double y : {body.y_min_m, body.y_max_m}) {
       body_reach_m_ = std::max(body_reach_m_, std::hypot(x, y));
+    }
+  }
+  // An underside that leans reaches out of its outline by what it stands above the contacts.
+  const double out_m = body.clearance_m;
+  for (const double x : {body.x_min_m - out_m, body.x_max_m + out_m}) {
+    for (const double y : {body.y_min_m - out_m, body.y_max_m + out_m}) {
+      height_per_stray_ =
+          std::max(height_per_stray_, (Eigen::RowVector3d{1, x, y} * fit).cwiseAbs().sum());
     }
   }
 }
@@ -107,47 +155,10 @@ bool ClosedBoxes::wheel_off_ground(const PoseBox& box) const {
 }
 
 bool ClosedBoxes::too_steep(const PoseBox& box) const {
-  const ElevationRaster& raster = problem_.map.elevation();
-  const GridFrame& frame = raster.frame;
-  // Every raster cell that the height under a contact can come from.
-  const double reach_m = wheel_reach_m_ + std::numbers::sqrt2 * box.half_m;
-  const auto first_column =
-      static_cast<int>(std::floor((box.x_m - reach_m - frame.west_m) / frame.cell_width_m - 0.5));
-  const auto last_column =
-      static_cast<int>(std::ceil((box.x_m + reach_m - frame.west_m) / frame.cell_width_m - 0.5));
-  const auto first_row =
-      static_cast<int>(std::floor((frame.north_m - box.y_m - reach_m) / frame.cell_height_m - 0.5));
-  const auto last_row =
-      static_cast<int>(std::ceil((frame.north_m - box.y_m + reach_m) / frame.cell_height_m - 0.5));
-  // At the edge heights are held, not sloped: let it be open.
-  if (first_column < 0 || first_row < 0 || last_column >= frame.columns || last_row >= frame.rows) {
-    return false;
-  }
-  const auto height = [&](int column, int row) {
-    return static_cast<double>(
-        raster.height_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.columns) +
-                        static_cast<std::size_t>(column)]);
-  };
-  const double width = (last_column - first_column) * frame.cell_width_m;
-  const double depth = (last_row - first_row) * frame.cell_height_m;
-  const double nw = height(first_column, first_row), ne = height(last_column, first_row);
-  const double sw = height(first_column, last_row), se = height(last_column, last_row);
-  // Any plane is sound; this one follows the corners. Bilinear heights keep planes as they are.
-  const double east = (ne + se - nw - sw) / (2 * width);
-  const double north = (nw + ne - sw - se) / (2 * depth);
-  HeightRange deviation;
-  for (int row = first_row; row <= last_row; ++row) {
-    for (int column = first_column; column <= last_column; ++column) {
-      const double above = height(column, row) -
-                           east * (column - first_column) * frame.cell_width_m +
-                           north * (row - first_row) * frame.cell_height_m;
-      if (!std::isfinite(above)) return false;
-      deviation.low = std::min(deviation.low, above);
-      deviation.high = std::max(deviation.high, above);
-    }
-  }
-  const double turned = slope_per_deviation_1pm_ * (deviation.high - deviation.low) / 2;
-  return std::hypot(east, north) - turned > std::tan(steepest_held_rad(problem_.limits));
+  const auto ground = ground_around(problem_.map, box.x_m, box.y_m,
+                                    wheel_reach_m_ + std::numbers::sqrt2 * box.half_m);
+  return ground && ground->steepness() - slope_per_stray_1pm_ * ground->stray_m() >
+                       std::tan(steepest_held_rad(problem_.limits));
 }
 
 const ClosedBoxes::RockBound& ClosedBoxes::bound(const Rock& rock) const {
@@ -157,26 +168,33 @@ const ClosedBoxes::RockBound& ClosedBoxes::bound(const Rock& rock) const {
 }
 
 ClosedBoxes::RockBound ClosedBoxes::looked_at(const Rock& rock) const {
-  const double reach_m = rock.radius_m + body_reach_m_ + wheel_reach_m_;
-  const auto ground = heights_around(problem_.map, rock.x_m, rock.y_m, reach_m);
+  const auto ground = ground_around(problem_.map, rock.x_m, rock.y_m,
+                                    rock.radius_m + body_reach_m_ + wheel_reach_m_);
   const double base = problem_.map.height_m(rock.x_m, rock.y_m);
   if (!ground || std::isnan(base)) return {.asked = true};
-  // The body stands on the plane through its contacts, which lies nowhere below the body higher
-  // than the highest ground around by more than that ground's relief.
-  const BodyBox& body = problem_.vehicle.body;
-  const double relief = ground->high - ground->low;
-  const double underside = ground->high + 2 * relief + body.clearance_m;
-  const double top = ground->low - 2 * relief + body.clearance_m + body.height_m;
+  const double steepness = ground->steepness();
+  const double turned = slope_per_stray_1pm_ * ground->stray_m();
   // Steeper poses than the limit are forbidden whatever they cover.
+  const double tilt_rad =
+      std::min(steepest_held_rad(problem_.limits), std::atan(steepness + turned));
+  // Where the underside of a body over some of the rock can be, in the rock's disk.
+  const double clearance_m = problem_.vehicle.body.clearance_m;
+  const double around_m = steepness * rock.radius_m + height_per_stray_ * ground->stray_m();
+  const double highest = ground->middle_m() + around_m + clearance_m / std::cos(tilt_rad);
+  const double lowest = ground->middle_m() - around_m + clearance_m;
+  const double downhill_m = clearance_m / std::hypot(1, steepness);
   return {.asked = true,
-          .too_high = base + rock.height_m >= underside && base - rock.height_m <= top,
-          .tilt_rad = std::min(steepest_held_rad(problem_.limits),
-                               std::atan(slope_per_deviation_1pm_ * relief / 2))};
+          .too_high = base + rock.height_m >= highest && base - rock.height_m <= lowest,
+          .tilt_rad = tilt_rad,
+          .aside_x_m = -downhill_m * ground->east,
+          .aside_y_m = -downhill_m * ground->north,
+          .aside_within_m = clearance_m * std::min(turned, 2.0)};
 }
 
 bool ClosedBoxes::covers_rock(const PoseBox& box) const {
   const BodyBox& body = problem_.vehicle.body;
   const double moved_m = std::numbers::sqrt2 * box.half_m + body_reach_m_ * box.half_rad;
+  const double widest_m = std::max(-body.y_min_m, body.y_max_m);
   const double c = std::cos(box.heading_rad), s = std::sin(box.heading_rad);
   return problem_.map.any_rock(
       box.x_m - body_reach_m_, box.x_m + body_reach_m_, box.y_m - body_reach_m_,
@@ -184,13 +202,18 @@ bool ClosedBoxes::covers_rock(const PoseBox& box) const {
         const RockBound& known = bound(rock);
         if (!known.too_high) return false;
         // What of the underside's outline every pose of the box covers, seen from the middle pose.
-        // An underside that leans is seen shorter, and aside by what it stands above the contacts.
+        // An outline that leans is seen shorter, and its sides askew.
         const double lean = std::cos(known.tilt_rad);
-        const double shrink_m = moved_m + body.clearance_m * std::sin(known.tilt_rad);
-        const double x_min = body.x_min_m * lean + shrink_m, x_max = body.x_max_m * lean - shrink_m;
-        const double y_min = body.y_min_m * lean + shrink_m, y_max = body.y_max_m * lean - shrink_m;
+        const double within_m = moved_m + known.aside_within_m;
+        const double askew_m =
+            within_m + widest_m * std::tan(known.tilt_rad) * std::sin(known.tilt_rad) / 2;
+        const double x_min = std::max(body.x_min_m, body.x_min_m * lean) + askew_m;
+        const double x_max = std::min(body.x_max_m, body.x_max_m * lean) - askew_m;
+        const double y_min = std::max(body.y_min_m, body.y_min_m * lean) + within_m;
+        const double y_max = std::min(body.y_max_m, body.y_max_m * lean) - within_m;
         if (x_min > x_max || y_min > y_max) return false;
-        const double dx = rock.x_m - box.x_m, dy = rock.y_m - box.y_m;
+        const double dx = rock.x_m - box.x_m - known.aside_x_m;
+        const double dy = rock.y_m - box.y_m - known.aside_y_m;
         const double ahead = c * dx + s * dy, left = c * dy - s * dx;
         const double beyond_x = ahead - std::clamp(ahead, x_min, x_max);
         const double beyond_y = left - std::clamp(left, y_min, y_max);

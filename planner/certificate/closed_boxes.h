@@ -39,6 +39,9 @@ class ClosedBoxes {
     bool asked = false;
     bool too_high = false;  ///< the body passes over it nowhere
     double tilt_rad = 0;    ///< the vehicle leans by no more
+    /// Where the underside's outline is, seen from the contacts': the ground's slope moves it
+    /// downhill, what strays from that slope by no more than the last.
+    double aside_x_m = 0, aside_y_m = 0, aside_within_m = 0;
   };
 
   bool on_rock(const PoseBox& box) const;
@@ -52,9 +55,9 @@ class ClosedBoxes {
   const PlanningProblem& problem_;
   double wheel_reach_m_ = 0;  ///< farthest contact from the vehicle's origin
   double body_reach_m_ = 0;   ///< farthest corner of the body
-  /// How much a deviation of the ground by a metre at the contacts can turn their plane: bounds of
-  /// its slopes, |forward| and |left|.
-  double slope_per_deviation_1pm_ = 0;
+  /// How much ground that strays by +-1 m at the contacts can turn their plane, and raise or lower
+  /// it at a place of the body: bounds of its slope and height.
+  double slope_per_stray_1pm_ = 0, height_per_stray_ = 0;
   mutable std::vector<RockBound> bounds_;  ///< of each rock of the map
 };
 

@@ -44,6 +44,24 @@ TEST(RelaxedProblem, AClosedRingOfRocksIsCertifiedAndAGapThatTheVehicleFitsIsNot
   EXPECT_EQ(behind(wall_with_gap(2.3)), "");  // the vehicle is 2.06 m wide
 }
 
+TEST(RelaxedProblem, ARingOfRocksIsCertifiedOnSlopingGroundToo) {
+  for (const double slope_deg : {6.0, 12.0, 18.0}) {
+    for (const double uphill_deg : {0.0, 50.0, 200.0}) {
+      const double slope = std::tan(slope_deg * kTestDegree);
+      const double east = slope * std::cos(uphill_deg * kTestDegree);
+      const double north = slope * std::sin(uphill_deg * kTestDegree);
+      const auto tilted = [&](double x, double y) { return east * x + north * y; };
+      const auto with = [&](std::vector<Rock> rocks) {
+        return certificate(
+            lrv_problem(one_soil_map(50, firm_regolith(), tilted, std::move(rocks))));
+      };
+      EXPECT_NE(with(ring_of_rocks(40, 25, 7)).find("rocks"), std::string::npos)
+          << slope_deg << " deg, uphill to " << uphill_deg << " deg";
+      EXPECT_EQ(with(wall_with_gap(2.3)), "");
+    }
+  }
+}
+
 TEST(RelaxedProblem, RocksThatTheBodyPassesOverCloseNothing) {
   std::vector<Rock> low = wall_with_gap(0);
   for (Rock& rock : low) rock.height_m = 0.25;
@@ -94,15 +112,16 @@ TEST(ClosedBoxes, NoPoseOfAClosedBoxIsOneThatTheVerdictAllows) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> unit(-1, 1);
   int closed = 0;
-  for (int map = 0; map < 6; ++map) {
+  for (int map = 0; map < 12; ++map) {
     std::vector<Rock> rocks;
     for (int i = 0; i < 30; ++i) {
       rocks.push_back({25 + 22 * unit(random), 25 + 22 * unit(random), 0.7 + 0.5 * unit(random),
                        1.6 + unit(random)});
     }
-    const double relief = map;
-    const auto hills = [relief](double x, double y) {
-      return 0.5 * relief * std::sin(x / 4) * std::cos(y / 3);
+    const double relief = map % 3;
+    const double east = map < 3 ? 0 : 0.3 * unit(random), north = map < 3 ? 0 : 0.3 * unit(random);
+    const auto hills = [=](double x, double y) {
+      return 0.4 * relief * std::sin(x / 4) * std::cos(y / 3) + east * x + north * y;
     };
     // Start and goal play no part here.
     const PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), hills, rocks));
