@@ -14,14 +14,15 @@ using P = TruthPhysics;
 std::vector<TruthEffect> effects_on_sinkage() {
   return {
       {"slip_sinkage",
-       "power",
-       "Ding et al. 2014: h = h0 (1 + a s^p), p 1.3-2.1",
+       "saturating",
+       "h = h0 (1 + a (1 - exp(-s/s0))), s0 .15-.5: digging that tails off as the rut fills",
        .6,
        2.5,
        false,
        {},
        [](P p, double a, double u) {
-         p.sinkage_factor *= 1 + a * std::pow(driving(p), 1.3 + 0.8 * u);
+         const double s0 = 0.15 + 0.35 * u;
+         p.sinkage_factor *= 1 + a * (1 - std::exp(-driving(p) / s0));
          return p;
        }},
       {"slip_sinkage",

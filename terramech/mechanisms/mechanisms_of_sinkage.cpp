@@ -62,6 +62,15 @@ std::vector<Definition> of_sinkage() {
          return e;
        }},
       {{"slip_sinkage",
+        "power",
+        "h = h0 (1 + a s^p) (s > 0)",
+        "proxy; as lyasko, where digging sets in late or tails off",
+        {{"a", .3, 3, 1, 0, 100}, kExponent}},
+       [](E e, P p, S at) {
+         e.sinkage_factor *= 1 + p[0] * std::pow(driving(at), p[1]);
+         return e;
+       }},
+      {{"slip_sinkage",
         "dug_rut",
         "as lyasko, and Fx less eta b k (h^(n+1) - h0^(n+1))/(n+1), the work of compacting the rut",
         "Lyasko 2010, J. Terramechanics 47, 21-31; resistance: Bekker 1969",

@@ -77,6 +77,8 @@ const std::vector<Case> kBundles{
     {"slip_sinkage", "lyasko", -0.3, 10, 60, "0", "0", "0", "0"},
     {"slip_sinkage", "linear", 0.5, 0, 60, "-", "0", "+", "+"},
     {"slip_sinkage", "hyperbolic", 0.5, 0, 60, "-", "0", "?", "+"},
+    {"slip_sinkage", "power", 0.5, 0, 60, "-", "0", "?", "+"},
+    {"slip_sinkage", "power", -0.3, 10, 60, "0", "0", "0", "0"},
     {"slip_sinkage", "dug_rut", 0.5, 0, 60, "-", "0", "+", "+"},
     {"slip_sinkage", "dug_rut", -0.3, 10, 60, "0", "0", "0", "0"},
     {"lateral_digging", "sine", 0.2, 20, 60, "?", "+", "?", "+"},

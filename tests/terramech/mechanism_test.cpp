@@ -69,6 +69,7 @@ TEST(Mechanism, SlipSinkageDeepensTheRutAndCostsTorqueOnEverySoil) {
                                          {"slip_sinkage", "lyasko", {}},
                                          {"slip_sinkage", "linear", {{"c0_m", 0.15 * r}}},
                                          {"slip_sinkage", "hyperbolic", {{"hj_m", 0.04 * r}}},
+                                         {"slip_sinkage", "power", {}},
                                          {"slip_sinkage", "dug_rut", {}}};
       for (const Mechanism& form : forms) {
         const WheelForces dug =
