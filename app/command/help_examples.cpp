@@ -28,7 +28,6 @@ constexpr auto kExamples = std::to_array<HelpExamples>(
        "regoplan benchmark merge part-1 part-2 part-3 --out whole --quiet"}},
      {"diagnose",
       {"regoplan diagnose recording.csv --setup setup.yaml --out result",
-       "regoplan diagnose lugged.csv --reference smooth.csv --setup setup.yaml --out result",
        "regoplan diagnose driven/drive.csv --scenario scenario.yaml --out result"}},
      {"wheel",
       {"regoplan wheel conditions.csv --model model.yaml --out forces.csv",
