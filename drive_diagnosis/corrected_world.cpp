@@ -168,7 +168,7 @@ Vehicle corrected_vehicle(const Vehicle& vehicle, const VehicleEffects& effects)
     corrected.wheel.radius_m = effects.vehicle.wheel_radius_m->value;
   }
   for (const VehicleFinding& found : effects.found) {
-    if (found.id == "wheel_radius")
+    if (found.parameter == "radius_share")
       corrected.wheel.radius_m = vehicle.wheel.radius_m * (1 + found.size);
     if (found.id == "payload") corrected.mass_kg = vehicle.mass_kg * (1 + found.size);
     if (found.id != "cg_offset") continue;

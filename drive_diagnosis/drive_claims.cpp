@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive_diagnosis/comparison/soil_deviation.h"
 #include "terramech/basics/angles.h"
 
 namespace regoplan {
@@ -233,6 +234,59 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
     }
     result.claims.push_back(std::move(claim));
   }
+}
+
+void claim_soils(const DriveSetup& setup, DriveDiagnosis& result) {
+  // As of the soil of a single wheel: within it is no finding.
+  constexpr double kPulled = 4.5, kTold = 3;
+  for (const SoilFitted& fitted : result.effects->soils_fitted) {
+    const MapSoil& said = setup.map.soils()[fitted.soil];
+    const SoilNumbers pulls = deviations_between(said.soil, fitted.estimate.mean);
+    DriveClaim claim{
+        .id = "soil_change", .equivalent = {"soil_change"}, .channels = result.effects->channels};
+    std::vector<std::string> numbers;
+    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
+      const double pull = std::abs(pulls.at(k));
+      if (pull < kTold) continue;
+      const SoilParameter& number = soil_parameters().at(k);
+      const auto in_file = [&number](const Soil& of) {
+        return of.*number.member / number.file_unit;
+      };
+      const DriveEstimate estimate{in_file(fitted.estimate.mean),
+                                   in_file(fitted.estimate.standard_deviation)};
+      claim.parameters[fmt::format("{}.{}", said.name, number.name)] = estimate;
+      claim.sigmas = std::max(claim.sigmas, pull);
+      numbers.push_back(fmt::format(
+          "{} {:.3g} +- {:.2g} where the map says {:.3g} +- {:.2g}", number.name, estimate.value,
+          estimate.std, in_file(said.soil.mean), in_file(said.soil.standard_deviation)));
+    }
+    if (claim.sigmas < kPulled || !fitted.is_handed_back()) continue;
+    claim.text = fmt::format(
+        "{} is another soil than the map says wherever it was driven on: {} ({:.1f} standard "
+        "deviations of the map's); stretches held out are likelier with it by {:.0f} nats; wheel "
+        "physics that the model lacks may look so too",
+        said.name, fmt::join(numbers, ", "), claim.sigmas, fitted.held_out_nats);
+    result.claims.push_back(std::move(claim));
+  }
+}
+
+std::optional<DriveFinding> slopes_finding(const VehicleEffects& effects) {
+  // Rough ground and maps of coarse cells stay below.
+  constexpr double kFar_rad = 2 * kDegree;
+  const double along_rad = std::atan(effects.slope_errors[0]);
+  const double across_rad = std::atan(effects.slope_errors[1]);
+  const double most_rad = std::max(along_rad, across_rad);
+  if (most_rad < kFar_rad) return std::nullopt;
+  return DriveFinding{
+      .id = "map_slopes",
+      .drive = "",
+      .text =
+          fmt::format("the ground's slopes are {:.1f} deg off the map's along the way and {:.1f} "
+                      "deg across it, root mean square: the map is not of the ground that was "
+                      "driven, or positions lie off; it is handed back as it was",
+                      along_rad / kDegree, across_rad / kDegree),
+      .value = most_rad / kDegree,
+      .unit = "deg"};
 }
 
 namespace {

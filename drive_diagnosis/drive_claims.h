@@ -21,6 +21,14 @@ void claim_side_drag(DriveDiagnosis& result);
 void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                    DriveDiagnosis& result);
 
+/// Claims soils of the map of which a number lies more than 4.5 of the map's standard deviations
+/// off, where held-out stretches are likelier with it. \pre result.effects
+void claim_soils(const DriveSetup& setup, DriveDiagnosis& result);
+
+/// Says that slopes of the map are more than 2 deg off those of the ground; nothing where they are
+/// not.
+std::optional<DriveFinding> slopes_finding(const VehicleEffects& effects);
+
 /// Says that something stands out of a size that cannot be, as a drag of less than nothing.
 DriveFinding unnamed_finding(const VehicleFinding& unnamed);
 

@@ -15,7 +15,9 @@
 #include "drive_diagnosis/differing_drives.h"
 #include "drive_diagnosis/drive_claims.h"
 #include "drive_diagnosis/instruments/rim_sign.h"
+#include "drive_diagnosis/instruments/rim_unit.h"
 #include "drive_diagnosis/instruments/steering_sign.h"
+#include "drive_diagnosis/instruments/stuck_rims.h"
 #include "drive_diagnosis/instruments/torque_unit.h"
 #include "drive_diagnosis/instruments/track_unit.h"
 #include "drive_diagnosis/instruments/yaw_unit.h"
@@ -270,8 +272,8 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
 DriveVerdict verdict_of(const DriveDiagnosis& diagnosis) {
   if (diagnosis.claims.empty()) {
     const bool compared = diagnosis.effects || diagnosis.currents;
-    if (is_found(diagnosis, "drives_differ") || is_found(diagnosis, "no_name")) {
-      return DriveVerdict::kUndecided;
+    for (const std::string_view id : {"drives_differ", "no_name", "map_slopes"}) {
+      if (is_found(diagnosis, id)) return DriveVerdict::kUndecided;
     }
     return compared ? DriveVerdict::kConsistent : DriveVerdict::kUndecided;
   }
@@ -344,7 +346,12 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   leave_doubtful_torques_out(setup, drives, result);
   const SideGeometry sides = sides_of(setup.vehicle);
   tell_mended(mend_yaw_in_radians(drives, result.windows), setup, drives, result);
+  tell_mended(leave_stuck_rims_out(drives), setup, drives, result);
   tell_mended(mend_rim_signs(drives, result.windows, sides), setup, drives, result);
+  if (setup.vehicle) {
+    tell_mended(mend_rim_units(drives, result.windows, setup.vehicle->wheel.radius_m), setup,
+                drives, result);
+  }
   SensorChecks checks = check_sensors(drives, result.windows, sides);
   mend_yaw(checks, setup, drives, result.windows);
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
@@ -380,11 +387,14 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
     // A fault of some drives looks like a smaller one of all of them, or like a zone.
     if (differing.empty()) {
       claim_effects(setup, drives, result);
+      claim_soils(setup, result);
       if (result.effects->unnamed) {
         result.findings.push_back(unnamed_finding(*result.effects->unnamed));
       }
     }
     std::ranges::move(differing, std::back_inserter(result.findings));
+    if (auto slopes = slopes_finding(*result.effects))
+      result.findings.push_back(*std::move(slopes));
   }
   say_what_is_silent(setup, drives, result);
   result.verdict = verdict_of(result);

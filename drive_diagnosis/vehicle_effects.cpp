@@ -78,7 +78,8 @@ class EffectSearch {
       fit_.settle_with(strongest);
       found.push_back(std::move(strongest));
     }
-    judge_beside_each_other(found);
+    if (found.size() > 1) judge_beside_each_other(found);
+    withdraw_what_does_not_stand(found);
     std::size_t zone = 0;
     for (const EffectFound& effect : found) {
       VehicleFinding finding = told(effect);
@@ -90,10 +91,12 @@ class EffectSearch {
         const auto k = static_cast<Eigen::Index>(effect.parameter);
         finding.size = fit_.fit().parameters[k] * trials_[effect.parameter].unit;
         finding.std = fit_.fit().parameters_std[k] * trials_[effect.parameter].unit;
+        finding.sigmas = sigmas_settled(effect);
       }
       result.found.push_back(std::move(finding));
     }
     result.noise = fit_.noise();
+    result.slope_errors = fit_.slope_errors();
     const Eigen::MatrixXd corrected = fit_.predicted();
     result.rms_after = rms(comparison_.measured() - corrected);
     result.compared = compared(as_said, corrected);
@@ -192,10 +195,37 @@ class EffectSearch {
     return best == nullptr ? strongest : fit_.judged_anew(best->parameter, seed_);
   }
 
+  /// Of a fault beside all that was found with it, where the fit has settled: to first order about
+  /// a fit without it, it may have seemed surer.
+  double sigmas_settled(const EffectFound& effect) const {
+    const auto k = static_cast<Eigen::Index>(effect.parameter);
+    return std::min(effect.sigmas,
+                    std::abs(fit_.fit().parameters[k]) / fit_.fit().parameters_std[k]);
+  }
+
+  /// Faults that another took the place of, or that the ground's own numbers explain once the fit
+  /// has settled, are none: the weakest first, since what it leaves may make others stand.
+  void withdraw_what_does_not_stand(std::vector<EffectFound>& found) {
+    constexpr double kStands_sigmas = 3;
+    while (true) {
+      auto weakest = found.end();
+      for (auto effect = found.begin(); effect != found.end(); ++effect) {
+        if (effect->is_zone || sigmas_settled(*effect) > kStands_sigmas) continue;
+        if (weakest == found.end() || sigmas_settled(*effect) < sigmas_settled(*weakest)) {
+          weakest = effect;
+        }
+      }
+      if (weakest == found.end()) return;
+      fit_.withdraw(weakest->parameter);
+      found.erase(weakest);
+      fit_.settle_beside_zones();
+      judge_beside_each_other(found);
+    }
+  }
+
   /// What else a fault may be was judged as it was found; what was found later stands beside it
   /// now, and may have been what another number seemed to explain.
   void judge_beside_each_other(std::vector<EffectFound>& found) const {
-    if (found.size() < 2) return;
     for (EffectFound& effect : found) {
       if (effect.is_zone) continue;
       EffectFound anew = fit_.judged_anew(effect.parameter, seed_);

@@ -32,6 +32,8 @@ double share_or(const std::optional<DriveEstimate>& number, double sound) {
 }
 
 constexpr double kSoundSteer_deg = 0.1, kSoundMotor = 0.01;
+/// Of all wheels, and of one of them beside the others.
+constexpr double kSoundRadius = 0.003, kSoundRadiusOfOne = 0.001;
 
 /// What grows with a vehicle: bearings and gears with what they carry, where parts sit with its
 /// length. Shares are told by a lunar rover of 700 kg: 0.2 N m on wheels of 0.409 m, 3 N, and 1.5
@@ -58,6 +60,8 @@ void add_wheels(const Vehicle& vehicle, double drag_nm, Trials& trials) {
                [i](VehicleDeviation& d, double size) { d.wheel_drag_nm.at(i) = size; });
     trials.add("motor_constant", "torque_" + mount.name + "_share", kSoundMotor,
                [i](VehicleDeviation& d, double size) { d.motor_share.at(i) = size; });
+    trials.add("wheel_radius", "radius_" + mount.name + "_share", kSoundRadiusOfOne,
+               [i](VehicleDeviation& d, double size) { d.wheel_radius_share.at(i) = size; });
     // Where no wheel is steered, one that is mounted askew looks like a drag of its side; beside
     // steered wheels none is sought, which `say_what_is_silent` tells.
     if (!mount.steered && vehicle.steering != Steering::kSkid) continue;
@@ -102,7 +106,7 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_
   add_pairs(vehicle, sound.drag_nm, trials);
   trials.add("motor_constant", "torque_share", share_or(uncertain.motor_constant, kSoundMotor),
              [](VehicleDeviation& d, double size) { d.motor_share.fill(size); });
-  trials.add("wheel_radius", "radius_share", share_or(uncertain.wheel_radius_m, 0.003),
+  trials.add("wheel_radius", "radius_share", share_or(uncertain.wheel_radius_m, kSoundRadius),
              &VehicleDeviation::radius_share);
   trials.add("payload", "mass_share", share_or(uncertain.mass_kg, 0.015),
              &VehicleDeviation::payload_share);

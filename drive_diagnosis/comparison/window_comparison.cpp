@@ -174,7 +174,7 @@ bool WindowComparison::consecutive(std::size_t i) const {
 
 void WindowComparison::shift(WindowInput& input, std::size_t window, std::size_t which,
                              double deviations) const {
-  constexpr double kLeast_mps2 = 0.002, kLeast_rps2 = 0.002, kSlope = 0.005;
+  constexpr double kLeast_mps2 = 0.002, kLeast_rps2 = 0.002;
   const std::size_t wheels = vehicle_.wheels.size();
   const WindowInput& measured = inputs_[window];
   for (WindowInput::Place& place : input.places) {

@@ -94,6 +94,7 @@ class WindowComparison {
   /// The input that is the ground's slope along; the next is that across. Nobody says how far a
   /// map's slopes err.
   std::size_t slope_along() const { return vehicle_.wheels.size() + 2; }
+  static constexpr double kSlope = 0.005;  ///< that those are shifted by
 
   /// By window and channel.
   const Eigen::MatrixXd& measured() const { return measured_; }

@@ -269,6 +269,7 @@ void VehicleDeviation::add(const VehicleDeviation& other, double times) {
     wheel_drag_nm.at(i) += times * other.wheel_drag_nm.at(i);
     steering_offset_rad.at(i) += times * other.steering_offset_rad.at(i);
     motor_share.at(i) += times * other.motor_share.at(i);
+    wheel_radius_share.at(i) += times * other.wheel_radius_share.at(i);
   }
   for (double VehicleDeviation::*of :
        {&VehicleDeviation::radius_share, &VehicleDeviation::payload_share,
@@ -371,8 +372,8 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
     for (std::size_t i = 0; i < changed.wheels.size(); ++i) {
       const double steer = place.steer_rad.at(i) + deviation.steering_offset_rad.at(i);
       scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
-      scene.rim_mps.at(i) =
-          place.rim_rad_s.at(i) * vehicle_.wheel.radius_m * (1 + deviation.radius_share);
+      scene.rim_mps.at(i) = place.rim_rad_s.at(i) * vehicle_.wheel.radius_m *
+                            (1 + deviation.radius_share + deviation.wheel_radius_share.at(i));
       scene.models.at(i) = model_at(wheel_time(input, place, changed.wheels[i]),
                                     static_cast<std::size_t>(patch.soil.at(i)));
     }

@@ -58,9 +58,10 @@ struct WindowPrediction {
 struct VehicleDeviation {
   std::array<double, kMaxWheels> wheel_drag_nm{};  ///< against the way that each wheel turns
   std::array<double, kMaxWheels> steering_offset_rad{};
-  std::array<double, kMaxWheels> motor_share{};  ///< of the torque told
-  double radius_share = 0;                       ///< of the wheels' radius
-  double payload_share = 0;                      ///< of the mass
+  std::array<double, kMaxWheels> motor_share{};         ///< of the torque told
+  double radius_share = 0;                              ///< of the wheels' radius
+  std::array<double, kMaxWheels> wheel_radius_share{};  ///< of one wheel's, as it rolls
+  double payload_share = 0;                             ///< of the mass
   double cg_forward_m = 0, cg_left_m = 0, cg_up_m = 0;
   double tow_drag_n = 0;                     ///< at the centre of gravity, against the way
   double map_east_m = 0, map_north_m = 0;    ///< by which the map lies off

@@ -14,6 +14,7 @@ namespace {
 constexpr double kZone = 3;      ///< another soil's numbers, in standard deviations of this one's
 constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
+constexpr double kLeastOfAlike = 0.5;  ///< of the gain of what it is alike
 /// Twice nats beyond chance that a first effect is asked, and any other: what the fit of a known
 /// effect leaves looks like any. Recordings that begin out of balance gained 1.2 beyond chance
 /// where nothing was otherwise; zones that were not there gained up to 7.5, of causes that are
@@ -213,7 +214,8 @@ class Contest {
   bool is_alike(const EffectFound& best, const FaultAlone& other) const {
     if (!best.is_zone && other.parameter == best.parameter) return true;
     if (other.gain > best.gain - kAlike) return true;
-    if (best.is_zone) return false;
+    // What would have to be far larger than faults are is not what it looks like.
+    if (best.is_zone || other.gain < kLeastOfAlike * best.gain) return false;
     const auto i = static_cast<Eigen::Index>(best.parameter),
                k = static_cast<Eigen::Index>(other.parameter);
     return std::abs(lengths_(i, k)) > kCosine * std::sqrt(lengths_(i, i) * lengths_(k, k));

@@ -89,6 +89,10 @@ void EffectFit::add(const EffectFound& effect) {
   }
 }
 
+void EffectFit::withdraw(std::size_t fault) {
+  std::erase(contest_.faults_known, fault);
+}
+
 SoilNumbers EffectFit::numbers_of(const Eigen::VectorXd& values) const {
   SoilNumbers numbers{};
   for (std::size_t k = 0; k < numbers_.size(); ++k) {
@@ -224,13 +228,19 @@ std::vector<double> EffectFit::soils_held_out_nats() const {
 void EffectFit::settle_with(EffectFound& effect) {
   if (effect.is_zone) {
     settle_zone(effect);
-  } else if (fit_.zones.empty()) {
-    settle();
   } else {
-    silent_ = windows_at_borders(comparison_, zones());
-    go_on_from(settled_from_here());
-    silent_.clear();
+    settle_beside_zones();
   }
+}
+
+void EffectFit::settle_beside_zones() {
+  if (fit_.zones.empty()) {
+    settle();
+    return;
+  }
+  silent_ = windows_at_borders(comparison_, zones());
+  go_on_from(settled_from_here());
+  silent_.clear();
 }
 
 /// Steps are taken where they lead to what is likelier, and else shortened, until nothing changes

@@ -56,9 +56,13 @@ class EffectFit {
   }
   /// An effect is known from now on.
   void add(const EffectFound& effect);
+  /// A fault is none any more.
+  void withdraw(std::size_t fault);
   /// Moves to the most likely parameters, linearised anew about each until they stay: soils off
   /// their means change what everything else does.
   void settle();
+  /// The same where zones are known: windows at their borders say nothing.
+  void settle_beside_zones();
   /// The same with the effect that was added last. Soils far off are no longer linear, so that
   /// steps may lead away again, and lead elsewhere from a soil like the map's than from weaker
   /// ones, down to what carries no vehicle: the likeliest of where they led counts, each with a
@@ -74,6 +78,8 @@ class EffectFit {
   OutsideZones fit_outside_zones();
   /// How far each channel scatters.
   const std::vector<double>& noise() const { return noise_; }
+  /// How far the map's slopes err, along and across, root mean square.
+  const std::array<double, 2>& slope_errors() const { return slope_errors_; }
   /// Indices of soils' numbers that vary.
   const std::vector<std::size_t>& numbers() const { return numbers_; }
   SoilNumbers numbers_of(const Eigen::VectorXd& values) const;
@@ -156,6 +162,7 @@ class EffectFit {
   /// By window and channel, what the borders of zones change as far as these may lie off.
   Eigen::MatrixXd border_std_;
   std::vector<double> noise_;
+  std::array<double, 2> slope_errors_{};
 };
 
 }  // namespace regoplan

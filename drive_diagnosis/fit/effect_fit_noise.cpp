@@ -74,6 +74,9 @@ ResidualNoise EffectFit::whiten(const LinearisedWindows& here) {
   };
   const SlopeErrors errors{
       .along = white(along), .across = white(along + 1), .channels = here.base.cols()};
+  for (std::size_t k = 0; k < slope_errors_.size(); ++k) {
+    slope_errors_.at(k) = WindowComparison::kSlope * noise.sources().inputs[along + k];
+  }
   contest_.ground = slope_error_columns(errors, contest_.follows, persistence(errors));
   return noise;
 }

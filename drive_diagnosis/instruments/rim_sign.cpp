@@ -124,16 +124,12 @@ DriveFinding rim_finding(const FactoredColumns& columns) {
 std::vector<DriveFinding> mend_rim_signs(std::vector<DriveRecording>& drives,
                                          const std::vector<DriveWindow>& windows,
                                          const SideGeometry& sides) {
-  std::vector<std::string> names;
   std::vector<std::optional<std::set<std::string>>> reversed;
   for (std::size_t i = 0; i < drives.size(); ++i) {
     reversed.push_back(reversed_rims(drives[i], i, windows, sides));
-    for (const DriveChannel* channel : channels_of(drives[i], kRims)) {
-      if (std::ranges::find(names, channel->name) == names.end()) names.push_back(channel->name);
-    }
   }
   std::vector<FactoredColumns> groups;
-  for (const std::string& name : names) {
+  for (const std::string& name : channel_names(drives, kRims)) {
     ColumnFactors factors(drives.size());
     for (std::size_t i = 0; i < drives.size(); ++i) {
       if (!reversed[i] || drives[i].channel(name) == nullptr) continue;

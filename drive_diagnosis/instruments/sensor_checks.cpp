@@ -153,7 +153,10 @@ void Checker::find_yaw_offset() {
                      spread / kDegree),
          spread / kDegree, "deg", false);
   }
-  if (std::abs(mean) > 10 * kDegree || checks_.yaw_sign < 0) {
+  // Slopes take a vehicle aside by a few degrees, now to this side and now to that.
+  constexpr double kAside_rad = 5 * kDegree, kSure = 5;
+  const double err_rad = spread / std::sqrt(static_cast<double>(angles.size()));
+  if (std::abs(mean) > std::max(kAside_rad, kSure * err_rad) || checks_.yaw_sign < 0) {
     checks_.yaw_offset_rad = mean;
     tell("yaw_offset",
          fmt::format("yaw looks {:.0f} deg away from the track: taken off", mean / kDegree),

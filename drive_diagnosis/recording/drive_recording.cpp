@@ -45,6 +45,17 @@ std::vector<const DriveChannel*> channels_of(const DriveRecording& drive, std::s
   return found;
 }
 
+std::vector<std::string> channel_names(const std::vector<DriveRecording>& drives,
+                                       std::string_view prefix) {
+  std::vector<std::string> names;
+  for (const DriveRecording& drive : drives) {
+    for (const DriveChannel* channel : channels_of(drive, prefix)) {
+      if (std::ranges::find(names, channel->name) == names.end()) names.push_back(channel->name);
+    }
+  }
+  return names;
+}
+
 bool any_has(const std::vector<DriveRecording>& drives, std::string_view prefix) {
   return std::ranges::any_of(drives, [prefix](const DriveRecording& drive) {
     return !channels_of(drive, prefix).empty();

@@ -55,6 +55,10 @@ void tell_torques(double motor_constant, DriveRecording& drive);
 /// What a channel is called without its unit and what it stands for, `current` and `left_a`.
 std::vector<const DriveChannel*> channels_of(const DriveRecording& drive, std::string_view prefix);
 
+/// Those of any of the drives that begin so, each once.
+std::vector<std::string> channel_names(const std::vector<DriveRecording>& drives,
+                                       std::string_view prefix);
+
 /// Whether any of the drives has such a channel.
 bool any_has(const std::vector<DriveRecording>& drives, std::string_view prefix);
 

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "drive_diagnosis/comparison/swapped_sides.h"
 #include "drive_diagnosis/drive_diagnosis.h"
+#include "drive_diagnosis/instruments/stuck_rims.h"
 #include "tests/drive_diagnosis/simulated_drive.h"
 
 namespace regoplan {
@@ -68,6 +70,59 @@ TEST(ColumnsOfWheels, TorquesToldInAnotherUnitAreMultiplied) {
     for (float& value : channel.values) value /= 4;
   }
   EXPECT_TRUE(diagnosed(std::move(drive), kFourNewtonMetresAnAmpere).claims.empty());
+}
+
+TEST(ColumnsOfWheels, RimSpeedsInTurnsAMinuteOrDegreesASecondAreTakenForWhatTheyAre) {
+  for (const double per_rad_s : {9.549297, 57.29578}) {
+    DriveRecording drive = sound_drive();
+    for (DriveChannel& channel : drive.channels) {
+      if (!channel.name.starts_with("wheel_speed_")) continue;
+      for (float& value : channel.values) value *= static_cast<float>(per_rad_s);
+    }
+    const DriveDiagnosis found = diagnosed(std::move(drive));
+    const auto told = std::ranges::find(found.findings, "unit", &DriveFinding::id);
+    ASSERT_NE(told, found.findings.end());
+    EXPECT_TRUE(told->mended);
+    EXPECT_NEAR(told->value.value(), per_rad_s, 1e-4);
+    EXPECT_TRUE(found.claims.empty());
+  }
+}
+
+TEST(ColumnsOfWheels, ARimSpeedThatSticksIsLeftOutWhileOthersChange) {
+  constexpr std::size_t kFrom = 500, kTo = 900;
+  std::vector<DriveRecording> drives{sound_drive()};
+  std::vector<float>& stuck = drives[0].channel("wheel_speed_rear_right_rad_s")->values;
+  std::fill(stuck.begin() + kFrom, stuck.begin() + kTo, stuck[kFrom]);
+  const std::vector<DriveFinding> findings = leave_stuck_rims_out(drives);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].id, "stuck");
+  const std::vector<float>& left = drives[0].channel("wheel_speed_rear_right_rad_s")->values;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_EQ(std::isnan(left[i]), i >= kFrom && i < kTo) << i;
+  }
+}
+
+TEST(ColumnsOfWheels, SpeedsThatAllStandStillAtOnceAreNotStuck) {
+  std::vector<DriveRecording> drives{sound_drive()};
+  for (DriveChannel& channel : drives[0].channels) {
+    if (channel.name.starts_with("wheel_speed_")) {
+      std::fill(channel.values.begin() + 500, channel.values.begin() + 900, 3.0F);
+    }
+  }
+  EXPECT_TRUE(leave_stuck_rims_out(drives).empty());
+}
+
+TEST(ColumnsOfWheels, OnAMapOfOtherGroundNothingIsClaimedAndTheSlopesAreTold) {
+  const DriveSetup setup{.map = map_of_heights([](int, int) { return 0.0; }),
+                         .vehicle = preset_vehicle("lrv"),
+                         .gravity_mps2 = 1.62,
+                         .window_s = 5};
+  const DriveDiagnosis found = diagnose_drives({sound_drive()}, setup, {.seed = 7});
+  EXPECT_TRUE(found.claims.empty());
+  EXPECT_EQ(found.verdict, DriveVerdict::kUndecided);
+  EXPECT_EQ(std::ranges::count(found.findings, "map_slopes", &DriveFinding::id), 1);
+  EXPECT_EQ(std::ranges::count(diagnosed(sound_drive()).findings, "map_slopes", &DriveFinding::id),
+            0);
 }
 
 /// A sound drive whose columns of the sides were swapped.

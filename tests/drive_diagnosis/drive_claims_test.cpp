@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive_diagnosis/comparison/soil_deviation.h"
 #include "drive_diagnosis/silent_effects.h"
 #include "terramech/basics/angles.h"
 #include "tests/drive_diagnosis/simulated_drive.h"
@@ -165,6 +166,30 @@ TEST(DriveClaims, AnAngleThatHardlyFollowsTheGroundIsOfAnotherUnitOnlyWhereItHar
   EXPECT_EQ(other.id, "other_ground");
   EXPECT_EQ(count_of("roll changes by 4.0 deg where the map's ground does by 4.5", other.text), 1)
       << other.text;
+}
+
+TEST(DriveClaims, ASoilFarFromWhatTheMapSaysIsClaimedWhereItPredictsBetter) {
+  const DriveSetup setup{.map = rolling_map(), .vehicle = preset_vehicle("lrv")};
+  const auto claims = [&](double deviations, double held_out_nats) {
+    SoilNumbers off{};
+    const auto& numbers = soil_parameters();
+    const auto kphi = std::ranges::find(numbers, "kphi", &SoilParameter::name) - numbers.begin();
+    off.at(static_cast<std::size_t>(kphi)) = deviations;
+    const UncertainSoil& said = setup.map.soils()[0].soil;
+    UncertainSoil estimate = said;
+    estimate.mean = deviating(said, off);
+    DriveDiagnosis result;
+    result.effects = VehicleEffects{
+        .soils_fitted = {{.soil = 0, .estimate = estimate, .held_out_nats = held_out_nats}}};
+    claim_soils(setup, result);
+    return result.claims;
+  };
+  ASSERT_EQ(claims(-5, 40).size(), 1u);
+  EXPECT_EQ(claims(-5, 40)[0].id, "soil_change");
+  EXPECT_NEAR(claims(-5, 40)[0].sigmas, 5, 0.01);
+  EXPECT_EQ(claims(-5, 40)[0].parameters.size(), 1u);
+  EXPECT_TRUE(claims(-4, 40).empty());
+  EXPECT_TRUE(claims(-5, -1).empty());
 }
 
 TEST(DriveClaims, WhyASoilStaysAsTheMapHasItIsToldInASentence) {

@@ -228,6 +228,18 @@ TEST(VehicleEffects, AWheelThatDragsIsNamed) {
   EXPECT_NEAR(found.size, 5, 3 * found.std + 0.5);
 }
 
+TEST(VehicleEffects, AWheelThatRollsAsIfItHadAnotherRadiusIsNamedAndNotItsDrag) {
+  DriveRecording drive = record({.seed = 21}, map_of_all());
+  for (float& value : drive.channel("wheel_speed_rear_right_rad_s")->values) value *= 0.97F;
+  const Diagnosed slower = diagnosed(std::vector{std::move(drive)});
+  ASSERT_TRUE(slower.effects);
+  ASSERT_EQ(slower.effects->found.size(), 1u) << said(*slower.effects);
+  const VehicleFinding& found = slower.effects->found[0];
+  EXPECT_EQ(found.parameter, "radius_rear_right_share") << said(*slower.effects);
+  EXPECT_EQ(found.equivalent, std::vector<std::string>{"wheel_radius"}) << said(*slower.effects);
+  EXPECT_NEAR(found.size, 1 / 0.97 - 1, 3 * found.std);
+}
+
 TEST(VehicleEffects, NothingElseIsClaimedBesideADragWhereTorqueScatters) {
   for (std::uint64_t seed = 22; seed <= 23; ++seed) {
     SimulatedDrive drive{.torque_scatter = 0.16, .seed = seed};
