@@ -79,7 +79,8 @@ class WheelForces(_Columns):
 class Wheel:
     def __init__(self, radius_m: float, width_m: float, soil: Soil | _Settings, *,
                  gravity_mps2: float = ..., model: _Model = ..., mechanisms: Iterable[_Settings] = ...,
-                 method: _Method = ..., nominal_load_n: float | None = ...) -> None: ...
+                 method: _Method = ..., nominal_load_n: float | None = ...,
+                 soil_name: str | None = ...) -> None: ...
     @classmethod
     def from_file(cls, file: _File, *, method: _Method = ...,
                   nominal_load_n: float | None = ...) -> Wheel: ...

@@ -3,13 +3,29 @@
 from . import _arguments
 
 
-class Settings:
+class Immutable:
+    """What was checked as a whole does not change in parts."""
+
+    __slots__ = ()
+
+    def __setattr__(self, key, value):
+        raise AttributeError(f"{type(self).__name__} cannot be changed")
+
+    def __delattr__(self, key):
+        raise AttributeError(f"{type(self).__name__} cannot be changed")
+
+    def _set(self, **attributes):
+        for name, value in attributes.items():
+            object.__setattr__(self, name, value)
+
+
+class Settings(Immutable):
     """Numbers and words under the names that they have in files. Immutable."""
 
     __slots__ = ("_values",)
 
     def __init__(self, values):
-        object.__setattr__(self, "_values", values)
+        self._set(_values=values)
 
     def to_dict(self):
         """A new dict with the keys of the file."""
@@ -27,9 +43,6 @@ class Settings:
 
     def __setattr__(self, key, value):
         raise AttributeError(f"{type(self).__name__} cannot be changed; use replace({key}=...)")
-
-    def __delattr__(self, key):
-        raise AttributeError(f"{type(self).__name__} cannot be changed")
 
     def __dir__(self):
         return [*super().__dir__(), *self._values]

@@ -7,7 +7,7 @@ import numpy as np
 from . import _arguments, _physics
 from ._errors import InputError
 from ._frames import Columns
-from ._settings import Settings
+from ._settings import Immutable, Settings
 from ._soil import Soil
 
 _MOMENT = _physics.moment_names()
@@ -51,7 +51,7 @@ class Vehicle(Settings):
 
     def _take(self, source):
         super().__init__(json.loads(source.settings()))
-        object.__setattr__(self, "_source", source)
+        self._set(_source=source)
 
     def __repr__(self):
         return f"Vehicle({self.name!r}, {self.mass_kg} kg, {len(self.wheels)} wheels)"
@@ -112,8 +112,8 @@ class SafeCurvature(Columns):
                 f"{np.max(self.curvature_1pm):.4g} 1/m, limited by {limits})")
 
 
-class VehicleOnSoil:
-    """A vehicle that drives on planes of one soil, judged as plans and charts judge.
+class VehicleOnSoil(Immutable):
+    """A vehicle that drives on planes of one soil, judged as plans and charts judge. Immutable.
 
     Parameters
     ----------
@@ -144,13 +144,17 @@ class VehicleOnSoil:
                 raise InputError(f"vehicle: {type(vehicle).__name__} is not valid "
                                  "(allowed: Vehicle, dict, name of a preset)")
             vehicle = Vehicle(**vehicle)
-        self.vehicle = vehicle
-        self.wheel = Wheel(**vehicle.wheel, soil=soil, gravity_mps2=gravity_mps2, model=model,
-                           mechanisms=mechanisms, method=method, nominal_load_n=nominal_load_n)
-        self.soil = soil if isinstance(soil, Soil) else Soil(**soil)
-        self.gravity_mps2 = _arguments.scalar("gravity_mps2", gravity_mps2)
-        self._source = _physics.VehicleOnSoil(vehicle._source, self.wheel._source,
-                                              self.gravity_mps2)
+        wheel = Wheel(**vehicle.wheel, soil=soil, gravity_mps2=gravity_mps2, model=model,
+                      mechanisms=mechanisms, method=method, nominal_load_n=nominal_load_n)
+        self._set_up(vehicle, soil if isinstance(soil, Soil) else Soil(**soil), wheel,
+                     _arguments.scalar("gravity_mps2", gravity_mps2))
+
+    def _set_up(self, vehicle, soil, wheel, gravity_mps2):
+        self._set(vehicle=vehicle, soil=soil, wheel=wheel, gravity_mps2=gravity_mps2,
+                  _source=_physics.VehicleOnSoil(vehicle._source, wheel._source, gravity_mps2))
+
+    def __reduce__(self):
+        return (_restored, (self.vehicle, self.soil, self.wheel, self.gravity_mps2))
 
     def __repr__(self):
         return f"VehicleOnSoil({self.vehicle!r}, {self.gravity_mps2} m/s^2)"
@@ -211,6 +215,12 @@ class VehicleOnSoil:
             drive_factor, wheels``; else ``limit`` and ``wheel``: what ends the branch of trims before.
         """
         return self._source.trim(_single(_moment(speed_mps, curvature_1pm, ground)))
+
+
+def _restored(*parts):
+    on_soil = VehicleOnSoil.__new__(VehicleOnSoil)
+    on_soil._set_up(*parts)
+    return on_soil
 
 
 def _moment(speed_mps, curvature_1pm, ground):

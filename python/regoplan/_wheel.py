@@ -8,6 +8,7 @@ import numpy as np
 from . import _arguments, _physics
 from ._errors import InputError
 from ._frames import Columns
+from ._settings import Immutable
 from ._soil import Soil
 
 #: Status codes of ``WheelForces.status`` by their names in files.
@@ -61,7 +62,7 @@ class WheelForces(Columns):
         return f"WheelForces(shape {np.shape(self.fx_n)}, {int(np.sum(self.ok))} ok)"
 
 
-class Wheel:
+class Wheel(Immutable):
     """A rigid wheel on a soil, by the model of Yoshida & Ishigami (2004). Immutable.
 
     Parameters
@@ -84,6 +85,9 @@ class Wheel:
         4e-4 and 1.6e-3, docs/validation.md).
     nominal_load_n : float, optional
         N; of a table, which covers 2 to 300 % of it; beyond, the direct model answers.
+    soil_name : str, optional
+        The soil of a map that this soil's numbers replace where the wheel is the ``model`` of
+        ``plan``, ``evaluate`` or ``drive``.
 
     Raises
     ------
@@ -92,13 +96,13 @@ class Wheel:
     """
 
     def __init__(self, radius_m, width_m, soil, *, gravity_mps2=9.80665, model="ishigami2007",
-                 mechanisms=(), method="direct", nominal_load_n=None):
-        soil_keys = soil.model_keys() if isinstance(soil, Soil) else soil
+                 mechanisms=(), method="direct", nominal_load_n=None, soil_name=None):
+        named = {} if soil_name is None else {"soil_name": _arguments.word("soil_name", soil_name)}
         self._set_up({"model": _arguments.choice("model", model, _VARIANTS),
                       "wheel": {"radius_m": _arguments.scalar("radius_m", radius_m),
                                 "width_m": _arguments.scalar("width_m", width_m)},
                       "gravity_mps2": _arguments.scalar("gravity_mps2", gravity_mps2),
-                      "soil": soil_keys,
+                      "soil": _model_soil(soil), **named,
                       "mechanisms": list(mechanisms)}, method, nominal_load_n)
 
     @classmethod
@@ -117,15 +121,14 @@ class Wheel:
         return wheel
 
     def _set_up(self, settings, method, nominal_load_n):
-        self._settings = settings
-        self._method = _arguments.choice("method", method, _METHODS)
+        _arguments.choice("method", method, _METHODS)
         if (method == "table") != (nominal_load_n is not None):
             raise InputError("nominal_load_n: is needed for method='table', and for no other")
-        self._nominal_load_n = nominal_load_n
         nominal = 0.0 if nominal_load_n is None else _arguments.scalar("nominal_load_n",
                                                                        nominal_load_n)
         text = _arguments.settings("wheel", settings)
-        self._source = _physics.WheelSource(text, method, nominal)
+        self._set(_settings=settings, _method=method, _nominal_load_n=nominal_load_n,
+                  _source=_physics.WheelSource(text, method, nominal))
 
     def to_dict(self):
         """The keys of a model file."""
@@ -236,6 +239,15 @@ def mechanisms():
 def _conditions(load_n, slip_ratio, slip_angle_rad):
     return (_arguments.numbers("load_n", load_n), _arguments.numbers("slip_ratio", slip_ratio),
             _arguments.numbers("slip_angle_rad", slip_angle_rad))
+
+
+def _model_soil(soil):
+    """The keys of a model file's ``soil``: where the numbers come from is not among them."""
+    if isinstance(soil, Soil):
+        return soil.model_keys()
+    if isinstance(soil, dict):
+        return {key: value for key, value in soil.items() if key != "source"}
+    return soil
 
 
 def _restored(settings, method, nominal_load_n):

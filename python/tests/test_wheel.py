@@ -161,10 +161,32 @@ def test_mechanisms_act_and_are_listed(soil):
         regoplan.Wheel(0.41, 0.23, soil, mechanisms=[{"id": "nothing_known"}])
 
 
-def test_objects_travel_between_processes(wheel):
+def test_objects_travel_between_processes(wheel, soil):
     assert same(wheel.forces(290, 0.2, 0.1), pickle.loads(pickle.dumps(wheel)).forces(290, 0.2, 0.1))
     vehicle = regoplan.Vehicle.preset("lrv")
     assert pickle.loads(pickle.dumps(vehicle)) == vehicle
+    lrv = regoplan.VehicleOnSoil(vehicle, soil, 1.62, mechanisms=[{"id": "slip_sinkage"}], method="fast")
+    there = pickle.loads(pickle.dumps(lrv))
+    assert there.margins(2, 0.05).margin == lrv.margins(2, 0.05).margin
+    assert (there.soil, repr(there.wheel)) == (soil, repr(lrv.wheel))
+
+
+def test_what_was_checked_as_a_whole_does_not_change_in_parts(wheel, soil):
+    for whole in (wheel, soil, regoplan.VehicleOnSoil("lrv", soil, 1.62)):
+        for name in ("x", "soil", "_source"):
+            with pytest.raises(AttributeError, match="cannot be changed"):
+                setattr(whole, name, 3)
+            with pytest.raises(AttributeError, match="cannot be changed"):
+                delattr(whole, name)
+
+
+def test_a_soil_is_taken_as_the_dict_that_it_gives(wheel, soil):
+    keys = regoplan.Soil(**soil.model_keys(), source="a shear box").to_dict()
+    of_dict = regoplan.Wheel(0.41, 0.23, keys, gravity_mps2=1.62)
+    assert same(of_dict.forces(290, 0.2, 0.1), wheel.forces(290, 0.2, 0.1))
+    lrv = regoplan.VehicleOnSoil("lrv", keys, 1.62)
+    assert lrv.margins(2).margin == regoplan.VehicleOnSoil("lrv", soil, 1.62).margins(2).margin
+    assert lrv.soil.source == "a shear box"
 
 
 @pytest.mark.parametrize("arguments, field, allowed", [
