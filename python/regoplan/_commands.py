@@ -2,6 +2,10 @@
 
 import math
 import os
+import shutil
+import tempfile
+from contextlib import contextmanager, suppress
+from pathlib import Path
 
 from . import _arguments, _physics, _program, _tables
 from ._errors import InputError
@@ -27,11 +31,14 @@ def plan(scenario, *, model=None, planner=None, seed=None, time_s=None, iteratio
         Keys as in docs/scenario.md; file names in a dict are relative to the working folder;
         ``vehicle`` may be a ``Vehicle``, ``map`` a ``TerrainMap``.
     model : dict, file name or Wheel, optional
-        A model file, as ``--model``.
+        A model file, as ``--model``: its variant and mechanisms count everywhere, its soil numbers
+        in place of those of the map's soil ``soil_name``; without mechanisms that name is needed.
     planner, seed, time_s, iterations, candidates, improve, threads : optional
         In place of the scenario's. Only ``iterations`` gives the same bits again.
     out : folder, optional
-        Where the files stay; else they go with the result.
+        Where the files stay; else they go with the result. What is given in memory stands there in
+        ``plan-inputs`` (of other commands by their names), so that the program may take the folder
+        up: ``regoplan export out --nav2 DIR``, ``regoplan plan --again out/plan.json``.
     force : bool, optional
         Files that others wrote in ``out`` are replaced.
     progress : callable, optional
@@ -48,6 +55,8 @@ def plan(scenario, *, model=None, planner=None, seed=None, time_s=None, iteratio
     KeyboardInterrupt
         After Ctrl-C; ``out`` then holds what there was, marked interrupted.
     """
+    if time_s is not None and iterations is not None:
+        raise InputError("iterations: either time_s or iterations, not both")
     call = _Call(out, force, progress)
     arguments = ["plan", call.scenario("scenario", scenario)]
     arguments += call.model(model)
@@ -87,6 +96,8 @@ def evaluate(scenario, paths=(), *, manoeuvres=None, model=None, speed_mps=None,
     arguments = ["evaluate", call.scenario("scenario", scenario)]
     named = paths if _is_by_name(paths) else {
         f"path-{i + 1}": path for i, path in enumerate(_listed("paths", paths))}
+    if not named and manoeuvres is None:
+        raise InputError("paths: is needed, where manoeuvres= is not given")
     arguments += [call.table(name, path) for name, path in named.items()]
     arguments += call.model(model)
     if manoeuvres is not None:
@@ -279,7 +290,7 @@ def _option_text(name, value):
 
 
 class _Call:
-    """One run of the program: what is given in memory stands in files while it lasts."""
+    """One run of the program: what is given in memory stands in files beside the results."""
 
     def __init__(self, out, force, progress):
         if progress is not None and not callable(progress):
@@ -373,7 +384,38 @@ class _Call:
 
     def run(self, arguments, result, pass_fds=()):
         folder = _program.ResultFolder(self._out)
-        shown = [*self._shown, (self._inputs.path, "given")]
-        arguments = [*arguments, "--out", str(folder.path)] + (["--force"] if self._force else [])
-        _, notices = _program.run(arguments, self._progress, shown, self._inputs.path, pass_fds)
+        with self._inputs_in(folder.path / f"{arguments[0]}-inputs") as inputs:
+            shown = [*self._shown, (inputs, "given")]
+            arguments = [*arguments, "--out", str(folder.path)] + (["--force"] if self._force else [])
+            _, notices = _program.run(arguments, self._progress, shown, inputs, pass_fds)
         return result(folder, notices)
+
+    @contextmanager
+    def _inputs_in(self, folder):
+        """What is given in memory in a folder of its own, which results name as theirs. Where it is
+        refused, all is as it was: earlier results keep their inputs."""
+        if not any(self._inputs.path.iterdir()):
+            yield self._inputs.path
+            return
+        missing = [made for made in folder.parents if not made.exists()]
+        with tempfile.TemporaryDirectory(prefix="regoplan-") as aside:
+            earlier = Path(aside, "earlier")
+            try:
+                self._put_inputs(folder, earlier)
+                yield folder
+            except (InputError, _program.ProgramError):
+                shutil.rmtree(folder, ignore_errors=True)
+                if earlier.exists():
+                    shutil.move(earlier, folder)
+                for made in missing:
+                    with suppress(OSError):  # what others have put there stays
+                        made.rmdir()
+                raise
+
+    def _put_inputs(self, folder, earlier):
+        try:
+            if folder.exists():
+                shutil.move(folder, earlier)
+            shutil.copytree(self._inputs.path, folder)
+        except OSError as bad:
+            raise InputError(f"out: {folder}: {bad.strerror or bad}") from None

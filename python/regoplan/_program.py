@@ -20,6 +20,8 @@ from ._errors import InputError, of_dict
 
 _PROGRESS = re.compile(r"^(?P<stage>[^\d%]*?) ?(?P<share>\d+) %(?P<more>.*)$")
 _PIECES = re.compile(r"[\r\n]+")
+_HELP = re.compile(r" \(regoplan [\w -]*--help\)$")
+_OPTION = re.compile(r"(?<!\S)--(?P<name>[a-z][a-z-]*)(?: [A-Z]+\.\w+)?")
 _ESCAPES = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _PATIENCE_S = 60  # for whole files, after a first Ctrl-C
 
@@ -170,7 +172,16 @@ def _message(lines):
     """What went wrong, with the argument in place of the option that it became."""
     said = [line for line in lines if line.startswith("regoplan: ")]
     what = (said[-1] if said else " ".join(lines) or "no message").removeprefix("regoplan: ")
-    return re.sub(r"^--([a-z-]+)(?=: )", lambda option: option[1].replace("-", "_"), what)
+    if "--force replaces it" in what:
+        what = f"out: {what}"
+    what = re.sub(r"^--([a-z-]+)(?=: )", lambda option: option[1].replace("-", "_"), what)
+    return _OPTION.sub(_in_python, _HELP.sub("", what))
+
+
+def _in_python(option):
+    """An option that a message advises, as the argument or function that stands for it."""
+    name = option["name"].replace("-", "_")
+    return {"force": "force=True", "scenario": "diagnose_drives"}.get(name, f"{name}=")
 
 
 class ResultFolder:

@@ -153,6 +153,26 @@ def test_every_refusal_says_of_which_argument(scenario, soil):
         assert caught.value.field == field, str(caught.value)
 
 
+def test_advice_is_pythons(scenario, wheel, tmp_path):
+    plan = tmp_path / "plan.json"
+    plan.write_text("of others")
+    drive = {"time_s": [0, 1], "x_m": [0, 1], "y_m": [0, 0], "yaw_deg": [0, 0]}
+    setup = {key: value for key, value in wheel.to_dict().items() if key != "mechanisms"}
+    for field, told, call in [
+        ("out", "force=True replaces it$", lambda: regoplan.plan(scenario, out=tmp_path)),
+        ("paths", "manoeuvres= is not given$", lambda: regoplan.evaluate(scenario)),
+        ("iterations", "either time_s or iterations, not both$",
+         lambda: regoplan.plan(scenario, time_s=1, iterations=1)),
+        ("run_id", "is diagnosed with diagnose_drives", lambda: regoplan.diagnose(drive, setup)),
+        ("time_s", "columns=", lambda: regoplan.diagnose_drives({"log_x": [1, 2]}, scenario)),
+    ]:
+        with pytest.raises(regoplan.InputError, match=told) as caught:
+            call()
+        assert caught.value.field == field and "--" not in str(caught.value), str(caught.value)
+    assert plan.read_text() == "of others"
+    assert [item.name for item in tmp_path.iterdir()] == ["plan.json"]
+
+
 def test_files_are_no_fields():
     with pytest.raises(regoplan.InputError) as caught:
         regoplan.Wheel.from_file("nothing.yaml")

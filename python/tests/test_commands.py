@@ -46,6 +46,45 @@ def test_a_plan_is_the_programs(program, scenario, planned, tmp_path):
     assert again.candidates[0].csv == best.csv
 
 
+def test_a_plan_of_python_is_exported_and_repeated_by_the_program(program, scenario, wheel, tmp_path):
+    vehicle = regoplan.Vehicle.preset("lrv").replace(mass_kg=650)
+    out = tmp_path / "new" / "out"
+    model = {**wheel.to_dict(), "soil_name": "soil"}
+    regoplan.plan({**scenario, "vehicle": vehicle}, model=model, out=out)
+    (tmp_path / "new").rename(tmp_path / "moved")
+    out = tmp_path / "moved" / "out"
+    exported = program("export", out, "--nav2", tmp_path / "nav2")
+    assert exported.returncode == 0, exported.stderr
+    again = program("plan", "--again", out / "plan.json", "--out", tmp_path / "again", "--quiet")
+    assert again.returncode == 0, again.stderr
+    told = json.loads((tmp_path / "again" / "plan.json").read_text())["again"]
+    assert told["changed"] == [] and told["same_candidates"]
+
+
+def test_a_wheel_is_a_model_of_the_soil_that_it_names(scenario, soil):
+    weaker = regoplan.Wheel(0.41, 0.23, soil.replace(cohesion_pa=20), gravity_mps2=1.62,
+                            soil_name="soil")
+    turn = [{"kind": "steady_turn", "radius_m": 20, "speed_mps": 1}]
+    best, worse = (regoplan.evaluate(scenario, manoeuvres=turn, draws=2, model=model).paths[0]
+                   for model in (None, weaker))
+    assert worse["margin_min"] < best["margin_min"] - 0.01
+    with pytest.raises(regoplan.InputError, match="^model: soil_name is missing"):
+        regoplan.plan(scenario, model=regoplan.Wheel(0.41, 0.23, soil))
+
+
+def test_what_is_refused_leaves_the_folder_as_it_was(scenario, tmp_path):
+    out = tmp_path / "new" / "out"
+    bad = {**scenario, "goal": {"x_m": 40, "y_m": 25, "radius_m": -3}}
+    with pytest.raises(regoplan.InputError):
+        regoplan.plan(bad, out=out)
+    assert list(tmp_path.iterdir()) == []
+    regoplan.plan({**scenario, "planner": {"name": "Lattice", "iterations": 1}}, out=out)
+    kept = (out / "plan-inputs" / "scenario.yaml").read_text()
+    with pytest.raises(regoplan.InputError):
+        regoplan.plan(bad, out=out)
+    assert (out / "plan-inputs" / "scenario.yaml").read_text() == kept
+
+
 def test_results_show_their_report(planned):
     page = planned._repr_html_()
     assert page.startswith("<iframe srcdoc=") and html.escape(planned.report_html) in page
