@@ -27,6 +27,8 @@ nlohmann::json to_json(const JournalOrigin& origin) {
                         {"parameters", planner.parameters}});
   }
   const RunBounds& bounds = origin.bounds;
+  nlohmann::json shard;
+  if (origin.shard) shard = {{"index", origin.shard->index}, {"count", origin.shard->count}};
   return {{"suite", origin.suite},
           {"time_s", bounds.time_s},
           {"iterations", bounds.iterations ? nlohmann::json(*bounds.iterations) : nullptr},
@@ -38,7 +40,8 @@ nlohmann::json to_json(const JournalOrigin& origin) {
           {"cpu", origin.cpu},
           {"started", origin.started},
           {"scenarios", origin.scenarios},
-          {"planners", planners}};
+          {"planners", planners},
+          {"shard", shard}};
 }
 
 JournalOrigin origin_of(const nlohmann::json& json) {
@@ -59,6 +62,9 @@ JournalOrigin origin_of(const nlohmann::json& json) {
     origin.planners.push_back({.label = planner.at("label"),
                                .planner = planner.at("planner"),
                                .parameters = planner.at("parameters")});
+  }
+  if (const auto shard = json.find("shard"); shard != json.end() && !shard->is_null()) {
+    origin.shard = {.index = shard->at("index"), .count = shard->at("count")};
   }
   return origin;
 }
@@ -239,6 +245,22 @@ std::vector<RunKey> missing_runs(const JournalContents& contents) {
         if (!held.contains(key)) missing.push_back(key);
       }
     }
+  }
+  return missing;
+}
+
+std::vector<Shard> missing_shards(const JournalContents& contents) {
+  std::set<int> counts, held;
+  for (const JournalOrigin& origin : contents.origins) {
+    if (!origin.shard) return {};
+    counts.insert(origin.shard->count);
+    held.insert(origin.shard->index);
+  }
+  if (counts.size() != 1) return {};
+  std::vector<Shard> missing;
+  for (Shard shard{.index = 1, .count = *counts.begin()}; shard.index <= shard.count;
+       ++shard.index) {
+    if (!held.contains(shard.index)) missing.push_back(shard);
   }
   return missing;
 }

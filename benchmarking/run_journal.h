@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct JournalOrigin {
   std::string started;                           ///< UTC, `2026-11-20 09:44:17`
   std::map<std::string, std::string> scenarios;  ///< label: digest of what it read
   std::vector<SuitePlanner> planners;
+  std::optional<Shard> shard = {};  ///< unknown of journals from before they told it
 };
 
 /// Everything that a journal holds.
@@ -67,6 +69,10 @@ JournalContents merged(const std::vector<JournalContents>& parts);
 /// The runs that `contents` lacks: of every experiment that it has a run of, those of a planner
 /// with a seed that other runs have. None where a whole suite has ended.
 std::vector<RunKey> missing_runs(const JournalContents& contents);
+
+/// The shards, from 1, that no part of `contents` is; none where its parts do not tell, or are of
+/// different counts.
+std::vector<Shard> missing_shards(const JournalContents& contents);
 
 /// The file of a journal that holds `contents`.
 std::string journal_text(const JournalContents& contents);

@@ -103,7 +103,7 @@ ReadScenarios read_scenarios(const Suite& suite) {
   return read;
 }
 
-JournalOrigin origin_of(const Suite& suite, const ReadScenarios& read) {
+JournalOrigin origin_of(const Suite& suite, const ReadScenarios& read, const Shard& shard) {
   return {.suite = suite.name,
           .bounds = suite.bounds,
           .version = REGOPLAN_VERSION,
@@ -111,7 +111,8 @@ JournalOrigin origin_of(const Suite& suite, const ReadScenarios& read) {
           .cpu = processor(),
           .started = utc_now(),
           .scenarios = read.digests,
-          .planners = suite.planners};
+          .planners = suite.planners,
+          .shard = shard};
 }
 
 void print_outcome(const SuiteResults& results, const BenchmarkOptions& options) {
@@ -140,7 +141,7 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
   SuiteSession session{.processes = options.processes, .planners = options.own, .stop = stop};
   require_parameters(suite, problem_of(0, 0), session);
   {
-    RunJournal journal(options.out.path, origin_of(suite, read));
+    RunJournal journal(options.out.path, origin_of(suite, read, shard));
     SuiteProgressLine line(options.quiet);
     session.on_progress = [&line](const SuiteProgress& progress) { line.show(progress); };
     run_suite(suite, runs_of(suite, shard), journal, problem_of, session);
@@ -150,6 +151,23 @@ ExitStatus run_benchmark(const BenchmarkOptions& options) {
   write_benchmark_files(results, read.maps, options.out);
   print_outcome(results, options);
   return results.interrupted ? kInterrupted : kYes;
+}
+
+/// What shards that are merged lack of a suite; empty where that is nothing.
+std::string lacking_text(const JournalContents& merged) {
+  std::vector<std::string> shards;
+  for (const Shard& shard : missing_shards(merged)) {
+    shards.push_back(fmt::format("{}/{}", shard.index, shard.count));
+  }
+  const std::string no_folder = fmt::format("no folder is of shard {}", fmt::join(shards, ", "));
+  const std::vector<RunKey> runs = missing_runs(merged);
+  if (runs.empty()) return shards.empty() ? "" : no_folder;
+  const RunKey& first = runs.front();
+  return fmt::format("{} of {} runs are missing (the first: {}, {}, seed {}): {}", runs.size(),
+                     runs.size() + merged.runs.size(), first.experiment, first.planner, first.seed,
+                     shards.empty()
+                         ? "a shard has not come to its end; its command goes on from where it was"
+                         : no_folder);
 }
 
 ExitStatus run_merge(const BenchmarkOptions& options) {
@@ -162,16 +180,9 @@ ExitStatus run_merge(const BenchmarkOptions& options) {
   }
   for (const std::filesystem::path& part : options.parts) parts.push_back(read_journal(part));
   JournalContents whole = merged(parts);
-  const std::vector<RunKey> missing = missing_runs(whole);
-  if (!missing.empty()) {
-    const RunKey& first = missing.front();
-    notify(fmt::format("{} of {} runs are missing (the first: {}, {}, seed {}): a shard has not "
-                       "come to its end; its command goes on from where it was",
-                       missing.size(), missing.size() + whole.runs.size(), first.experiment,
-                       first.planner, first.seed),
-           options.quiet);
-  }
-  const SuiteResults results{.journal = std::move(whole), .interrupted = !missing.empty()};
+  const std::string lacking = lacking_text(whole);
+  if (!lacking.empty()) notify(lacking, options.quiet);
+  const SuiteResults results{.journal = std::move(whole), .interrupted = !lacking.empty()};
   write_benchmark_files(results, {}, options.out);
   // Last, since a folder that holds one is merged.
   StagedFiles journal(options.out);

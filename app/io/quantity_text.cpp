@@ -16,11 +16,15 @@ struct Unit {
 };
 
 constexpr int kSignificantDigits = 3;
+constexpr double kSmallestShown = 1e-3;  ///< of the smallest unit; less is how sums are rounded
 
 /// \param units the smallest first
 std::string in_fitting_unit(double value, std::span<const Unit> units, std::string_view si_name) {
   if (value == 0) return fmt::format("0 {}", si_name);
   if (!std::isfinite(value)) return std::string(kNotKnown);
+  if (std::abs(value) < kSmallestShown * units.front().si) {
+    return fmt::format("<{} {}", kSmallestShown, units.front().name);
+  }
   // What counts is the size that is shown: 999.7 J are 1.00 kJ.
   const auto size = [&](const Unit& unit) {
     return static_cast<int>(

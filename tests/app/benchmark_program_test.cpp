@@ -146,7 +146,7 @@ TEST(BenchmarkProgram, ShardsMergeIntoWhatOneMachineFinds) {
   EXPECT_EQ(outcomes(folder, "merged"), outcomes(folder, "whole"));
 }
 
-TEST(BenchmarkProgram, AMergeSaysThatAShardHasNotCome) {
+TEST(BenchmarkProgram, AMergeSaysWhichShardIsNotThere) {
   const ScratchFolder folder;
   write_suite(folder, 2);
   for (const int shard : {1, 3}) {
@@ -161,6 +161,23 @@ TEST(BenchmarkProgram, AMergeSaysThatAShardHasNotCome) {
   ASSERT_EQ(merge.status, 0) << merge.errors;
   EXPECT_NE(merge.errors.find("4 of 12 runs are missing (the first: "), std::string::npos)
       << merge.errors;
+  EXPECT_NE(merge.errors.find("no folder is of shard 2/3"), std::string::npos) << merge.errors;
+  EXPECT_EQ(nlohmann::json::parse(folder.read("merged/benchmark.json")).at("interrupted"), true);
+}
+
+TEST(BenchmarkProgram, AMergeMissesAShardThatAloneHasASeed) {
+  const ScratchFolder folder;
+  write_flat_scenario(folder);
+  folder.write("suite.yaml",
+               "name: two\nscenarios: [scenario.yaml]\nplanners: [RRT]\nseeds: 2\ntime_s: 30\n"
+               "iterations: 60\nsoil_draws: 2\n");
+  ASSERT_EQ(run_program(folder, benchmark_arguments(folder, "part", "--shard 1/2 --quiet")).status,
+            0);
+  const ProgramRun merge = run_program(
+      folder,
+      fmt::format("benchmark merge '{}' --out '{}'", folder.path("part"), folder.path("merged")));
+  ASSERT_EQ(merge.status, 0) << merge.errors;
+  EXPECT_NE(merge.errors.find("no folder is of shard 2/2"), std::string::npos) << merge.errors;
   EXPECT_EQ(nlohmann::json::parse(folder.read("merged/benchmark.json")).at("interrupted"), true);
 }
 

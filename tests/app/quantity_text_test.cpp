@@ -29,6 +29,12 @@ TEST(QuantityText, NothingIsNothingAndWhatIsNotKnownADash) {
   EXPECT_EQ(energy_text(std::numeric_limits<double>::quiet_NaN()), kNotKnown);
 }
 
+TEST(QuantityText, WhatRoundingLeavesHasNoDigits) {
+  EXPECT_EQ(length_text(7.11e-15), "<0.001 mm");
+  EXPECT_EQ(energy_text(-7.11e-15), "<0.001 mJ");
+  EXPECT_EQ(length_text(1.2e-6), "0.00120 mm");
+}
+
 TEST(QuantityText, NothingThatIsThereReadsAsZeroOrNeedsAFourthDigit) {
   for (double value = 1e-5; value < 1e9; value *= 1.01) {
     const std::string text = energy_text(value);

@@ -101,6 +101,20 @@ TEST_F(Journal, TakesMorePlannersAndScenarios) {
   EXPECT_NO_THROW(RunJournal(folder_, more));
 }
 
+TEST_F(Journal, KnowsWhichShardsItIsNotOf) {
+  JournalOrigin first = made_up_origin(), third = made_up_origin();
+  first.shard = {.index = 1, .count = 4};
+  third.shard = {.index = 3, .count = 4};
+  { const RunJournal journal(folder_ / "1", first); }
+  { const RunJournal journal(folder_ / "3", third); }
+  JournalContents whole = merged({read_journal(folder_ / "1"), read_journal(folder_ / "3")});
+  std::vector<int> missing;
+  for (const Shard& shard : missing_shards(whole)) missing.push_back(shard.index);
+  EXPECT_EQ(missing, (std::vector<int>{2, 4}));
+  whole.origins.push_back(made_up_origin());  // of a version that did not tell it
+  EXPECT_TRUE(missing_shards(whole).empty());
+}
+
 TEST_F(Journal, NamesFileAndLineOfWhatIsNoJournal) {
   std::filesystem::create_directories(folder_);
   std::ofstream(folder_ / "runs.jsonl") << "{\"origin\": 3}\n";
