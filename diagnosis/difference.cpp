@@ -20,6 +20,7 @@
 #include "diagnosis/names/partial_claim.h"
 #include "diagnosis/proven_difference.h"
 #include "diagnosis/recording/thresholds.h"
+#include "diagnosis/run_differences.h"
 #include "diagnosis/stages.h"
 #include "terramech/basics/interruption.h"
 
@@ -308,10 +309,19 @@ class Differing {
     found_.claims = std::move(partial.claims);
     found_.remainder_share = remainder_share(found_.claims);
     found_.after = left_by(fit);
-    found_.verdict = is_proven(found_.after)   ? Verdict::kPartly
+    const bool leaves_part = leaves_a_part(found_.after, found_.claims);
+    found_.verdict = leaves_part               ? Verdict::kPartly
                      : claimed.ids.size() == 1 ? Verdict::kNamed
                                                : Verdict::kClass;
+    if (!leaves_part && is_proven(found_.after)) tell_little_left();
     hand_out(fit);
+  }
+
+  void tell_little_left() {
+    found_.notes.push_back(fmt::format(
+        "what is claimed leaves more than noise does (p = {:.2g}), but less than {:.0f} % of the "
+        "difference: too little for a part without a name",
+        found_.after.p_value, std::floor(100 * found_.remainder_share) + 1));
   }
 
   LackOfFit left_by(const CandidateFit& fit) {
@@ -367,7 +377,7 @@ class Differing {
     found_.held_out_by = proof.families.by;
     found_.share_explained = proof.share_explained;
     found_.excess_is_clear = has_clear_excess(difference.bed(), proof);
-    found_.differences = differences(difference, fit);
+    found_.differences = run_differences(difference, fit);
     Correction correction = model_of_test(difference, t.measured, fit, proof, options_.threads);
     if (!correction.refused.empty() && adds) {
       found_.notes.push_back("the corrected model is the base model: " + correction.refused);
@@ -393,31 +403,6 @@ class Differing {
                     "deviations): it "
                     "may stand for physics that both recordings lack",
                     pulls));
-  }
-
-  /// Of every run from what test and references share, and what a fit makes of it.
-  static std::vector<RunDifference> differences(const CalibratedRecording& calibrated,
-                                                const CandidateFit& fit) {
-    const TestBed& bed = calibrated.bed();
-    const Eigen::VectorXd& base = calibrated.base().prediction;
-    std::vector<RunDifference> all;
-    for (std::size_t c = 0; c < bed.channels.size(); ++c) {
-      const ChannelData& data = bed.channels[c];
-      for (Eigen::Index i = 0; i < data.mean.size(); ++i) {
-        const Eigen::Index row = bed.offset(c) + i;
-        const std::size_t k = data.conditions[static_cast<std::size_t>(i)];
-        for (const std::size_t run : bed.conditions[k].runs) {
-          const double left = calibrated.recording().adjusted[c][run];
-          if (!std::isfinite(left)) continue;
-          all.push_back({.run = run,
-                         .channel = data.channel,
-                         .difference = left - base[row],
-                         .standard_deviation = std::sqrt(data.noise(i, i)),
-                         .by_names = fit.prediction[row] - base[row]});
-        }
-      }
-    }
-    return all;
   }
 
   const DiagnosisOptions& options_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnosis/checks/detection.h"
+#include "diagnosis/names/partial_claim.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
@@ -61,6 +62,11 @@ LackOfFit lack_of_difference(const CalibratedRecording& calibrated, const Candid
 
 bool is_proven(const LackOfFit& lack) {
   return lack.p_value < Thresholds::kDifference_p;
+}
+
+bool leaves_a_part(const LackOfFit& left, const std::vector<Claim>& claims) {
+  const bool is_told = std::ranges::all_of(claims, [](const Claim& c) { return !!c.share; });
+  return is_proven(left) && !(is_told && remainder_share(claims) < Thresholds::kWorthAnother);
 }
 
 double probability_of_no_difference(double p) {

@@ -18,6 +18,11 @@ LackOfFit lack_of_difference(const CalibratedRecording& calibrated, const Candid
 /// has no name.
 bool is_proven(const LackOfFit& lack);
 
+/// Whether what claims leave of a difference is a part of it without a name: more than noise, and a
+/// share that would be worth a further name. A form that is not quite that of the wheel leaves less
+/// of a large difference, and stands out from little noise all the same.
+bool leaves_a_part(const LackOfFit& left, const std::vector<Claim>& claims);
+
 /// The least that a p value leaves to chance, by the bound of Sellke, Bayarri & Berger (2001, The
 /// American Statistician 55, 62-71), with prior odds by which none and some are as likely as each
 /// other where a difference begins to be told.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "diagnosis/proven_difference.h"
 #include "diagnosis/recording/thresholds.h"
 #include "synthetic_bed.h"
 #include "terramech/basics/input_error.h"
@@ -62,6 +63,19 @@ TEST(Difference, ThatOneEffectMakesHasItsNameAndItsShare) {
   EXPECT_GT(claim.share->explained, 0.5);
   EXPECT_LE(claim.share->low, claim.share->explained);
   EXPECT_GE(claim.share->high, claim.share->explained);
+}
+
+/// Of a large difference a form that is nearly right leaves more than noise, and yet no part.
+TEST(Difference, LeavesAPartWithoutANameOnlyWhereThatIsProvenAndWorthAName) {
+  const LackOfFit proven{.p_value = Thresholds::kDifference_p / 10};
+  const LackOfFit chance{.p_value = 2 * Thresholds::kDifference_p};
+  const auto explaining = [](double share) {
+    return std::vector<Claim>{{.id = "slip_sinkage", .share = Share{.explained = share}}};
+  };
+  EXPECT_FALSE(leaves_a_part(proven, explaining(1 - 0.5 * Thresholds::kWorthAnother)));
+  EXPECT_TRUE(leaves_a_part(proven, explaining(1 - 2 * Thresholds::kWorthAnother)));
+  EXPECT_FALSE(leaves_a_part(chance, explaining(0.5)));
+  EXPECT_TRUE(leaves_a_part(proven, {{.id = "slip_sinkage"}})) << "no share was measured";
 }
 
 /// Root mean square of a channel of the test less what the corrected model says of it without it,
