@@ -57,12 +57,14 @@ class Diagnosing {
     tell("testing for lack of fit", 0.05);
     detect();
     tell("locating the mismatch", 0.1);
-    if (rejected_) locate_mismatch();
+    if (rejected_) locate_mismatch(calibrated_.remainder_of(calibrated_.base()));
     complete_ = found_;
     tell("scoring what may be wrong", 0.15);
     const bool located = rejected_;
     look_for_names();
-    if (rejected_ && !located) locate_mismatch();
+    if (rejected_ && !located) {
+      locate_mismatch(calibrated_.remainder_of(calibrated_.base()));
+    }
     found_.ranking = ranking();
     complete_ = found_;
     tell("proving it on held-out conditions", 0.85);
@@ -134,7 +136,7 @@ class Diagnosing {
         lack_of_fit(recording, fixed, options_.seed, Thresholds::kConsistent_p);
     consistent_ = at_means.f <= at_means.critical;
     if (consistent_) return;
-    if (!soil_explains_something()) {
+    if (!calibrated_.soil_explains_something()) {
       consistent_ = true;
       found_.notes.push_back(
           fmt::format("noise alone misfits the prior soil numbers as far with a probability of "
@@ -169,33 +171,21 @@ class Diagnosing {
     });
   }
 
-  /// Whether calibrated soil numbers gain more over their prior means, the pulls on them counted,
-  /// than numbers that are free within their priors gain of noise: by two standard deviations.
-  bool soil_explains_something() const {
-    const TestBed& bed = calibrated_.bed();
-    const Discrepancy& discrepancy = calibrated_.problem().discrepancy;
-    const CandidateFit& base = calibrated_.base();
-    const std::vector<std::size_t> noise_only(bed.channels.size(), 0);
-    const auto misfit = [&](const Eigen::VectorXd& prediction) {
-      return misfit_of(bed, discrepancy, bed.measured() - prediction, noise_only);
-    };
-    const double gain = misfit(calibrated_.prediction_at_prior_means()) - misfit(base.prediction) -
-                        base.x.squaredNorm();
-    const double told = static_cast<double>(base.x.size()) - base.evidence.covariance.trace();
-    return gain > told + 2 * std::sqrt(2 * std::max(told, 0.0));
-  }
-
   /// Where replicates follow a course, the part of it in which a channel is off comes first.
-  void locate_mismatch() {
+  void locate_mismatch(const FitRemainder& off) {
     const CondensedRecording& recording = calibrated_.recording();
-    found_.where =
-        locate(recording, calibrated_.remainder_of(calibrated_.base()), options_.seed + 1);
+    found_.where = locate(recording, off, options_.seed + 1);
     if (!recording.course || recording.course->in_place()) return;
     if (auto when = last_part_of(recording)) found_.where.insert(found_.where.begin(), *when);
   }
 
-  /// What is claimed says itself when or on which stretch it acts: nearer than a scan does.
+  /// What is claimed says itself when or on which stretch it acts: nearer than a scan does. Soil
+  /// that was fitted to an instrument's fault takes part of it up and is off in sound channels: the
+  /// fault lies where what was measured is off the soil fitted beside it.
   void take_places_of(const CandidateFit& fit) {
+    found_.where_beside_fault = std::ranges::any_of(
+        fit.candidate.effects, [](const Effect& e) { return is_instrument(e.id); });
+    if (found_.where_beside_fault) locate_mismatch(calibrated_.off_soil_beside(fit));
     const std::vector<MismatchRegion> places = claimed_places(calibrated_.problem(), fit);
     found_.where.insert(found_.where.begin(), places.begin(), places.end());
   }
@@ -262,6 +252,7 @@ class Diagnosing {
       const bool single = std::ranges::all_of(
           claim->names, [](const NameClass& names) { return names.ids.size() == 1; });
       found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
+      if (!single) members_ = members_of(scored_, claim->names);
       measure_shares(calibrated_, scored_, claim->fit, options_.threads, found_.claims);
       found_.remainder_share = remainder_share(found_.claims);
       take_places_of(claim->fit);
@@ -407,9 +398,9 @@ class Diagnosing {
     return all;
   }
 
-  /// Between the names of a class that explains part of the mismatch, else between the likeliest.
+  /// Between the names of a class, else between the likeliest.
   std::vector<Experiment> experiments() const {
-    constexpr std::size_t kMostRivals = 4;
+    constexpr std::size_t kMostRivals = Thresholds::kLargestClass;
     std::vector<ScoredId> rivals = members_;
     for (const ScoredId& s : scored_) {
       if (!members_.empty() || rivals.size() == kMostRivals) break;
@@ -424,7 +415,7 @@ class Diagnosing {
   std::vector<Effect> effects_, effects_in_part_;
   std::vector<ScoredId> scored_;
   std::vector<ScoredCandidate> partial_ranking_;
-  std::vector<ScoredId> members_;  // of the class that explains most of it in part
+  std::vector<ScoredId> members_;  // of the class, where one is claimed
   bool stands_out_ = false;        // the residual lies along some effect farther than noise goes
   bool unfit_ = false;             // lack of fit, or soil numbers that calibration pulled too far
   bool beyond_doubt_ = false;      // unfit, even where no correction proves itself

@@ -81,7 +81,7 @@ struct ScoredCandidate {
   double evidence_nats = 0;  ///< log marginal likelihood over that of `parameters`
 };
 
-/// A part of the operating space in which measurement and calibrated model differ.
+/// A part of the operating space in which measurement and fitted model differ.
 struct MismatchRegion {
   Channel channel = Channel::kFx;
   std::map<std::string, std::array<double, 2>> region;  ///< column: from, to, in the file's unit
@@ -169,6 +169,7 @@ struct Diagnosis {
   std::vector<ScoredCandidate> ranking;  ///< sums to 1
   NameSupport support;
   std::vector<MismatchRegion> where;  ///< strongest first
+  bool where_beside_fault = false;    ///< off the soil that was fitted beside an instrument's fault
   std::vector<ChannelFit> fit;
   std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
   double share_explained = 0;

@@ -137,8 +137,16 @@ std::string experiment_words(const Diagnosis& diagnosis) {
   return fmt::format(" To decide, measure at {}.", at);
 }
 
+/// "45 %"; what is nearly nothing or nearly all is not told as that.
+std::string percent_words(double share) {
+  constexpr double kRounds = 0.005;
+  if (share > 0 && share < kRounds) return "under 1 %";
+  if (share < 1 && share >= 1 - kRounds) return "over 99 %";
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
 std::string share_words(const Share& share) {
-  std::string text = fmt::format("{:.0f} %", 100 * share.explained);
+  std::string text = percent_words(share.explained);
   if (share.high - share.low > 0.02) {
     text += fmt::format(" ({:.0f} to {:.0f} % over ways to hold out)", 100 * share.low,
                         100 * share.high);
@@ -171,7 +179,7 @@ std::string partial_words(const Diagnosis& diagnosis) {
     what += fmt::format("{}{} explains {} of it", what.empty() ? "" : "; ",
                         list_of(names_of(claim)), share_words(claim.share.value_or(Share{})));
   }
-  return what + fmt::format("; {:.0f} % has no name.", 100 * diagnosis.remainder_share);
+  return what + fmt::format("; {} has no name.", percent_words(diagnosis.remainder_share));
 }
 
 /// What the mismatch is to the measured: one of the model, or one between two recordings.
@@ -244,11 +252,22 @@ std::string named_words(const Diagnosis& diagnosis) {
                     100 * std::min(left, 1.0));
 }
 
+/// A constant drag adds to the torque of every run what a zero adds, on whatever soil.
+std::string lifted_wheel_words() {
+  return " To decide, lift the wheel and read its torque at rest and turning: a bias is there at "
+         "rest too, a bearing drags only while it turns.";
+}
+
 /// What would part names that fit alike; empty where there are none.
 std::string class_words(const Diagnosis& diagnosis) {
   const bool apart = std::ranges::all_of(
       diagnosis.claims, [](const Claim& claim) { return claim.equivalent.empty(); });
-  return apart ? "" : " These data cannot tell the names apart." + experiment_words(diagnosis);
+  if (apart) return "";
+  const bool is_zero_or_drag = std::ranges::any_of(diagnosis.claims, [](const Claim& claim) {
+    return claim.is_of("sensor_bias") && claim.is_of("bearing_drag");
+  });
+  return " These data cannot tell the names apart." +
+         (is_zero_or_drag ? lifted_wheel_words() : experiment_words(diagnosis));
 }
 
 /// Where the run before is all that replicates tell beside the soil.
@@ -291,12 +310,17 @@ std::string no_difference_words(double p_value) {
       p_value);
 }
 
+/// What the places of a mismatch are off.
+std::string_view held_against(const Diagnosis& diagnosis) {
+  if (!diagnosis.references.empty()) return "reference";
+  if (diagnosis.where_beside_fault) return "model with its soil fitted beside the fault";
+  return "calibrated model";
+}
+
 std::string words_of(const Diagnosis& diagnosis) {
   std::string where;
   if (!diagnosis.where.empty()) {
-    where = mismatch_words(diagnosis.where.front(),
-                           diagnosis.references.empty() ? "calibrated model" : "reference") +
-            "; ";
+    where = mismatch_words(diagnosis.where.front(), held_against(diagnosis)) + "; ";
   }
   switch (diagnosis.verdict) {
     case Verdict::kConsistent:

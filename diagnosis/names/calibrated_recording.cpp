@@ -1,5 +1,6 @@
 #include "diagnosis/names/calibrated_recording.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -43,6 +44,25 @@ Eigen::VectorXd CalibratedRecording::prediction_at_prior_means() const {
 
 FitRemainder CalibratedRecording::remainder_of(const CandidateFit& fit) const {
   return {.residual = bed().measured() - fit.prediction, .x = fit.x, .jacobian = fit.jacobian};
+}
+
+FitRemainder CalibratedRecording::off_soil_beside(const CandidateFit& fit) const {
+  const Eigen::Index numbers = base_.x.size();
+  const Eigen::VectorXd x = fit.x.head(numbers);
+  return {.residual = bed().measured() - predict(bed(), soil_, {}, x).value(),
+          .x = x,
+          .jacobian = fit.jacobian.leftCols(numbers)};
+}
+
+bool CalibratedRecording::soil_explains_something() const {
+  const std::vector<std::size_t> noise_only(bed().channels.size(), 0);
+  const auto misfit = [&](const Eigen::VectorXd& prediction) {
+    return misfit_of(bed(), discrepancy_, bed().measured() - prediction, noise_only);
+  };
+  const double gain =
+      misfit(prediction_at_prior_means()) - misfit(base_.prediction) - base_.x.squaredNorm();
+  const double told = static_cast<double>(base_.x.size()) - base_.evidence.covariance.trace();
+  return gain > told + 2 * std::sqrt(2 * std::max(told, 0.0));
 }
 
 Estimate CalibratedRecording::soil_estimate(const CandidateFit& fit, std::size_t number) const {

@@ -39,6 +39,12 @@ class CalibratedRecording {
 
   Eigen::VectorXd prediction_at_prior_means() const;
   FitRemainder remainder_of(const CandidateFit& fit) const;
+  /// What was measured against the soil of a fit, without the effects that it was fitted beside.
+  FitRemainder off_soil_beside(const CandidateFit& fit) const;
+
+  /// Whether calibrated soil numbers gain more over their prior means, the pulls on them counted,
+  /// than numbers that are free within their priors gain of noise: by two standard deviations.
+  bool soil_explains_something() const;
 
   /// A fitted soil number in its file's unit.
   Estimate soil_estimate(const CandidateFit& fit, std::size_t number) const;

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+
+#include "diagnosis/bed/whitening.h"
 
 namespace regoplan {
 namespace {
@@ -33,6 +37,57 @@ NameClass cover(const std::vector<Weighted>& candidates, double sure) {
     chosen.probability += best->second;
   }
   return chosen;
+}
+
+bool holds_one_of(const ScoredId& scored, const NameClass& names) {
+  return std::ranges::any_of(
+      names.ids, [&](const std::string& id) { return scored.account.effects.contains(id); });
+}
+
+/// That a name of class `k` is at work, given the classes before it.
+double probability_of(const std::vector<ScoredId>& scored, const std::vector<NameClass>& claimed,
+                      std::size_t k) {
+  double given = 0, both = 0;
+  for (const ScoredId& s : scored) {
+    const auto holds = [&](const NameClass& names) { return holds_one_of(s, names); };
+    if (!std::all_of(claimed.begin(), claimed.begin() + static_cast<std::ptrdiff_t>(k), holds)) {
+      continue;
+    }
+    given += s.probability;
+    if (holds(claimed[k])) both += s.probability;
+  }
+  return both / given;
+}
+
+/// The one id of a candidate in which another of as many differs from it; empty where more do.
+std::string only_other_id(const std::set<std::string>& ids, const std::set<std::string>& than) {
+  std::vector<std::string> others;
+  std::ranges::set_difference(ids, than, std::back_inserter(others));
+  return ids.size() == than.size() && others.size() == 1 ? others.front() : "";
+}
+
+std::size_t effect_of(const CandidateFit& fit, const std::string& id) {
+  const auto found = std::ranges::find(fit.candidate.effects, id, &Effect::id);
+  return static_cast<std::size_t>(found - fit.candidate.effects.begin());
+}
+
+/// Whether an effect of a fit does, with numbers that are usual for it, what an effect of another
+/// does, nearer than one prediction beats another. What its prior kept it from is no difference.
+bool may_do_the_same(const FitProblem& problem, const CandidateFit& fit, std::size_t effect,
+                     const CandidateFit& than, std::size_t other) {
+  const auto own = part_of(problem.bed, problem.soil, fit, effect);
+  const auto others = part_of(problem.bed, problem.soil, than, other);
+  if (!own || !others) return false;
+  const Eigen::Index first = first_of(problem.soil, fit.candidate, effect);
+  const auto numbers = static_cast<Eigen::Index>(fit.candidate.effects[effect].coordinates.size());
+  const NoiseFactors noise(problem.bed);
+  const Eigen::VectorXd apart = whitened(problem.bed, noise, Eigen::VectorXd(*others - *own));
+  const Eigen::MatrixXd columns =
+      whitened(problem.bed, noise, Eigen::MatrixXd(fit.jacobian.middleCols(first, numbers)));
+  const Eigen::VectorXd step = columns.completeOrthogonalDecomposition().solve(apart);
+  const Eigen::VectorXd x = fit.x.segment(first, numbers) + step;
+  return (apart - columns * step).norm() < Thresholds::kClear_errors &&
+         x.lpNorm<Eigen::Infinity>() < Thresholds::kPlausible;
 }
 
 }  // namespace
@@ -81,6 +136,39 @@ const ScoredId* best_of(const std::vector<ScoredId>& scored,
     if (best == nullptr || s.probability > best->probability) best = &s;
   }
   return best;
+}
+
+void add_names_alike(const FitProblem& problem, const std::vector<ScoredId>& scored,
+                     const ScoredId& best, std::vector<NameClass>& claimed) {
+  for (const ScoredId& s : scored) {
+    const std::string own = only_other_id(best.account.effects, s.account.effects);
+    const std::string other = only_other_id(s.account.effects, best.account.effects);
+    const auto names = std::ranges::find_if(claimed, [&](const NameClass& one) {
+      return std::ranges::find(one.ids, own) != one.ids.end();
+    });
+    const bool is_named = std::ranges::any_of(claimed, [&](const NameClass& one) {
+      return std::ranges::find(one.ids, other) != one.ids.end();
+    });
+    if (own.empty() || names == claimed.end() || is_named || s.given_up) continue;
+    if (names->ids.size() == Thresholds::kLargestClass) continue;
+    if (s.score < best.score - Thresholds::kNearForm_nats) continue;
+    const bool is_alike = may_do_the_same(problem, s.fit, effect_of(s.fit, other), best.fit,
+                                          effect_of(best.fit, own));
+    if (!is_alike || !objection(problem, s.fit).empty()) continue;
+    names->ids.push_back(other);
+    names->probability =
+        probability_of(scored, claimed, static_cast<std::size_t>(names - claimed.begin()));
+  }
+}
+
+std::vector<ScoredId> members_of(const std::vector<ScoredId>& scored,
+                                 const std::vector<NameClass>& claimed) {
+  std::vector<ScoredId> members;
+  for (const ScoredId& s : scored) {
+    if (members.size() == Thresholds::kLargestClass) break;
+    if (!s.given_up && is_of(s, claimed)) members.push_back(s);
+  }
+  return members;
 }
 
 std::string objection(const FitProblem& problem, const CandidateFit& fit, double plausible_fault) {

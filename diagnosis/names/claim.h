@@ -23,6 +23,18 @@ bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed);
 /// The best scored candidate whose every effect is of one of the classes.
 const ScoredId* best_of(const std::vector<ScoredId>& scored, const std::vector<NameClass>& claimed);
 
+/// Adds to the names of a claim what may do the same in their place, as far as the recorded
+/// channels tell: some usual numbers of it do, nearer than one prediction beats another, its
+/// evidence is as near as that of two forms of one name (Thresholds::kNearForm_nats), and nothing
+/// speaks against it. Evidence counts there no more than how many numbers each has and how usual
+/// they are. \param best the claim's leading names, fitted
+void add_names_alike(const FitProblem& problem, const std::vector<ScoredId>& scored,
+                     const ScoredId& best, std::vector<NameClass>& claimed);
+
+/// Candidates that have one name of each class, the likeliest first: as many as a class may have.
+std::vector<ScoredId> members_of(const std::vector<ScoredId>& scored,
+                                 const std::vector<NameClass>& claimed);
+
 /// Why a fitted claim is not believed; empty where it is: an amplitude or a soil number far from
 /// what is usual, or a channel that the effect should move and that moved the other way beyond its
 /// noise.

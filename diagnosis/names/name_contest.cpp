@@ -132,6 +132,7 @@ std::optional<ProvenClaim> NameContest::decide() {
       doubt = fmt::format("what it does is known exactly, and leaves {:.0f} % of the excess misfit",
                           100 * leftover.share);
     } else {
+      add_names_alike(problem, scored_, *best, claimed);
       if (is_rough) share_with_unlisted(claimed);
       return ProvenClaim{std::move(claimed), fit, left, std::move(proof)};
     }

@@ -183,7 +183,7 @@ Eigen::VectorXd noise_variance(const TestBed& bed) {
 std::vector<Experiment> next_experiments(const FitProblem& problem,
                                          const std::vector<ScoredId>& rivals) {
   constexpr std::size_t kMostShown = 6;
-  constexpr double kNames_nats = 0.5;  // pairs parted at least so far are listed
+  constexpr double kNames_nats = 0.5;  // pairs parted at least so far count as parted
   std::vector<Experiment> experiments;
   if (rivals.size() < 2) return experiments;
   const std::vector<double> positions_m = positions_to_try(problem.bed, rivals);
@@ -210,6 +210,7 @@ std::vector<Experiment> next_experiments(const FitProblem& problem,
         if (gain > kNames_nats) parted.insert({rivals[a].id(), rivals[b].id()});
       }
     }
+    if (parted.empty()) continue;
     Experiment experiment{.further_sensor = trial.sensor, .expected_gain_nats = sum / pairs};
     if (!trial.sensor) {
       const Condition& at = trial.bed.conditions.front();

@@ -215,6 +215,38 @@ TEST(Diagnose, AnAmplifierOnAnotherRangeIsASensorHoweverFarOff) {
   EXPECT_TRUE(found.corrected_model.mechanisms.empty());
 }
 
+/// Soil fitted to torques that read too high pulls sound channels off; none of them is blamed.
+TEST(Diagnose, WhereASensorIsNamedItsChannelIsWhatIsOff) {
+  BedPlan plan;
+  plan.instruments = [](WheelRun& run) { run.measured[2] *= 1.2; };
+  const Diagnosis found = diagnosed({}, 5, plan);
+  ASSERT_TRUE(names(found, "sensor_gain")) << found.sentence;
+  ASSERT_FALSE(found.where.empty());
+  for (const MismatchRegion& at : found.where) EXPECT_EQ(at.channel, Channel::kTorque);
+  EXPECT_TRUE(found.sentence.starts_with("Torque lies")) << found.sentence;
+  EXPECT_NE(found.sentence.find("the model with its soil fitted beside the fault"),
+            std::string::npos)
+      << found.sentence;
+}
+
+/// Torques alone do not tell a zero from a drag, nor would forces that neither moves.
+TEST(Diagnose, AConstantTorqueAmongTorquesAloneIsAZeroOrADrag) {
+  TrueWheel wheel;
+  wheel.torque_nm = [](const WheelRun&, double) { return 0.8; };
+  const DiagnosisSetup setup = simulant_setup();
+  for (const std::uint64_t seed : {5, 6, 7}) {
+    Recording recording = record(wheel, setup, setup.soil.mean, {}, seed);
+    recording.channels = {Channel::kTorque};
+    const Diagnosis found = diagnose(recording, setup);
+    EXPECT_EQ(found.verdict, Verdict::kClass) << found.sentence;
+    EXPECT_TRUE(names(found, "sensor_bias") && names(found, "bearing_drag")) << found.sentence;
+    EXPECT_NE(found.sentence.find("lift the wheel"), std::string::npos) << found.sentence;
+    for (const Experiment& next : found.next_experiments) {
+      EXPECT_FALSE(next.further_sensor) << name(*next.further_sensor);
+    }
+  }
+}
+
 TEST(Diagnose, ASensorTurnedAboutTheVerticalIsASensorAndToldByItsAngle) {
   constexpr double kTurn_rad = 0.12;
   BedPlan plan;

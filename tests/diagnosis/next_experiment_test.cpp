@@ -124,6 +124,14 @@ TEST(NextExperiment, AZoneIsToldFromOtherNamesWhereThesePartMost) {
               0.02 * best->expected_gain_nats);
 }
 
+TEST(NextExperiment, NothingIsProposedThatPartsNoNames) {
+  const DiagnosisSetup setup = simulant_setup();
+  const Recording raw = record({}, setup, setup.soil.mean, {.conditions = 20}, 2);
+  const CalibratedBed bed(raw);
+  const ScoredId one = fitted(bed, raw, "slip_sinkage");
+  EXPECT_TRUE(next_experiments(bed.problem(), {one, one}).empty());
+}
+
 TEST(NextExperiment, OneNameAloneNeedsNone) {
   const DiagnosisSetup setup = simulant_setup();
   const Recording raw = record({}, setup, setup.soil.mean, {.conditions = 20}, 2);

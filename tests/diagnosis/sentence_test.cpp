@@ -169,6 +169,28 @@ TEST(Sentence, OfAClassNamesAllAndWhatWouldDecide) {
   expect_says(sentence_of(diagnosis), {"Measure torque to decide"});
 }
 
+TEST(Sentence, OfAZeroOrADragAsksForTheLiftedWheel) {
+  Diagnosis diagnosis = named();
+  diagnosis.verdict = Verdict::kClass;
+  diagnosis.claims.front() = {.id = "bearing_drag", .equivalent = {"sensor_bias"}};
+  expect_says(sentence_of(diagnosis), {"lift the wheel and read its torque at rest and turning"});
+}
+
+TEST(Sentence, OfAFaultHoldsWhatWasMeasuredAgainstTheSoilFittedBesideIt) {
+  Diagnosis diagnosis = named();
+  diagnosis.where_beside_fault = true;
+  expect_says(sentence_of(diagnosis), {"above the model with its soil fitted beside the fault at"});
+}
+
+TEST(Sentence, InPartTellsNoShareAsAllNorAsNothing) {
+  Diagnosis diagnosis = named();
+  diagnosis.verdict = Verdict::kPartly;
+  diagnosis.claims.front().share = Share{.explained = 0.9984, .low = 0.997, .high = 0.9984};
+  diagnosis.remainder_share = 0.0016;
+  expect_says(sentence_of(diagnosis),
+              {"slip_sinkage explains over 99 % of it", "under 1 % has no name"});
+}
+
 TEST(Sentence, OfWrongSoilNumbersNamesTheFarthest) {
   Diagnosis diagnosis{.verdict = Verdict::kParameters};
   diagnosis.soil = {
