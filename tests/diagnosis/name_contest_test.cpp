@@ -58,7 +58,9 @@ TEST_F(NameContestOf, AnEffectThatIsAtWorkIsClaimedWithItsProof) {
 }
 
 TEST_F(NameContestOf, ANameThatLeavesWhatIsWorthACorrectionIsHalfAsLikely) {
-  hold(digging());  // in a form that is not carried: what it leaves stands out of so little noise
+  // in a form that is not carried: what it leaves stands out of so little noise
+  hold(digging(), {.conditions = 24}, {"slip_sinkage", "shear_hump"},
+       [](const Effect& effect) { return effect.form == "power"; });
   weigh(scored_, PlainModel::kRefuted);
   NameContest contest(*calibrated_, scored_, PlainModel::kRefuted, 1, 1);
   const auto claim = contest.decide();
