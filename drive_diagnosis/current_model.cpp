@@ -2,12 +2,13 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
-#include <random>
 #include <set>
+#include <utility>
 
 #include "drive_diagnosis/instruments/sensor_checks.h"
 #include "drive_diagnosis/recording/robust_statistics.h"
@@ -21,6 +22,20 @@ constexpr int kTerms = CurrentModel::kTerms;
 using Windows = std::vector<CurrentWindow>;
 /// Which windows go together: of one drive, one day, one stretch of a drive.
 using Groups = std::vector<int>;
+
+/// In how many standard deviations a share of numbers lies below, of one told by so many parts.
+double t_quantile(double share, std::size_t parts) {
+  return boost::math::quantile(boost::math::students_t(static_cast<double>(parts) - 1), share);
+}
+
+/// The standard deviation of a number by its values without one cluster each.
+double jackknife_std(const std::vector<double>& values) {
+  const auto n = static_cast<double>(values.size());
+  double mean = 0, squares = 0;
+  for (const double value : values) mean += value / n;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares * (n - 1) / n);
+}
 
 /// Least squares with a prior of 100 A about 0 on every term: nothing to windows that say something
 /// of it, and 0 for what they do not show at all.
@@ -112,6 +127,13 @@ Groups groups_of(const Windows& windows, const std::vector<DriveRecording>& driv
   return groups;
 }
 
+/// 1 of windows outside a group.
+std::vector<double> weights_without(const Groups& groups, int left_out) {
+  std::vector<double> weights;
+  for (const int group : groups) weights.push_back(group == left_out ? 0 : 1);
+  return weights;
+}
+
 struct Predictions {
   std::vector<std::array<double, 2>> model_a, constant_a;
 };
@@ -122,8 +144,7 @@ Predictions held_out_predictions(const Windows& windows, const Groups& groups,
                      std::vector<std::array<double, 2>>(windows.size())};
   for (const int group : std::set<int>(groups.begin(), groups.end())) {
     throw_if_stopped(stop);
-    std::vector<double> weights(windows.size());
-    for (std::size_t i = 0; i < windows.size(); ++i) weights[i] = groups[i] == group ? 0 : 1;
+    const std::vector<double> weights = weights_without(groups, group);
     const CurrentModel model = fit(windows, weights);
     const std::array<double, 2> constant = mean_currents(windows, weights);
     for (std::size_t i = 0; i < windows.size(); ++i) {
@@ -189,6 +210,28 @@ HeldOutCurrents judge(const Windows& windows, const Predictions& predicted) {
     result.median_constant_error = median_value(constant_errors);
   }
   return result;
+}
+
+/// Whether less is left of the model than of a constant, by more than a standard error over
+/// clusters of windows, which err alike each: what one of them alone shows is no more than that.
+bool is_beyond_chance(const Windows& windows, const Predictions& predicted,
+                      const Groups& clusters) {
+  std::map<int, double> gains;
+  double sum = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    double gain = 0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double measured = windows[i].current_a.at(side);
+      gain += std::pow(predicted.constant_a[i].at(side) - measured, 2) -
+              std::pow(predicted.model_a[i].at(side) - measured, 2);
+    }
+    gains[clusters[i]] += gain;
+    sum += gain;
+  }
+  const auto n = static_cast<double>(gains.size());
+  double squares = 0;
+  for (const auto& [cluster, gain] : gains) squares += std::pow(gain - sum / n, 2);
+  return sum > std::sqrt(squares * n / (n - 1));
 }
 
 double pitch_offset_rad(const std::vector<Mounting>& mountings, const std::string& day) {
@@ -283,34 +326,25 @@ Windows steady_windows(const std::vector<DriveRecording>& drives,
   return chosen;
 }
 
-/// Draws whole clusters of windows again and again (the drives; of a few drives, their stretches).
-void draw_excess(const Windows& windows, const Groups& clusters, std::uint64_t seed,
-                 const std::stop_token& stop, CurrentDiagnosis& result) {
-  const std::set<int> distinct(clusters.begin(), clusters.end());
-  const std::vector<int> ids(distinct.begin(), distinct.end());
-  result.clusters = static_cast<int>(ids.size());
-  std::mt19937_64 random(seed);
-  constexpr int kDraws = 400;
+/// What is fitted without one cluster of windows at a time (a drive; of a few drives, a stretch)
+/// tells how far it errs. Drawn clusters would not: of a few, most draws lack what tells a term.
+void estimate_excess(const Windows& windows, const Groups& clusters, const std::stop_token& stop,
+                     CurrentDiagnosis& result) {
   std::vector<double> excess, ratio;
-  for (int draw = 0; draw < kDraws; ++draw) {
+  for (const int cluster : std::set<int>(clusters.begin(), clusters.end())) {
     throw_if_stopped(stop);
-    std::map<int, double> times;
-    for (std::size_t i = 0; i < ids.size(); ++i) times[ids[random() % ids.size()]] += 1;
-    std::vector<double> weights;
-    for (const int cluster : clusters) {
-      const auto found = times.find(cluster);
-      weights.push_back(found == times.end() ? 0 : found->second);
-    }
-    const CurrentModel drawn = fit(windows, weights, result.model.half_track_m);
-    excess.push_back(drawn.level_a(0) - drawn.level_a(1));
-    ratio.push_back(drawn.gravity_a(0) / drawn.gravity_a(1));
+    const CurrentModel model =
+        fit(windows, weights_without(clusters, cluster), result.model.half_track_m);
+    excess.push_back(model.level_a(0) - model.level_a(1));
+    ratio.push_back(model.gravity_a(0) / model.gravity_a(1));
   }
-  const auto spread = [](const std::vector<double>& values) {
-    return (quantile_value(values, 0.8413) - quantile_value(values, 0.1587)) / 2;
-  };
-  result.left_excess_a = {result.model.level_a(0) - result.model.level_a(1), spread(excess)};
-  result.left_excess_ci95_a = {quantile_value(excess, 0.025), quantile_value(excess, 0.975)};
-  result.gravity_ratio = {result.model.gravity_a(0) / result.model.gravity_a(1), spread(ratio)};
+  result.clusters = static_cast<int>(excess.size());
+  const double excess_a = result.model.level_a(0) - result.model.level_a(1);
+  result.left_excess_a = {excess_a, jackknife_std(excess)};
+  const double reach_a = t_quantile(0.975, excess.size()) * result.left_excess_a.std;
+  result.left_excess_ci95_a = {excess_a - reach_a, excess_a + reach_a};
+  result.gravity_ratio = {result.model.gravity_a(0) / result.model.gravity_a(1),
+                          jackknife_std(ratio)};
 }
 
 /// What would do as well as a dragging side.
@@ -364,19 +398,19 @@ double CurrentModel::current_a(int side, const CurrentWindow& window) const {
   return sum;
 }
 
-std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecording>& drives,
-                                                  const std::vector<DriveWindow>& windows,
-                                                  const std::vector<Mounting>& mountings,
-                                                  bool sides_swapped, std::uint64_t seed,
-                                                  const std::stop_token& stop) {
+CurrentComparison diagnose_currents(const std::vector<DriveRecording>& drives,
+                                    const std::vector<DriveWindow>& windows,
+                                    const std::vector<Mounting>& mountings, bool sides_swapped,
+                                    const std::stop_token& stop) {
   const Windows chosen = steady_windows(drives, windows, mountings, sides_swapped);
-  constexpr std::size_t kLeast = 30;
-  if (chosen.size() < kLeast) return {};
-  CurrentDiagnosis result;
-  result.windows = static_cast<int>(chosen.size());
-  result.model = fit(chosen, std::vector<double>(chosen.size(), 1.0));
   std::string kind;
   const Groups groups = groups_of(chosen, drives, windows, kind);
+  const std::size_t parts = std::set<int>(groups.begin(), groups.end()).size();
+  const CurrentsUsed used{static_cast<int>(chosen.size()), static_cast<int>(parts)};
+  if (!used.are_enough()) return {.used = used, .currents = {}};
+  CurrentDiagnosis result;
+  result.windows = used.windows;
+  result.model = fit(chosen, std::vector<double>(chosen.size(), 1.0));
   const Predictions predicted = held_out_predictions(chosen, groups, stop);
   result.held_out = judge(chosen, predicted);
   result.held_out.held_out = kind;
@@ -385,10 +419,11 @@ std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecordi
   if (kind == "day") {
     for (std::size_t i = 0; i < chosen.size(); ++i) clusters[i] = static_cast<int>(chosen[i].drive);
   }
-  draw_excess(chosen, clusters, seed, stop, result);
+  result.held_out.beats_constant = is_beyond_chance(chosen, predicted, clusters);
+  estimate_excess(chosen, clusters, stop, result);
   result.standing_excess_a = standing_excess(drives, windows, sides_swapped);
-  name_excess(result);
-  return result;
+  if (result.held_out.beats_constant) name_excess(result);
+  return {.used = used, .currents = std::move(result)};
 }
 
 }  // namespace regoplan

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -57,6 +56,7 @@ struct HeldOutCurrents {
   std::string held_out;  ///< `day`, `drive` or `stretch`: what was left out at a time
   std::array<double, 2> rms_a{}, constant_rms_a{};
   double both_rms_a = 0, both_constant_rms_a = 0;
+  bool beats_constant = false;  ///< by more than a standard error over drives or stretches
   struct Charge {
     std::size_t drive = 0;
     double measured_ah = 0, predicted_ah = 0, constant_ah = 0;
@@ -69,26 +69,40 @@ struct HeldOutCurrents {
 struct CurrentDiagnosis {
   CurrentModel model;
   HeldOutCurrents held_out;
-  /// Left minus right straight ahead on the level, forwards, over drawn drives.
+  /// Left minus right straight ahead on the level, forwards; errors by leaving out a drive at a
+  /// time, of a few drives a stretch.
   DriveEstimate left_excess_a;
   std::array<double, 2> left_excess_ci95_a{};
   double level_mean_a = 0;      ///< of both sides
   DriveEstimate gravity_ratio;  ///< left over right, 1 where both motors are alike
   std::optional<DriveEstimate> standing_excess_a;  ///< left minus right at rest
-  bool side_drag = false;               ///< the excess is beyond chance and the spread of builds
+  /// The excess is beyond chance and the spread of builds, of a model that beats a constant.
+  bool side_drag = false;
   std::vector<std::string> equivalent;  ///< what these drives cannot tell from it
   int windows = 0;
   int clusters = 0;
   std::vector<ComparedChannel> compared;  ///< left, right; corrected: held out
 };
 
-/// Fits and judges the currents of both sides. Nothing where fewer than 30 windows drive steadily
-/// with currents and attitude.
+inline constexpr int kCurrentWindows = 30, kCurrentParts = 3;
+
+/// What there is to fit a model of currents to.
+struct CurrentsUsed {
+  int windows = 0;  ///< that drive steadily with currents of both sides and attitude
+  int parts = 0;    ///< days, drives or stretches that can be held out one at a time
+  bool are_enough() const { return windows >= kCurrentWindows && parts >= kCurrentParts; }
+};
+
+struct CurrentComparison {
+  CurrentsUsed used;
+  std::optional<CurrentDiagnosis> currents;  ///< nothing of too few windows
+};
+
+/// Fits and judges the currents of both sides.
 /// \param mountings by day, as `find_mountings` gives them \throws Interrupted
-std::optional<CurrentDiagnosis> diagnose_currents(const std::vector<DriveRecording>& drives,
-                                                  const std::vector<DriveWindow>& windows,
-                                                  const std::vector<Mounting>& mountings,
-                                                  bool sides_swapped, std::uint64_t seed,
-                                                  const std::stop_token& stop = {});
+CurrentComparison diagnose_currents(const std::vector<DriveRecording>& drives,
+                                    const std::vector<DriveWindow>& windows,
+                                    const std::vector<Mounting>& mountings, bool sides_swapped,
+                                    const std::stop_token& stop = {});
 
 }  // namespace regoplan

@@ -44,8 +44,9 @@ DriveFinding off_ground_finding(const Axis& axis, const Mounting& day) {
           .text = fmt::format(
               "{} changes by {:.1f} deg where the map's ground does by {:.1f}, but not with it "
               "(day {}): the map's slopes are not those of the ground that was driven, as where "
-              "positions lie off or the map smooths what wheels stand on; nothing is said of how "
-              "the sensor sits in {}",
+              "positions lie off or the map smooths what wheels stand on; no claim of how the "
+              "sensor sits in {} counts this day, of which only the middle of readings less the "
+              "map's is told",
               axis.name, scatter_rad / kDegree, ground_rad / kDegree, when, axis.name),
           .value = slope};
 }
@@ -158,7 +159,7 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
              .value = day.*axis.slope});
       } else if (std::abs(day.*axis.slope) < kHardlyFollows) {
         result.findings.push_back(off_ground_finding(axis, day));
-        continue;  // says nothing of how the sensor sits
+        continue;  // no ground for a claim of how the sensor sits
       }
       const std::optional<DriveEstimate>& estimate = day.*axis.of;
       if (!estimate) continue;
@@ -186,8 +187,21 @@ void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result) {
   result.claims.push_back(std::move(claim));
 }
 
-void claim_side_drag(DriveDiagnosis& result) {
+std::string no_better_text(const HeldOutCurrents& held_out) {
+  return fmt::format(
+      "the model of the currents is off by {:.2f} A RMS, each {} held out, a constant by {:.2f} A: "
+      "it does no better beyond chance",
+      held_out.both_rms_a, held_out.held_out, held_out.both_constant_rms_a);
+}
+
+void judge_currents(DriveDiagnosis& result) {
   const CurrentDiagnosis& currents = *result.currents;
+  if (!currents.held_out.beats_constant) {
+    result.findings.push_back(
+        {.id = "currents_not_predicted",
+         .drive = "",
+         .text = "nothing is concluded from the currents: " + no_better_text(currents.held_out)});
+  }
   if (!currents.side_drag) return;
   const bool left = currents.left_excess_a.value > 0;
   const double sign = left ? 1 : -1;

@@ -12,9 +12,12 @@ namespace regoplan {
 void judge_mounting(const DriveSetup& setup, DriveDiagnosis& result);
 
 /// Claims that one side takes more current than the other straight ahead on the level, where
-/// `result.currents` found it, and says where.
+/// `result.currents` found it, and says where; finds that their model is no better than a constant.
 /// \pre result.currents
-void claim_side_drag(DriveDiagnosis& result);
+void judge_currents(DriveDiagnosis& result);
+
+/// How far a model of currents is off that does no better than a constant.
+std::string no_better_text(const HeldOutCurrents& held_out);
 
 /// Claims what the contest of `result.effects` found, and says where zones lie.
 /// \pre result.effects

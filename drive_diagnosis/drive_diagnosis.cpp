@@ -271,7 +271,8 @@ void read_windows(std::vector<DriveRecording>& drives, const DriveSetup& setup,
 
 DriveVerdict verdict_of(const DriveDiagnosis& diagnosis) {
   if (diagnosis.claims.empty()) {
-    const bool compared = diagnosis.effects || diagnosis.currents;
+    const bool compared =
+        diagnosis.effects || (diagnosis.currents && diagnosis.currents->held_out.beats_constant);
     for (const std::string_view id : {"drives_differ", "no_name", "map_slopes"}) {
       if (is_found(diagnosis, id)) return DriveVerdict::kUndecided;
     }
@@ -366,9 +367,11 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   result.mountings = find_mountings(drives, result.windows, setup.map);
   throw_if_stopped(options.stop);
   judge_mounting(setup, result);
-  result.currents = diagnose_currents(drives, result.windows, result.mountings,
-                                      checks.current_sides_swapped, options.seed, options.stop);
-  if (result.currents) claim_side_drag(result);
+  CurrentComparison currents = diagnose_currents(drives, result.windows, result.mountings,
+                                                 checks.current_sides_swapped, options.stop);
+  result.currents_used = currents.used;
+  result.currents = std::move(currents.currents);
+  if (result.currents) judge_currents(result);
   if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
     VehicleComparison comparison =
         find_vehicle_effects(drives, result.windows, setup.map, *setup.vehicle, setup.gravity_mps2,

@@ -62,7 +62,8 @@ struct SilentEffect {
 };
 
 /// Of drives: undecided where nothing is claimed and neither vehicle nor currents could be
-/// compared, a class where their claims cannot tell names apart.
+/// compared, or the model of currents does no better than a constant; a class where their claims
+/// cannot tell names apart.
 enum class DriveVerdict { kUndecided, kConsistent, kNamed, kClass };
 
 /// `undecided`, `consistent`, `named`, `class`.
@@ -74,6 +75,7 @@ struct DriveDiagnosis {
   std::vector<DriveMismatch> where;
   std::vector<DriveFinding> findings;
   std::vector<Mounting> mountings;
+  CurrentsUsed currents_used;
   std::optional<CurrentDiagnosis> currents;
   std::optional<WindowsUsed>
       windows_used;  ///< by the vehicle's model; nothing where it was not asked

@@ -165,6 +165,40 @@ SilentEffect smaller_faults(const std::vector<FaultShown>& faults) {
   return silent;
 }
 
+/// What the currents of both sides do not show, where they are told.
+std::optional<SilentEffect> silent_currents(const std::vector<DriveRecording>& drives,
+                                            const DriveDiagnosis& result) {
+  if (!any_has(drives, "current_")) return {};
+  SilentEffect silent{.ids = {"side_drag"},
+                      .drive =
+                          "more or longer drives over the same kinds of ground: straight on, "
+                          "turns either way, slopes up and down"};
+  if (result.currents && !result.currents->held_out.beats_constant) {
+    silent.why = no_better_text(result.currents->held_out);
+    return silent;
+  }
+  if (result.currents) return {};
+  silent.why = fmt::format(
+      "{} windows in {} parts (days, drives, or minutes of a drive) drive steadily with currents "
+      "of both sides and attitude, at least {} in {} are needed",
+      result.currents_used.windows, result.currents_used.parts, kCurrentWindows, kCurrentParts);
+  return silent;
+}
+
+/// What takes torques to be told, but for what is claimed of currents.
+SilentEffect silent_without_torques(const DriveDiagnosis& result) {
+  SilentEffect silent{.ids = {},
+                      .why = "no wheel torques are recorded, or they are left out",
+                      .drive = "torque or current of every wheel, 100 s on firm level ground"};
+  for (const char* id : {"wheel_drag", "cg_offset", "payload"}) {
+    const bool is_claimed = std::ranges::any_of(result.claims, [id](const DriveClaim& claim) {
+      return std::ranges::find(claim.equivalent, id) != claim.equivalent.end();
+    });
+    if (!is_claimed) silent.ids.emplace_back(id);
+  }
+  return silent;
+}
+
 }  // namespace
 
 std::optional<std::string> nearest_text(const DriveDiagnosis& result) {
@@ -181,6 +215,9 @@ std::optional<std::string> nearest_text(const DriveDiagnosis& result) {
 
 void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                         DriveDiagnosis& result) {
+  const std::optional<SilentEffect> currents = silent_currents(drives, result);
+  // The first tells what would decide: without a vehicle that is currents, where there are any.
+  if (currents && !setup.vehicle) result.silent.push_back(*currents);
   if (!setup.vehicle) {
     result.silent.push_back(
         {{"soil_zone", "zone_border", "map_offset", "wheel_radius", "steering_offset", "payload",
@@ -200,6 +237,7 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
           "scale)";
     }
   }
+  if (currents && setup.vehicle) result.silent.push_back(*currents);
   const bool has_zone =
       result.effects && std::ranges::any_of(result.effects->found, [](const VehicleFinding& found) {
         return found.zone.has_value();
@@ -223,17 +261,17 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
          "wheels that are not steered are taken to be mounted straight ahead: " + fixed,
          "none: a look at how these wheels are mounted"});
   }
-  if (!any_has(drives, "torque_")) {
-    result.silent.push_back({{"wheel_drag", "cg_offset", "payload"},
-                             "no wheel torques are recorded, or they are left out",
-                             "torque or current of every wheel, 100 s on firm level ground"});
-  }
+  if (!any_has(drives, "torque_")) result.silent.push_back(silent_without_torques(result));
+  const std::string slips =
+      "100 s with the wheels of one axle slowed to 0.9-0.35 of their speed, and a steeper climb "
+      "(up to 23 deg), with sinkage recorded";
   result.silent.push_back(
       {{"slip_sinkage", "grousers", "lateral_digging", "rear_contact", "max_stress_angle",
         "front_bulldozing", "side_pileup", "skid_branch", "sidewall_shear"},
-       "at the slips driven these change what is measured by less than 4 standard deviations",
-       "100 s with the wheels of one axle slowed to 0.9-0.35 of their speed, and a steeper climb "
-       "(up to 23 deg), with sinkage recorded"});
+       result.effects
+           ? "at the slips driven these change what is measured by less than 4 standard deviations"
+           : "no slip is known, as no vehicle's model was compared with these drives",
+       result.effects ? slips : "with a vehicle file, rim speeds and steering: " + slips});
 }
 
 }  // namespace regoplan

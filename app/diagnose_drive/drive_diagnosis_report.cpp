@@ -26,6 +26,12 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
     if (diagnosis.effects) {
       return fmt::format("Undecided: {} differ from the model, and not in the same way.", of);
     }
+    if (diagnosis.currents) {
+      return fmt::format(
+          "Undecided: of {} the currents are told no better by a model of them than "
+          "by a constant.",
+          of);
+    }
     return fmt::format("Undecided: nothing of {} could be compared with the model.", of);
   }
   if (diagnosis.claims.empty()) {

@@ -166,6 +166,20 @@ TEST(DriveClaims, AnAngleThatHardlyFollowsTheGroundIsOfAnotherUnitOnlyWhereItHar
   EXPECT_EQ(other.id, "other_ground");
   EXPECT_EQ(count_of("roll changes by 4.0 deg where the map's ground does by 4.5", other.text), 1)
       << other.text;
+  // `mounting` has a number of that day: something is said of it
+  EXPECT_EQ(count_of("nothing is said", other.text), 0);
+}
+
+/// The names of the claimed class had stood among what is not shown, too.
+TEST(DriveClaims, WhatIsClaimedIsNotAmongWhatIsNotShown) {
+  DriveDiagnosis diagnosis;
+  diagnosis.claims = {{.id = "side_drag", .equivalent = {"side_drag", "wheel_drag", "cg_offset"}}};
+  say_what_is_silent({.map = rolling_map()}, {}, diagnosis);
+  for (const SilentEffect& silent : diagnosis.silent) {
+    for (const std::string& id : diagnosis.claims[0].equivalent) {
+      EXPECT_EQ(std::ranges::count(silent.ids, id), 0) << id << ": " << silent.why;
+    }
+  }
 }
 
 TEST(DriveClaims, ASoilFarFromWhatTheMapSaysIsClaimedWhereItPredictsBetter) {

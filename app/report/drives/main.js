@@ -137,14 +137,15 @@ if (soilsTold.length) {
       element('p', {class: 'note'}, 'By the windows that no zone touches, fitted along with all else.'),
       ...soilsTold.map(soilTable));
 }
-const zonesText = REPORT.windows_used ? 'No zone of other soil.' :
-                                        'Not looked for: no vehicle was compared with its map.';
+const isCompared = REPORT.soils !== undefined;
+const zonesText = isCompared ? 'No zone of other soil.' : 'Not looked for: no vehicle was compared with its map.';
 byId('zones').append(...(REPORT.zones.length ? REPORT.zones.map(zoneTable) : [zonesText]));
 if (REPORT.zones.length)
   byId('zones').append(element(
       'p', {class: 'note'},
       '\u00b1: one standard deviation, as far as soils differ where the drives tell nothing: they tell most of ' +
           'bearing and strength. The numbers vary together, which is not shown. All others stay as the map has them.'));
+const isJudged = isCompared && REPORT.verdict !== 'undecided';
 const verdict = why => why || 'may be driven';
 byId('verdicts').append(
     REPORT.verdicts.length ?
@@ -153,9 +154,12 @@ byId('verdicts').append(
             REPORT.verdicts.map(
                 flip => [flip.drive, fixed(flip.starts_s, 1), fixed(flip.ends_s, 1), place(flip.x_m, flip.y_m),
                          verdict(flip.before), verdict(flip.after)])) :
-        'None: what was driven is judged as before.',
-    element('p', {class: 'note'},
-            'Each window is judged by its means: what lasts less than a window only evaluate tells.'));
+        isJudged            ? 'None: what was driven is judged as before.' :
+                              'Not judged: there is no corrected map.');
+if (isJudged)
+  byId('verdicts').append(element(
+      'p', {class: 'note'},
+      'Each window is judged by its means: what lasts less than a window only evaluate tells.'));
 const fits = Object.entries(REPORT.fit);
 byId('fit').append(
     fits.length ? wideTable(
