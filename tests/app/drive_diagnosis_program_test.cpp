@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "terramech/tables/csv_cells.h"
+#include "tests/app/browser_page.h"
 #include "tests/app/json_schema.h"
 #include "tests/app/program_run.h"
 #include "tests/scratch_folder.h"
@@ -196,6 +197,29 @@ TEST_F(DriveDiagnosisProgram, ADriveTooShortToCompareIsUndecidedNotConsistent) {
   EXPECT_NE(said.output.find("Undecided: nothing of 1 drive could be compared"), std::string::npos)
       << said.output;
   EXPECT_NE(said.output.find("What would decide: a minute on the map"), std::string::npos);
+}
+
+class DrivePageInTheBrowser : public InTheBrowser {
+ protected:
+  ScratchFolder results_;
+};
+
+TEST_F(DrivePageInTheBrowser, SaysOfNoVerdictThatItStandsWhereNoneWasJudged) {
+  results_.write("s.yaml", "map:\n  soils: " REGOPLAN_SOURCE_DIR
+                           "/scenarios/demo/soils.yaml\n"
+                           "  terrain: {width_m: 80, height_m: 60, roughness_m: 0.03}\n"
+                           "gravity_mps2: 1.62\n");
+  std::string rows = "time_s,x_m,y_m";
+  for (int i = 0; i < 80; ++i) rows += fmt::format("\n{},{},30", 0.5 * i, 20 + 0.5 * i);
+  results_.write("d.csv", rows + "\n");
+  const ProgramRun said = run_program(results_, "diagnose '" + results_.path("d.csv") +
+                                                    "' --scenario '" + results_.path("s.yaml") +
+                                                    "' --out '" + results_.path("said") + "'");
+  ASSERT_EQ(said.status, 2) << said.errors;
+  const std::string page = drawn(results_.read("said/report.html"));
+  expect_drawn_without_error(page);
+  EXPECT_EQ(page.find("is judged as before"), std::string::npos);
+  EXPECT_NE(page.find("Not judged: there is no corrected map."), std::string::npos);
 }
 
 }  // namespace
