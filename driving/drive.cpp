@@ -291,6 +291,7 @@ class Drive {
       manoeuvre.curvature_1pm = std::clamp(leg().curvature_1pm(s_m), -vehicle_.curvature_max_1pm,
                                            vehicle_.curvature_max_1pm);
       manoeuvre.rim_acceleration_mps2 = leg().direction() * leg().speed.at(s_m).acceleration_mps2;
+      manoeuvre.direction_at_rest = leg().direction();
     }
     const StateMargins margins = truth_.margins(manoeuvre, patch);
     const MarginMoment moment{.time_s = result_.duration_s,

@@ -296,6 +296,8 @@ GivenPath candidate_path(const PathTable& table, const PlanningProblem& problem,
     for (std::size_t i = legs.empty() ? rows.first : rows.first + 1; i <= rows.last; ++i) {
       recorded.push_back(moments[i]);
       recorded.back().s_m = curve.point_arc_m()[i - rows.first];
+      // Before the first row nothing was driven.
+      if (i > 0) recorded.back().state.direction_at_rest = rows.reverse ? -1 : 1;
     }
     legs.push_back({.curve = std::move(curve),
                     .speed = std::move(speed),

@@ -1,8 +1,12 @@
 #include "planner/following/reference_path.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "terramech/basics/input_error.h"
 
 namespace regoplan {
 
@@ -47,7 +51,8 @@ VehicleState PathLeg::state_at(const Vehicle& vehicle, double s_m) const {
                      .yaw_rate_rad_s = v * curvature},
           .curvature_1pm = curvature,
           .rim_speed_mps = v,
-          .rim_acceleration_mps2 = direction() * value.acceleration_mps2};
+          .rim_acceleration_mps2 = direction() * value.acceleration_mps2,
+          .direction_at_rest = direction()};
 }
 
 double ReferencePath::duration_s() const {

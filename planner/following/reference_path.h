@@ -28,7 +28,7 @@ struct PathLeg {
   double length_m() const { return curve.length_m(); }
   double duration_s() const { return stands_s + speed.duration_s(curve.length_m()); }
   /// 1 ahead, -1 in reverse.
-  double direction() const { return reverse ? -1 : 1; }
+  int direction() const { return reverse ? -1 : 1; }
   /// Commanded curvature, as the vehicle counts it: in reverse a curve that bends to the left of
   /// the way lies to the right of the vehicle.
   double curvature_1pm(double s_m) const;

@@ -50,8 +50,7 @@ class StationSolver {
  private:
   std::optional<Trimmed> solve(const VehicleState& state, const GroundPatch& patch,
                                const std::vector<WheelLaw>& laws, double s_m) {
-    SupplyQuestion question = question_of(world_.dynamics(), state, patch);
-    question.reverse = leg_.reverse;  // where it stands, its state does not tell
+    const SupplyQuestion question = question_of(world_.dynamics(), state, patch);
     if (!(question.normal_n > 0)) return std::nullopt;
     const SteadyManoeuvre manoeuvre =
         manoeuvre_of(vehicle_, world_.dynamics().sharing(), laws, question);

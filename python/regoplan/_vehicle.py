@@ -130,7 +130,8 @@ class VehicleOnSoil(Immutable):
     Functions of a moment take ``speed_mps`` (0 or above, also beyond the vehicle's own largest),
     ``curvature_1pm`` (commanded, left positive, within the vehicle's ``curvature_max_1pm``; without
     it straight on), and the keywords ``acceleration_mps2``, ``slope_forward_rad``
-    (the ground rises ahead) and ``slope_left_rad`` (and to the left).
+    (the ground rises ahead) and ``slope_left_rad`` (and to the left). At rest it sets off, backwards
+    where ``acceleration_mps2`` is below 0: the end of a stop is that of a small speed.
     """
 
     def __init__(self, vehicle, soil, gravity_mps2, *, model="ishigami2007", mechanisms=(),

@@ -67,6 +67,7 @@ namespace {
 
 bool drives_in_reverse(const VehicleState& state) {
   if (state.rim_speed_mps != 0) return state.rim_speed_mps < 0;
+  if (state.direction_at_rest != 0) return state.direction_at_rest < 0;
   if (state.motion.vx_mps != 0) return state.motion.vx_mps < 0;
   return state.rim_acceleration_mps2 < 0;
 }

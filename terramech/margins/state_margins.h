@@ -89,7 +89,8 @@ class TabledSupply {
 };
 
 /// What a state asks of the ground. It drives in reverse where its rims turn backwards; while they
-/// stand still, where it moves backwards; at rest, where it is to speed up backwards.
+/// stand still, as its direction at rest tells, so that a stop is judged as the limit of what led
+/// to it; where that tells nothing, where it moves backwards or, at rest, is to speed up backwards.
 SupplyQuestion question_of(const VehicleDynamics& dynamics, const VehicleState& state,
                            const GroundPatch& patch);
 

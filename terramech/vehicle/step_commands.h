@@ -20,6 +20,7 @@ struct VehicleDynamics::Commands {
   double rim_speed_mps = 0;
   bool on_the_spot = false;
   double turn_rate_rad_s = 0;
+  int direction_at_rest = 0;
 
   bool differ_from(const Commands& other) const {
     return steering.curvature_1pm != other.steering.curvature_1pm ||
@@ -42,7 +43,8 @@ struct VehicleDynamics::Commands {
             .transfer_forward_n = transfer_n[0],
             .transfer_left_n = transfer_n[1],
             .crab_rad = steering.crab_rad,
-            .turn_rate_rad_s = turn_rate_rad_s};
+            .turn_rate_rad_s = turn_rate_rad_s,
+            .direction_at_rest = direction_at_rest};
   }
 };
 

@@ -70,6 +70,11 @@ VehicleDynamics::Commands VehicleDynamics::commands_after(const VehicleState& st
       .rim_speed_mps = approach(state.rim_speed_mps, turns ? 0 : control.speed_target_mps,
                                 acceleration, duration_s),
       .on_the_spot = on_the_spot};
+  if (commands.rim_speed_mps == 0) {
+    commands.direction_at_rest = state.rim_speed_mps == 0  ? state.direction_at_rest
+                                 : state.rim_speed_mps > 0 ? 1
+                                                           : -1;
+  }
   if (on_the_spot) {
     commands.turn_rate_rad_s = approach(state.turn_rate_rad_s, control.turn_rate_target_rad_s,
                                         acceleration / longest_arm_m_, duration_s);

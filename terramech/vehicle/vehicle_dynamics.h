@@ -28,6 +28,9 @@ struct VehicleState {
   double transfer_left_n = 0;
   double crab_rad = 0;         ///< commanded: direction of travel beside that of the curvature
   double turn_rate_rad_s = 0;  ///< commanded: rotation on the spot; then the rim speed is 0
+  /// Of rims that stand: 1 where they came to rest or are to set off forward, -1 backward, 0 where
+  /// nothing tells.
+  int direction_at_rest = 0;
 };
 
 /// Targets that the rim speed and the steering move to at the vehicle's limited rates: the crab

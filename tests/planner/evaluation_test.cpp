@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
 
 #include "planner/plan.h"
+#include "terramech/basics/input_error.h"
 #include "tests/planner/evaluated.h"
 
 namespace regoplan {
@@ -71,6 +74,30 @@ TEST(Evaluation, APathThatEndsAtSpeedMustLeaveRoomToStop) {
   ReferencePath piece = reference(points, 2);
   piece.goes_on = true;
   EXPECT_TRUE(evaluated(problem, piece).feasible);
+}
+
+/// 20 m straight on, from rest to rest.
+ReferencePath rest_to_rest(bool reverse, double from_x_m, double to_x_m) {
+  PathCurve curve({{from_x_m, 25}, {to_x_m, 25}});
+  SpeedProfile speed({{0, 0}, {5, 1}, {15, 1}, {curve.length_m(), 0}});
+  return {.name = "path",
+          .legs = {{.curve = std::move(curve), .speed = std::move(speed), .reverse = reverse}}};
+}
+
+TEST(Evaluation, AStopDownhillIsJudgedAsTheDriveThatLedToIt) {
+  PlanningProblem problem = flat_problem();
+  const double steep = std::tan(22 * kTestDegree);
+  problem.map = one_soil_map(60, firm_regolith(), [&](double x_m, double) { return -steep * x_m; });
+  for (const bool reverse : {false, true}) {
+    const PathEvaluation e = evaluated(problem, rest_to_rest(reverse, 15, 35));
+    EXPECT_TRUE(e.feasible) << sentence(*e.refusal);
+    const TrajectoryPoint &before = e.points[e.points.size() - 2], &last = e.points.back();
+    ASSERT_EQ(last.speed_mps, 0);
+    EXPECT_NEAR(last.traction_margin, before.traction_margin, 0.02) << reverse;
+    EXPECT_NEAR(last.cornering_margin, before.cornering_margin, 0.02) << reverse;
+    // Setting off is judged as the drive that it begins.
+    EXPECT_NEAR(e.points[0].traction_margin, e.points[1].traction_margin, 0.02) << reverse;
+  }
 }
 
 TEST(Evaluation, FasterIsNeverSaferOnATurn) {

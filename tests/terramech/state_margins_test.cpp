@@ -324,6 +324,25 @@ TEST(Demand, OfAVehicleAtRestIsReverseWhereItIsToReverse) {
   EXPECT_TRUE(lrv.question(state, patch_with(0, 0)).reverse);
 }
 
+TEST(Demand, OfAVehicleThatCameToAStopIsThatOfTheDirectionItDroveIn) {
+  const Driving lrv("lrv", {-0.2, 0});  // the ground falls away to the east
+  for (const double direction : {1.0, -1.0}) {
+    const double before_mps = direction * 0.01;
+    VehicleState state = lrv.dynamics.rolling_state(0, 0, 0, before_mps);
+    state.rim_acceleration_mps2 = -direction * 0.3;
+    const StateMargins before = lrv.margins(state);
+    state = lrv.dynamics.step(state, {}, 0.01 / 0.3).state;
+    ASSERT_EQ(state.rim_speed_mps, 0);
+    EXPECT_EQ(lrv.question(state, patch_with(-0.2, 0)).reverse, direction < 0);
+    EXPECT_NEAR(lrv.margins(state).traction.value(), before.traction.value(), 0.01);
+    EXPECT_NEAR(lrv.margins(state).cornering.value(), before.cornering.value(), 0.01);
+    // Standing on, it is still the same stop, though it creeps the other way.
+    state = lrv.dynamics.step(state, {}, 0.1).state;
+    state.motion.vx_mps = -direction * 1e-4;
+    EXPECT_EQ(lrv.question(state, patch_with(-0.2, 0)).reverse, direction < 0);
+  }
+}
+
 TEST(SolvedSupply, TakesEachWheelsOwnSoil) {
   const VehicleOnSoil firm("lrv"), soft("lrv", soft_patch());
   const std::vector<WheelLaw> laws{WheelLaw(firm.model), WheelLaw(soft.model)};
