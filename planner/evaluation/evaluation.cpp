@@ -10,6 +10,7 @@
 #include "planner/driving/stopping.h"
 #include "planner/problem/rejection_text.h"
 #include "terramech/basics/parallel_for.h"
+#include "terramech/basics/value_range.h"
 
 namespace regoplan {
 namespace {
@@ -263,6 +264,12 @@ void judge_steady(PathEvaluation& evaluation, const World& verdict,
 
 }  // namespace
 
+void validate(const EvaluationSettings& settings) {
+  if (settings.deviation_max_m) require("deviation_max_m", *settings.deviation_max_m, kAbove0);
+  require("soil_draws", settings.soil_draws, {.min = 2, .max = 1e6});
+  require("threads", settings.threads, {.min = 1, .max = 256});
+}
+
 double default_deviation_max_m(const Vehicle& vehicle) {
   return (vehicle.body.y_max_m - vehicle.body.y_min_m) / 2;
 }
@@ -277,6 +284,8 @@ std::string sentence(const Refusal& refusal) {
 
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings) {
+  validate(settings);
+  validate(path);
   const Vehicle& vehicle = verdict.problem().vehicle;
   const double allowed_m = settings.deviation_max_m.value_or(default_deviation_max_m(vehicle));
   const TrackingRun run = track(verdict, path, settings.follower, allowed_m, settings.stop);

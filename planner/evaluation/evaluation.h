@@ -21,6 +21,9 @@ struct EvaluationSettings {
   std::stop_token stop = {};  ///< what it interrupts is worth nothing
 };
 
+/// \throws ValueError naming the field and its range
+void validate(const EvaluationSettings& settings);
+
 /// Half of the body's width.
 double default_deviation_max_m(const Vehicle& vehicle);
 
@@ -95,6 +98,7 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
 /// half a metre apart as well as where, between two, the curve is sharper or speed lost or gathered
 /// harder (at the moments of its record, where it has one), and by driving it in closed loop.
 /// Feasible where both hold, and the vehicle can then stop. \param verdict a world for verdicts
+/// \throws ValueError as `validate(settings)` and `validate(path)`
 PathEvaluation evaluate(const World& verdict, const ReferencePath& path,
                         const EvaluationSettings& settings);
 

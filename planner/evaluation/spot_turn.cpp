@@ -102,6 +102,7 @@ PathEvaluation evaluate(const World& verdict, const SpotTurn& turn,
                         const EvaluationSettings& settings) {
   const Vehicle& vehicle = verdict.problem().vehicle;
   assert(can_turn_on_the_spot(vehicle));
+  validate(settings);
   const double allowed_m = settings.deviation_max_m.value_or(default_deviation_max_m(vehicle));
   const double arm_m = longest_arm_m(vehicle), angle = std::abs(turn.angle_rad);
   return judged(verdict,

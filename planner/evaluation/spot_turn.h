@@ -22,7 +22,7 @@ double turning_step_s(double rate_rad_s, const Vehicle& vehicle);
 /// Judges a turn twice, as `evaluate` judges a path: as steady turns on the spot at headings at
 /// most 5 deg apart, and by turning, from rest to rest. The way along it is that of the outermost
 /// wheel, the deviation how far the point that it turns about moves. \pre `can_turn_on_the_spot` of
-/// the vehicle
+/// the vehicle \throws ValueError as `validate(settings)`
 PathEvaluation evaluate(const World& verdict, const SpotTurn& turn,
                         const EvaluationSettings& settings);
 

@@ -84,6 +84,18 @@ ReferencePath::Place ReferencePath::place(double s_m) const {
   return {.leg = legs[leg], .leg_start_s = time_s, .s_m = s_m - way_m};
 }
 
+void validate(const ReferencePath& path) {
+  if (path.legs.empty()) throw ValueError("legs", 0, "at least one");
+  for (std::size_t i = 0; i < path.legs.size(); ++i) {
+    const PathLeg& leg = path.legs[i];
+    const double length_m = leg.length_m(), end_m = leg.speed.nodes().back().s_m;
+    constexpr double kRounding = 1e-6;
+    if (end_m >= length_m * (1 - kRounding)) continue;
+    throw ValueError(fmt::format("legs[{}].speed: its end, s_m", i), end_m,
+                     fmt::format("at least {:.6g}, the length of the curve", length_m));
+  }
+}
+
 VehicleState start_of(const ReferencePath& path, const Vehicle& vehicle) {
   const PathLeg& first = path.legs.front();
   return first.recorded.empty() ? first.state_at(vehicle, 0) : first.recorded.front().state;

@@ -66,6 +66,9 @@ struct ReferencePath {
   CurvePlace end() const { return legs.back().curve.at(legs.back().length_m()); }
 };
 
+/// \throws ValueError for a path without legs, or a leg whose speeds end before its curve does
+void validate(const ReferencePath& path);
+
 /// Where a drive along the path begins: the first moment of its record, or its first place.
 VehicleState start_of(const ReferencePath& path, const Vehicle& vehicle);
 

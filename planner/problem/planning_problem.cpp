@@ -52,6 +52,19 @@ void validate(const Objective& objective) {
   }
 }
 
+void validate(const MapSoil& soil) {
+  const std::string of_soil = fmt::format("soils.{}.", soil.name);
+  try {
+    validate(soil.soil.mean);
+  } catch (const ValueError& error) {
+    throw ValueError(of_soil + error.field(), error.value(), error.allowed());
+  }
+  for (const SoilParameter& parameter : soil_parameters()) {
+    require(fmt::format("{}{}.std", of_soil, parameter.name),
+            soil.soil.standard_deviation.*parameter.member / parameter.file_unit, kAtLeast0);
+  }
+}
+
 void validate(const Search& search) {
   validate(search.objective);
   const std::vector<std::string>& names = planner_names();
@@ -123,6 +136,9 @@ void validate(const PlanningProblem& problem) {
     require("goal.heading_tolerance_deg", problem.goal.heading_tolerance_rad / kDegree,
             problem.goal.heading_tolerance_rad > 0, "above 0");
   }
+  for (const MapSoil& soil : problem.map.soils()) validate(soil);
+  for (const Mechanism& mechanism : problem.mechanisms) form_of(mechanism);
+  if (problem.generic) validate(*problem.generic);
   validate(problem.limits);
   validate(problem.search);
   const double shown = probability_of(problem.search.soil_draws, problem.search.soil_draws).low;

@@ -100,6 +100,29 @@ TEST(Evaluation, AStopDownhillIsJudgedAsTheDriveThatLedToIt) {
   }
 }
 
+TEST(Evaluation, WhatCannotBeAskedNamesFieldValueAndRange) {
+  const ReferencePath path = reference({{10, 25}, {40, 25}}, 1);
+  const auto refused = [](const ReferencePath& asked, const EvaluationSettings& settings,
+                          const std::string& words) {
+    try {
+      evaluated(flat_problem(), asked, settings);
+      FAIL() << "accepted: " << words;
+    } catch (const ValueError& error) {
+      EXPECT_EQ(std::string(error.what()), words);
+    }
+  };
+  refused(path, {.soil_draws = 0}, "soil_draws: 0 is not valid (allowed: 2 to 1000000)");
+  refused(path, {.soil_draws = -5}, "soil_draws: -5 is not valid (allowed: 2 to 1000000)");
+  refused(path, {.threads = 0}, "threads: 0 is not valid (allowed: 1 to 256)");
+  refused(path, {.deviation_max_m = NAN}, "deviation_max_m: nan is not valid (allowed: above 0)");
+  refused({.name = "none", .legs = {}}, kSettings, "legs: 0 is not valid (allowed: at least one)");
+  ReferencePath ends_early = path;
+  ends_early.legs.front().speed = SpeedProfile({{0, 1}, {10, 1}});
+  refused(ends_early, kSettings,
+          "legs[0].speed: its end, s_m: 10 is not valid (allowed: at least 30, the length of the "
+          "curve)");
+}
+
 TEST(Evaluation, FasterIsNeverSaferOnATurn) {
   double before = 1;
   for (const double speed : {1.0, 2.0, 3.0, 3.5}) {

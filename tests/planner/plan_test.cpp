@@ -372,6 +372,21 @@ TEST(PlanningProblem, WhatCannotBeAskedNamesFieldAndRange) {
   names("planner.objective", [](PlanningProblem& p) { p.search.objective = {.per_s = 0}; });
   names("planner.objective.per_j", [](PlanningProblem& p) { p.search.objective.per_j = -1; });
   names("gravity_mps2", [](PlanningProblem& p) { p.gravity_mps2 = 0; });
+  const auto spoil_soil = [](const std::function<void(UncertainSoil&)>& spoil) {
+    return [spoil](PlanningProblem& p) {
+      UncertainSoil soil = firm_regolith();
+      spoil(soil);
+      p.map = one_soil_map(50, soil, flat);
+    };
+  };
+  names("soils.regolith.cohesion_pa.std: -3 is not valid (allowed: at least 0)",
+        spoil_soil([](UncertainSoil& soil) { soil.standard_deviation.cohesion_pa = -3; }));
+  names("soils.regolith.lambda.std",
+        spoil_soil([](UncertainSoil& soil) { soil.standard_deviation.lambda = NAN; }));
+  names("soils.regolith.n: nan", spoil_soil([](UncertainSoil& soil) { soil.mean.n = NAN; }));
+  names("soils.regolith.kphi: 0", spoil_soil([](UncertainSoil& soil) { soil.mean.kphi = 0; }));
+  names("mechanism id: mud is not known",
+        [](PlanningProblem& p) { p.mechanisms = {{.id = "mud", .form = {}, .parameters = {}}}; });
   names("touches a rock", [](PlanningProblem& p) {
     p.map = one_soil_map(50, firm_regolith(), flat, {{10.5, 25, 1, 2}});
   });
