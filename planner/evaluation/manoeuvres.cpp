@@ -99,6 +99,42 @@ double smooth_step(double t) {
   return u * u * u * (10 + u * (6 * u - 15));
 }
 
+/// A place of a curve y(x).
+struct Bow {
+  double y_m = 0;
+  double slope = 0;     ///< dy/dx
+  double bend_1pm = 0;  ///< its derivative
+};
+
+/// The quintic that begins straight along y = 0 and ends as a bow does. \param t from 0 to 1
+double swung_in_m(double t, double length_m, const Bow& end) {
+  return t * t * t *
+         (end.y_m * (10 + t * (6 * t - 15)) + end.slope * length_m * (-4 + t * (7 - 3 * t)) +
+          end.bend_1pm * length_m * length_m * (1 - t) * (1 - t) / 2);
+}
+
+/// Waves from the top of a bow on, and a wavelength each to swing in and out: so long, these are
+/// nowhere sharper than the bows, in whichever phase the waves end.
+std::vector<PathPoint> slalom_points(const Manoeuvre& m) {
+  const double swing_m = m.wavelength_m, end_m = swing_m + m.waves * m.wavelength_m;
+  const double per_m = 2 * std::numbers::pi / m.wavelength_m;
+  const double amplitude_m = m.to_the_right ? -m.amplitude_m : m.amplitude_m;
+  const auto wave = [&](double x_m) {
+    const double c = std::cos(per_m * (x_m - swing_m)), s = std::sin(per_m * (x_m - swing_m));
+    return Bow{.y_m = amplitude_m * c,
+               .slope = -amplitude_m * per_m * s,
+               .bend_1pm = -amplitude_m * per_m * per_m * c};
+  };
+  const Bow last = wave(end_m);
+  return points_over_x(end_m + swing_m, [&](double x_m) {
+    if (x_m < swing_m) return swung_in_m(x_m / swing_m, swing_m, wave(swing_m));
+    if (x_m <= end_m) return wave(x_m).y_m;
+    // Seen from the end of the path the way runs backwards.
+    return swung_in_m((end_m + swing_m - x_m) / swing_m, swing_m,
+                      {.y_m = last.y_m, .slope = -last.slope, .bend_1pm = last.bend_1pm});
+  });
+}
+
 std::vector<PathPoint> points_of(const Manoeuvre& m) {
   const double side = m.to_the_right ? -1 : 1;
   switch (m.kind) {
@@ -118,18 +154,11 @@ std::vector<PathPoint> points_of(const Manoeuvre& m) {
       return points_over_x(m.length_m + 2 * kStraight_m, [&](double x) {
         return side * m.offset_m * smooth_step((x - kStraight_m) / m.length_m);
       });
-    case ManoeuvreKind::kSlalom: {
+    case ManoeuvreKind::kSlalom:
       require_above_0("amplitude_m", m.amplitude_m);
       require_above_0("wavelength_m", m.wavelength_m);
       require_above_0("waves", m.waves);
-      // A wave to swing in and one to swing out.
-      const double length = (m.waves + 2) * m.wavelength_m;
-      return points_over_x(length, [&](double x) {
-        const double fade =
-            smooth_step(x / m.wavelength_m) * smooth_step((length - x) / m.wavelength_m);
-        return side * m.amplitude_m * fade * std::sin(2 * std::numbers::pi * x / m.wavelength_m);
-      });
-    }
+      return slalom_points(m);
     case ManoeuvreKind::kSlopeTraverse:
       require_above_0("length_m", m.length_m);
       return {{0, 0}, {m.length_m / 2, 0}, {m.length_m, 0}};

@@ -133,6 +133,26 @@ TEST(Evaluation, FasterIsNeverSaferOnATurn) {
   EXPECT_LT(before, 0.05);  // the last of them is too fast
 }
 
+TEST(Evaluation, ASlalomIsNowhereSharperThanItsBows) {
+  const PlanningProblem base = flat_problem();
+  for (const double waves : {0.5, 1.3, 1.75, 3.0}) {
+    Manoeuvre slalom = turn(1);
+    slalom.kind = ManoeuvreKind::kSlalom;
+    slalom.amplitude_m = 1;
+    slalom.wavelength_m = 15;
+    slalom.waves = waves;
+    const PreparedManoeuvre prepared = prepare(slalom, base.limits, base);
+    const PathCurve& curve = std::get<ReferencePath>(prepared.course).legs.front().curve;
+    const double asked_1pm = std::pow(2 * std::numbers::pi / 15, 2);
+    const double sharpest_m = curve.sharpest_m(0, curve.length_m());
+    EXPECT_NEAR(std::abs(curve.at(sharpest_m).curvature_1pm), asked_1pm, 0.005 * asked_1pm)
+        << waves;
+    EXPECT_NEAR(curve.at(0).y_m, 0, 1e-9);
+    EXPECT_NEAR(curve.at(curve.length_m()).y_m, 0, 1e-9);
+    EXPECT_NEAR(curve.at(15).y_m, 1, 0.02);  // the first bow, to the left
+  }
+}
+
 TEST(Evaluation, LeftAndRightTurnsAreEquallySafe) {
   Manoeuvre left = turn(2.5), right = turn(2.5);
   right.to_the_right = true;
