@@ -23,10 +23,10 @@ class DrawsStage {
   void run() {
     const int draws = plan_.problem.search.soil_draws;
     std::vector<std::map<int, std::vector<double>>> drawn(chosen_.size());
-    constexpr int kFirst = 20;  // draws of every candidate come first
+    const int draws_first = std::min(draws, 20);  // of every candidate, before anything else
     // Where every soil number is known there is nothing to draw.
     const bool varies = has_uncertain_soil(plan_.problem);
-    std::vector<int> given(chosen_.size(), varies ? 0 : std::max(draws, kFirst));
+    std::vector<int> given(chosen_.size(), varies ? 0 : draws);
     bool bounded = false, mapped = false, weighed = false;
     const double half_left_s = plan_.budget.left_s(kDrawsShare) / 2;
     work_off(plan_, [&]() -> std::optional<Piece> {
@@ -38,7 +38,7 @@ class DrawsStage {
           !std::exchange(mapped, true)) {
         return rasters_piece();
       }
-      if (!given.empty() && *std::ranges::min_element(given) >= kFirst &&
+      if (!given.empty() && *std::ranges::min_element(given) >= draws_first &&
           !std::exchange(weighed, true)) {
         return probability_piece();
       }

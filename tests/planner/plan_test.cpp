@@ -217,6 +217,17 @@ TEST(Plan, UncertainSoilLowersTheMarginThatMostDrawsKeep) {
   EXPECT_EQ(certain.candidates.front().spread->feasible.share, 1);
 }
 
+TEST(Plan, FewDrawsAreEnoughForTheRastersOfTheMap) {
+  UncertainSoil uncertain = firm_regolith();
+  uncertain.standard_deviation.cohesion_pa = 60;
+  PlanningProblem problem = lrv_problem(one_soil_map(50, uncertain, flat));
+  problem.search.soil_draws = 3;
+  const PlanResult result = planned(problem);
+  ASSERT_EQ(result.status, PlanStatus::kFeasible) << result.reason;
+  ASSERT_TRUE(result.rasters);
+  EXPECT_FALSE(result.rasters->probability.empty());
+}
+
 TEST(Plan, KnownSoilsHaveNoSamplingErrorAndKeepAnyChanceConstraint) {
   PlanningProblem problem = lrv_problem(one_soil_map(50, firm_regolith(), flat));
   problem.search.soil_draws = 20;  // 20 of 20 draws would show .84
