@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "planner/certificate/steepest_climb.h"
+#include "planner/ompl/muted_ompl.h"
 #include "planner/ompl/path_cost.h"
 #include "planner/ompl/steering_samplers.h"
 #include "planner/ompl/vehicle_space.h"
@@ -144,7 +145,12 @@ OmplProblem::OmplProblem(const World& world, const SearchGuidance& guidance)
       improves_(guidance.improve),
       states_(states_of(world.problem())),
       space_(space_of(world.problem(), states_)) {
-  ompl::RNG::setSeed(seed_);
+  {
+    // Of a second seed OMPL says that it changes nothing; it does, and what is made from here on
+    // draws from it.
+    const MutedOmpl muted;
+    ompl::RNG::setSeed(seed_);
+  }
   space_->getControlSpace()->setControlSamplerAllocator([this](const oc::ControlSpace* controls) {
     return std::make_shared<SteeringSampler>(controls, world_, way_);
   });

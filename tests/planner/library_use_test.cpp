@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <ompl/control/planners/rrt/RRT.h>
 #include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include <condition_variable>
 #include <mutex>
@@ -100,6 +101,23 @@ TEST(LibraryUse, ASearchGivesTheLogOfOmplBack) {
   EXPECT_EQ(ompl::msg::getOutputHandler(), &listener);
   OMPL_ERROR("heard");
   EXPECT_EQ(listener.count, 1);
+  ompl::msg::useOutputHandler(before);
+}
+
+TEST(LibraryUse, ASeedGivesTheSameNumbersAgainAndOmplHasNothingToSayOfIt) {
+  Listener listener;
+  ompl::msg::OutputHandler* const before = ompl::msg::getOutputHandler();
+  ompl::msg::useOutputHandler(&listener);
+  const PlanningProblem problem = across_open_ground("RRT");
+  const World world(problem, WorldUse::kSearch, 1);
+  const auto first_number = [&](std::uint64_t seed) {
+    const OmplProblem ours(world, {.seed = seed});
+    return ompl::RNG().uniform01();
+  };
+  const double first = first_number(7);
+  EXPECT_NE(first_number(8), first);
+  EXPECT_EQ(first_number(7), first);
+  EXPECT_EQ(listener.count, 0);
   ompl::msg::useOutputHandler(before);
 }
 
