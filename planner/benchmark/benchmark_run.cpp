@@ -26,10 +26,11 @@ namespace ot = ompl::tools;
 
 using Properties = std::map<std::string, std::string>;
 
-/// A planner that ends after so many iterations as well: OMPL's benchmark knows time only.
-class BoundedPlanner : public ob::Planner {
+/// A planner that may end after so many iterations as well, where OMPL's benchmark knows time only,
+/// and whose exceptions are crashes, where it takes some for an unknown status.
+class WatchedPlanner : public ob::Planner {
  public:
-  BoundedPlanner(ob::PlannerPtr planner, std::int64_t iterations)
+  WatchedPlanner(ob::PlannerPtr planner, std::optional<std::int64_t> iterations)
       : ob::Planner(planner->getSpaceInformation(), planner->getName()),
         planner_(std::move(planner)),
         iterations_(iterations) {
@@ -53,13 +54,22 @@ class BoundedPlanner : public ob::Planner {
   }
   void getPlannerData(ob::PlannerData& data) const override { planner_->getPlannerData(data); }
   ob::PlannerStatus solve(const ob::PlannerTerminationCondition& stop) override {
-    ob::IterationTerminationCondition iterations(static_cast<unsigned int>(iterations_));
-    return planner_->solve(ob::plannerOrTerminationCondition(stop, iterations));
+    try {
+      if (!iterations_) return planner_->solve(stop);
+      ob::IterationTerminationCondition iterations(static_cast<unsigned int>(*iterations_));
+      return planner_->solve(ob::plannerOrTerminationCondition(stop, iterations));
+    } catch (const std::exception& error) {
+      failure_ = error.what();
+      return ob::PlannerStatus::CRASH;
+    }
   }
+  /// What it threw, where it threw.
+  const std::optional<std::string>& failure() const { return failure_; }
 
  private:
   ob::PlannerPtr planner_;
-  std::int64_t iterations_;
+  std::optional<std::int64_t> iterations_;
+  std::optional<std::string> failure_;
 };
 
 /// Takes `improve`, which is no parameter of OMPL's, out of them.
@@ -84,11 +94,11 @@ double largest(const std::vector<TrajectoryPoint>& points, double TrajectoryPoin
   return most;
 }
 
-/// What the exact model says of the solution.
-Properties verified_properties(const std::optional<VerifiedPath>& path,
+/// What the exact model says of the solution. \param solved that the planner says it is one
+Properties verified_properties(bool solved, const std::optional<VerifiedPath>& path,
                                const PlanningProblem& problem) {
   if (!path || !path->candidate.verified.passed) {
-    return {{"verified BOOLEAN", "0"}, {"overturned BOOLEAN", path ? "1" : "0"}};
+    return {{"verified BOOLEAN", "0"}, {"overturned BOOLEAN", solved ? "1" : "0"}};
   }
   const Candidate& candidate = path->candidate;
   const Search& search = problem.search;
@@ -106,6 +116,14 @@ Properties verified_properties(const std::optional<VerifiedPath>& path,
           {"slip max REAL", real(largest(candidate.points, &TrajectoryPoint::slip_max))},
           {"sinkage max m REAL", real(largest(candidate.points, &TrajectoryPoint::sinkage_max_m))},
           {"deviation max m REAL", real(candidate.verified.deviation_max_m)}};
+}
+
+/// Of a planner that threw, whatever it had entered before.
+Properties crashed_properties(const std::string& failure) {
+  return {{"solved BOOLEAN", "0"},
+          {"verified BOOLEAN", "0"},
+          {"overturned BOOLEAN", "0"},
+          {"failure STRING", failure}};
 }
 
 Properties counted_properties(const OmplProblem& problem) {
@@ -128,9 +146,9 @@ BenchmarkRecord benchmark(const World& searched, const World& verdict, const Ben
   Properties parameters = run.parameters;
   if (const auto improve = extracted_improve(run.planner, parameters)) guidance.improve = *improve;
   OmplProblem problem(searched, guidance);
-  ob::PlannerPtr planner = make_planner(run.planner, problem, own);
-  set_parameters(*planner, run.planner, parameters);
-  if (run.iterations) planner = std::make_shared<BoundedPlanner>(planner, *run.iterations);
+  const ob::PlannerPtr made = make_planner(run.planner, problem, own);
+  set_parameters(*made, run.planner, parameters);
+  const auto planner = std::make_shared<WatchedPlanner>(made, run.iterations);
 
   oc::SimpleSetup setup(problem.space());
   problem.pose(*setup.getProblemDefinition());
@@ -140,12 +158,19 @@ BenchmarkRecord benchmark(const World& searched, const World& verdict, const Ben
   tool.setPostRunEvent([&](const ob::PlannerPtr&, Properties& properties) {
     properties.merge(counted_properties(problem));
     properties["random seed INTEGER"] = std::to_string(run.guidance.seed);
+    if (planner->failure()) {
+      Properties crashed = crashed_properties(*planner->failure());
+      crashed.merge(properties);
+      properties.swap(crashed);
+      return;
+    }
+    const ob::ProblemDefinition& definition = *setup.getProblemDefinition();
     std::optional<VerifiedPath> path;
-    if (const auto controls = exact_solution(*setup.getProblemDefinition()); !controls.empty()) {
+    if (const auto controls = exact_solution(definition); !controls.empty()) {
       path = verify(verdict, searched,
                     {.planner = run.planner, .seed = run.guidance.seed, .controls = controls});
     }
-    properties.merge(verified_properties(path, verdict.problem()));
+    properties.merge(verified_properties(definition.hasExactSolution(), path, verdict.problem()));
     if (!path || !path->candidate.verified.passed) return;
     for (const TrajectoryPoint& point : path->candidate.points) {
       record.path.push_back({point.x_m, point.y_m, point.margin});

@@ -1,6 +1,7 @@
 // A planner of somebody else's in a suite, from a program of theirs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <ompl/control/PathControl.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -68,6 +69,42 @@ TEST_F(OwnPlanner, IsMeasuredAsOursAre) {
   EXPECT_EQ(all.at("Mine 1"), all.at("RRT 1"));
   EXPECT_EQ(all.at("Mine 2"), all.at("RRT 2"));
   EXPECT_NE(all.at("greedy 1"), all.at("RRT 1"));
+}
+
+/// Fails in `solve` as it is told to.
+class Failing : public ompl::base::Planner {
+ public:
+  Failing(const OmplProblem& problem, bool lies)
+      : ompl::base::Planner(problem.space(), "Failing"), space_(problem.space()), lies_(lies) {}
+  ompl::base::PlannerStatus solve(
+      const ompl::base::PlannerTerminationCondition& /*stop*/) override {
+    if (!lies_) throw std::logic_error("out of its depth");
+    auto path = std::make_shared<ompl::control::PathControl>(space_);
+    path->append(pdef_->getStartState(0));
+    pdef_->addSolutionPath(path, /*approximate=*/false, 0, getName());
+    return ompl::base::PlannerStatus::EXACT_SOLUTION;
+  }
+
+ private:
+  ompl::control::SpaceInformationPtr space_;
+  bool lies_;
+};
+
+TEST_F(OwnPlanner, ThatThrowsIsCrashedAndOneThatLiesIsOverturned) {
+  const auto failing = [](bool lies) {
+    return [lies](OmplProblem& problem) { return std::make_shared<Failing>(problem, lies); };
+  };
+  const Answer answer =
+      run("Thrower, Liar", {{"Thrower", failing(false)}, {"Liar", failing(true)}});
+  ASSERT_EQ(answer.status, 0) << answer.errors;
+  EXPECT_EQ(outcomes().at("Thrower 1").at("failure STRING"), "out of its depth");
+  const nlohmann::json whole = nlohmann::json::parse(folder_.read("out/benchmark.json"));
+  for (const nlohmann::json& planner : whole.at("experiments").at(0).at("planners")) {
+    const bool lies = planner.at("planner") == "Liar";
+    EXPECT_EQ(planner.at("verified"), 0);
+    EXPECT_EQ(planner.at("overturned"), lies ? 2 : 0);
+    EXPECT_EQ(planner.at("crashed"), lies ? 0 : 2);
+  }
 }
 
 TEST_F(OwnPlanner, IsRefusedWithItsPlaceWhereItCannotBeMade) {
