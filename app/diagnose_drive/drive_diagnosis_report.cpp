@@ -11,6 +11,7 @@
 #include "app/page/report_map.h"
 #include "app/page/report_page.h"
 #include "drive_diagnosis/drive_claims.h"
+#include "drive_diagnosis/silent_effects.h"
 
 namespace regoplan {
 
