@@ -184,11 +184,6 @@ void leave_doubtful_torques_out(const DriveSetup& setup, std::vector<DriveRecord
   std::ranges::move(doubtful, std::back_inserter(result.findings));
 }
 
-bool is_found(const DriveDiagnosis& result, std::string_view id) {
-  return std::ranges::any_of(result.findings,
-                             [id](const DriveFinding& finding) { return finding.id == id; });
-}
-
 /// Where time or positions are told in another unit, speeds and the map say nothing: neither
 /// claims nor a map are to be made of such a drive.
 /// \returns whether each drive was left out
@@ -404,6 +399,11 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
 }
 
 }  // namespace
+
+bool is_found(const DriveDiagnosis& diagnosis, std::string_view finding) {
+  return std::ranges::find(diagnosis.findings, finding, &DriveFinding::id) !=
+         diagnosis.findings.end();
+}
 
 std::string_view name(DriveVerdict verdict) {
   constexpr std::array<std::string_view, 4> kNames{"undecided", "consistent", "named", "class"};

@@ -96,6 +96,9 @@ struct DriveDiagnosisOptions {
   std::function<void(const std::string& text)> news = {};
 };
 
+/// Whether a finding of that id is told.
+bool is_found(const DriveDiagnosis& diagnosis, std::string_view finding);
+
 /// Compares drives with what model and map say of them, window by window. Deterministic for a seed.
 /// \param drives with clocks that rise (`mend_time`); positions are mended here
 /// \throws InputError where no drive has a window

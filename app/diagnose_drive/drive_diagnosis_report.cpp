@@ -24,6 +24,9 @@ std::string drive_diagnosis_headline(const DriveDiagnosisRun& run) {
     if (diagnosis.effects && diagnosis.effects->unnamed) {
       return fmt::format("Undecided: in {} something is otherwise that has no name.", of);
     }
+    if (is_found(diagnosis, "map_slopes") && !is_found(diagnosis, "drives_differ")) {
+      return fmt::format("Undecided: the ground of {} is not the map's.", of);
+    }
     if (diagnosis.effects) {
       return fmt::format("Undecided: {} differ from the model, and not in the same way.", of);
     }
@@ -51,6 +54,10 @@ std::optional<std::string> what_would_decide(const DriveDiagnosis& diagnosis) {
   if (diagnosis.effects && diagnosis.effects->unnamed) {
     return "What would decide: what the sensors of torque read at rest and of a wheel in the air, "
            "and a look at how the wheels are mounted.";
+  }
+  if (is_found(diagnosis, "map_slopes") && !is_found(diagnosis, "drives_differ")) {
+    return "What would decide: a map of the ground that was driven, or positions in its "
+           "coordinates.";
   }
   if (diagnosis.effects) {
     return "Faults and zones are sought in all drives together. What would decide: each of them "

@@ -14,7 +14,7 @@ namespace {
 constexpr double kZone = 3;      ///< another soil's numbers, in standard deviations of this one's
 constexpr double kAlike = 10;    ///< twice 5 nats
 constexpr double kCosine = 0.9;  ///< effects more alike than this are not told apart
-constexpr double kLeastOfAlike = 0.5;  ///< of the gain of what it is alike
+constexpr double kLeastOfAlike = 0.8;  ///< of the gain of what it is alike
 /// Twice nats beyond chance that a first effect is asked, and any other: what the fit of a known
 /// effect leaves looks like any. Recordings that begin out of balance gained 1.2 beyond chance
 /// where nothing was otherwise; zones that were not there gained up to 7.5, of causes that are

@@ -77,6 +77,8 @@ const nowhereText = () => {
     return 'Not the same in every drive: what was found in the recordings says in which.';
   if (REPORT.findings.some(({id}) => id === 'no_name'))
     return 'At no one place: what stands out has no name.';
+  if (REPORT.findings.some(({id}) => id === 'map_slopes'))
+    return 'All along: the slopes of the ground are not those of the map.';
   if (!COMPARED) return 'Nothing could be compared.';
   return REPORT.mechanisms.length ? 'At no one place: what is claimed acts all along.' :
                                     'Nowhere beyond what chance gives.';
