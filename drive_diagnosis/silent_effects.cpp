@@ -215,9 +215,6 @@ std::optional<std::string> nearest_text(const DriveDiagnosis& result) {
 
 void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecording>& drives,
                         DriveDiagnosis& result) {
-  const std::optional<SilentEffect> currents = silent_currents(drives, result);
-  // The first tells what would decide: without a vehicle that is currents, where there are any.
-  if (currents && !setup.vehicle) result.silent.push_back(*currents);
   if (!setup.vehicle) {
     result.silent.push_back(
         {{"soil_zone", "zone_border", "map_offset", "wheel_radius", "steering_offset", "payload",
@@ -237,7 +234,11 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
           "scale)";
     }
   }
-  if (currents && setup.vehicle) result.silent.push_back(*currents);
+  if (auto currents = silent_currents(drives, result)) {
+    // The first tells what would decide: without a vehicle that is currents, where there are any.
+    const auto at = setup.vehicle ? result.silent.end() : result.silent.begin();
+    result.silent.insert(at, *std::move(currents));
+  }
   const bool has_zone =
       result.effects && std::ranges::any_of(result.effects->found, [](const VehicleFinding& found) {
         return found.zone.has_value();

@@ -122,10 +122,9 @@ std::vector<NameClass> claimed_names(const std::vector<ScoredId>& scored) {
 }
 
 bool is_of(const ScoredId& scored, const std::vector<NameClass>& claimed) {
-  const std::set<std::string>& ids = scored.account.effects;
-  return ids.size() == claimed.size() && std::ranges::all_of(claimed, [&](const NameClass& names) {
-           return std::ranges::any_of(names.ids, [&](const auto& id) { return ids.contains(id); });
-         });
+  return scored.account.effects.size() == claimed.size() &&
+         std::ranges::all_of(claimed,
+                             [&](const NameClass& names) { return holds_one_of(scored, names); });
 }
 
 const ScoredId* best_of(const std::vector<ScoredId>& scored,
