@@ -1,5 +1,5 @@
 // The reports under test in a headless Chromium.
-import {statSync} from 'node:fs';
+import {existsSync, statSync} from 'node:fs';
 import {join} from 'node:path';
 import {chromium} from 'playwright-core';
 
@@ -17,9 +17,13 @@ const FILES = {
 export const fileOf = kind => join(folder, FILES[kind] || `${kind}/report.html`);
 export const bytesOf = kind => statSync(fileOf(kind)).size;
 
+/// The shell draws the same pages and starts in less than half the time.
+const PROGRAM =
+    ['/usr/bin/chromium-headless-shell', '/usr/bin/chromium'].find(program => existsSync(program));
+
 let browser = null;
 export async function startBrowser() {
-  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  browser = await chromium.launch({executablePath: PROGRAM, args: ['--no-sandbox']});
 }
 export const stopBrowser = () => browser.close();
 
