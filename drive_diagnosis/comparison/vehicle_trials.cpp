@@ -34,6 +34,8 @@ double share_or(const std::optional<DriveEstimate>& number, double sound) {
 constexpr double kSoundSteer_deg = 0.1, kSoundMotor = 0.01;
 /// Of all wheels, and of one of them beside the others.
 constexpr double kSoundRadius = 0.003, kSoundRadiusOfOne = 0.001;
+/// By how much the times of sensors of one recording differ.
+constexpr double kSoundLate_s = 0.03;
 
 /// What grows with a vehicle: bearings and gears with what they carry, where parts sit with its
 /// length. Shares are told by a lunar rover of 700 kg: 0.2 N m on wheels of 0.409 m, 3 N, and 1.5
@@ -62,6 +64,8 @@ void add_wheels(const Vehicle& vehicle, double drag_nm, Trials& trials) {
                [i](VehicleDeviation& d, double size) { d.motor_share.at(i) = size; });
     trials.add("wheel_radius", "radius_" + mount.name + "_share", kSoundRadiusOfOne,
                [i](VehicleDeviation& d, double size) { d.wheel_radius_share.at(i) = size; });
+    trials.add("clock_offset", "wheel_speed_" + mount.name + "_late_s", kSoundLate_s,
+               [i](VehicleDeviation& d, double size) { d.wheel_speed_late_s.at(i) = size; });
     // Where no wheel is steered, one that is mounted askew looks like a drag of its side; beside
     // steered wheels none is sought, which `say_what_is_silent` tells.
     if (!mount.steered && vehicle.steering != Steering::kSkid) continue;
@@ -108,6 +112,9 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_
              [](VehicleDeviation& d, double size) { d.motor_share.fill(size); });
   trials.add("wheel_radius", "radius_share", share_or(uncertain.wheel_radius_m, kSoundRadius),
              &VehicleDeviation::radius_share);
+  trials.add("clock_offset", "wheel_speeds_late_s", kSoundLate_s,
+             [](VehicleDeviation& d, double size) { d.wheel_speed_late_s.fill(size); });
+  trials.add("clock_offset", "attitude_late_s", kSoundLate_s, &VehicleDeviation::attitude_late_s);
   trials.add("payload", "mass_share", share_or(uncertain.mass_kg, 0.015),
              &VehicleDeviation::payload_share);
   trials.add("cg_offset", "forward_m", sound.cg_m, &VehicleDeviation::cg_forward_m);

@@ -79,15 +79,20 @@ void set_wheels(const DriveRecording& drive, const DriveWindow& window, const Ve
 void accelerate(const DriveRecording& drive, const DriveWindow& window, const Vehicle& vehicle,
                 WindowInput::Place& place) {
   const double length_s = place.part.end_s - place.part.start_s;
-  const auto motion_about = [&](double time_s) {
+  const auto wheels_about = [&](double time_s) {
     WindowInput::Place there{
         .part = {.start_s = time_s - length_s / 2, .end_s = time_s + length_s / 2}};
     set_wheels(drive, window, vehicle, there);
-    return there.start.motion;
+    return there;
   };
-  const BodyMotion from = motion_about(place.part.start_s), to = motion_about(place.part.end_s);
-  place.acceleration_mps2 = (to.vx_mps - from.vx_mps) / length_s;
-  place.yaw_acceleration_rps2 = (to.yaw_rate_rad_s - from.yaw_rate_rad_s) / length_s;
+  const WindowInput::Place from = wheels_about(place.part.start_s),
+                           to = wheels_about(place.part.end_s);
+  const BodyMotion &before = from.start.motion, &after = to.start.motion;
+  place.acceleration_mps2 = (after.vx_mps - before.vx_mps) / length_s;
+  place.yaw_acceleration_rps2 = (after.yaw_rate_rad_s - before.yaw_rate_rad_s) / length_s;
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    place.rim_rad_s2.at(i) = (to.rim_rad_s.at(i) - from.rim_rad_s.at(i)) / length_s;
+  }
 }
 
 /// What a window gives in so many parts; nothing where it lacks something.

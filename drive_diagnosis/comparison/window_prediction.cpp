@@ -219,14 +219,33 @@ void add_place(const WindowInput::Place& place, const WindowMotions::Place& foun
   prediction.forward_mps += part.track_share * (c * forward - s * left);
   prediction.left_mps += part.track_share * (s * forward + c * left);
   prediction.yaw_rate_rad_s += part.turn_share * axes.yaw_per_turn * motion.yaw_rate_rad_s;
-  prediction.pitch_rad += part.mean_share * std::atan(found.slope_forward);
-  prediction.roll_rad +=
-      part.mean_share * std::atan(found.slope_left / std::hypot(1, found.slope_forward));
   for (std::size_t i = 0; i < wheels; ++i) {
     const double drag_nm = sign_of(place.rim_rad_s.at(i)) * deviation.wheel_drag_nm.at(i);
     prediction.torque_nm.at(i) +=
         part.mean_share * (found.torque_nm.at(i) + drag_nm) * (1 + deviation.motor_share.at(i));
   }
+}
+
+/// What the attitude sensor says at a place whose ground it lies on.
+struct Attitude {
+  double pitch_rad = 0, roll_rad = 0;
+};
+
+Attitude attitude_on(const WindowMotions::Place& ground) {
+  return {.pitch_rad = std::atan(ground.slope_forward),
+          .roll_rad = std::atan(ground.slope_left / std::hypot(1, ground.slope_forward))};
+}
+
+/// The attitude that is told at a place: that of an earlier time where it is told late.
+Attitude attitude_told(const std::vector<WindowMotions::Place>& places, std::size_t j,
+                       double step_s, double late_s) {
+  const Attitude here = attitude_on(places[j]);
+  const std::size_t from = j == 0 ? 0 : j - 1, to = std::min(j + 1, places.size() - 1);
+  if (late_s == 0 || from == to) return here;
+  const Attitude before = attitude_on(places[from]), after = attitude_on(places[to]);
+  const double share = late_s / (step_s * static_cast<double>(to - from));
+  return {.pitch_rad = here.pitch_rad - share * (after.pitch_rad - before.pitch_rad),
+          .roll_rad = here.roll_rad - share * (after.roll_rad - before.roll_rad)};
 }
 
 WheelTime wheel_time(const WindowInput& input, const WindowInput::Place& place,
@@ -243,6 +262,7 @@ bool move_alike(const VehicleDeviation& a, VehicleDeviation b, const std::vector
   b.motor_share = a.motor_share;
   b.mounting_pitch_rad = a.mounting_pitch_rad;
   b.mounting_roll_rad = a.mounting_roll_rad;
+  b.attitude_late_s = a.attitude_late_s;
   std::vector<SoilNumbers> soils = a.soils;
   soils.resize(on_soil.size());
   b.soils.resize(on_soil.size());
@@ -270,14 +290,16 @@ void VehicleDeviation::add(const VehicleDeviation& other, double times) {
     steering_offset_rad.at(i) += times * other.steering_offset_rad.at(i);
     motor_share.at(i) += times * other.motor_share.at(i);
     wheel_radius_share.at(i) += times * other.wheel_radius_share.at(i);
+    wheel_speed_late_s.at(i) += times * other.wheel_speed_late_s.at(i);
   }
   for (double VehicleDeviation::*of :
-       {&VehicleDeviation::radius_share, &VehicleDeviation::payload_share,
-        &VehicleDeviation::cg_forward_m, &VehicleDeviation::cg_left_m, &VehicleDeviation::cg_up_m,
-        &VehicleDeviation::tow_drag_n, &VehicleDeviation::map_east_m,
-        &VehicleDeviation::map_north_m, &VehicleDeviation::soil_east_m,
-        &VehicleDeviation::soil_north_m, &VehicleDeviation::mounting_pitch_rad,
-        &VehicleDeviation::mounting_roll_rad, &VehicleDeviation::mounting_yaw_rad}) {
+       {&VehicleDeviation::radius_share, &VehicleDeviation::attitude_late_s,
+        &VehicleDeviation::payload_share, &VehicleDeviation::cg_forward_m,
+        &VehicleDeviation::cg_left_m, &VehicleDeviation::cg_up_m, &VehicleDeviation::tow_drag_n,
+        &VehicleDeviation::map_east_m, &VehicleDeviation::map_north_m,
+        &VehicleDeviation::soil_east_m, &VehicleDeviation::soil_north_m,
+        &VehicleDeviation::mounting_pitch_rad, &VehicleDeviation::mounting_roll_rad,
+        &VehicleDeviation::mounting_yaw_rad}) {
     this->*of += times * (other.*of);
   }
   if (soils.size() < other.soils.size()) soils.resize(other.soils.size());
@@ -372,7 +394,9 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
     for (std::size_t i = 0; i < changed.wheels.size(); ++i) {
       const double steer = place.steer_rad.at(i) + deviation.steering_offset_rad.at(i);
       scene.wheels.at(i) = {.cos_steer = std::cos(steer), .sin_steer = std::sin(steer)};
-      scene.rim_mps.at(i) = place.rim_rad_s.at(i) * vehicle_.wheel.radius_m *
+      const double rim_rad_s =
+          place.rim_rad_s.at(i) + deviation.wheel_speed_late_s.at(i) * place.rim_rad_s2.at(i);
+      scene.rim_mps.at(i) = rim_rad_s * vehicle_.wheel.radius_m *
                             (1 + deviation.radius_share + deviation.wheel_radius_share.at(i));
       scene.models.at(i) = model_at(wheel_time(input, place, changed.wheels[i]),
                                     static_cast<std::size_t>(patch.soil.at(i)));
@@ -406,7 +430,12 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
                               .roll_rad = deviation.mounting_roll_rad};
   for (std::size_t j = 0; j < input.places.size(); ++j) {
     const WindowMotions::Place& place = (*known->places)[j];
+    const WindowPart& part = input.places[j].part;
     add_place(input.places[j], place, input.yaw_rad, deviation, vehicle_.wheels.size(), prediction);
+    const Attitude told =
+        attitude_told(*known->places, j, part.end_s - part.start_s, deviation.attitude_late_s);
+    prediction.pitch_rad += part.mean_share * told.pitch_rad;
+    prediction.roll_rad += part.mean_share * told.roll_rad;
     prediction.found.push_back(place.found);
   }
   return told_by_sensors(prediction, deviation);

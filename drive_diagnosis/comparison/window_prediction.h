@@ -38,6 +38,7 @@ struct WindowInput {
     MotionStart near;   ///< where the search for the motion starts
     MotionStart start;  ///< and where it starts again if that leads nowhere
     std::array<double, kMaxWheels> rim_rad_s{};
+    std::array<double, kMaxWheels> rim_rad_s2{};  ///< by how much rim speeds change
     std::array<double, kMaxWheels> steer_rad{};
   };
   std::vector<Place> places;
@@ -61,6 +62,8 @@ struct VehicleDeviation {
   std::array<double, kMaxWheels> motor_share{};         ///< of the torque told
   double radius_share = 0;                              ///< of the wheels' radius
   std::array<double, kMaxWheels> wheel_radius_share{};  ///< of one wheel's, as it rolls
+  std::array<double, kMaxWheels> wheel_speed_late_s{};  ///< that wheel speeds are told late
+  double attitude_late_s = 0;                           ///< that pitch and roll are
   double payload_share = 0;                             ///< of the mass
   double cg_forward_m = 0, cg_left_m = 0, cg_up_m = 0;
   double tow_drag_n = 0;                     ///< at the centre of gravity, against the way

@@ -240,6 +240,34 @@ TEST(VehicleEffects, AWheelThatRollsAsIfItHadAnotherRadiusIsNamedAndNotItsDrag) 
   EXPECT_NEAR(found.size, 1 / 0.97 - 1, 3 * found.std);
 }
 
+/// A drive that gains speed and brakes all the way, with channels told later by so many rows.
+DriveRecording told_late(const std::vector<std::string>& channels, std::size_t rows) {
+  const auto varying_mps = [](double, double x_m) { return 1.2 + 0.5 * std::sin(x_m / 3); };
+  DriveRecording drive = record({.speed_mps = varying_mps, .seed = 21}, map_of_all());
+  for (const std::string& channel : channels) {
+    std::vector<float>& values = drive.channel(channel)->values;
+    std::shift_right(values.begin(), values.end(), static_cast<std::ptrdiff_t>(rows));
+  }
+  return drive;
+}
+
+TEST(VehicleEffects, WheelSpeedsThatAreToldLateAreAClockAndNoSoil) {
+  const std::vector<std::string> all{"wheel_speed_front_left_rad_s",
+                                     "wheel_speed_front_right_rad_s", "wheel_speed_rear_left_rad_s",
+                                     "wheel_speed_rear_right_rad_s"};
+  for (const auto& [channels, parameter] :
+       {std::pair{all, "wheel_speeds_late_s"},
+        {std::vector{all.back()}, "wheel_speed_rear_right_late_s"}}) {
+    const Diagnosed late = diagnosed(std::vector{told_late(channels, 3)});
+    ASSERT_TRUE(late.effects);
+    ASSERT_EQ(late.effects->found.size(), 1u) << parameter << said(*late.effects);
+    const VehicleFinding& found = late.effects->found[0];
+    EXPECT_EQ(found.id, "clock_offset") << said(*late.effects);
+    EXPECT_EQ(found.parameter, parameter) << said(*late.effects);
+    EXPECT_NEAR(found.size, 0.3, 3 * found.std) << said(*late.effects);
+  }
+}
+
 TEST(VehicleEffects, NothingElseIsClaimedBesideADragWhereTorqueScatters) {
   for (std::uint64_t seed = 22; seed <= 23; ++seed) {
     SimulatedDrive drive{.torque_scatter = 0.16, .seed = seed};
