@@ -147,6 +147,9 @@ std::optional<double> curvature_for(const Vehicle& vehicle, double steer_rad) {
   return (low + high) / 2;
 }
 
+/// At rest on a slope a vehicle may creep so fast against its direction.
+constexpr double kCreep_mps = VehicleDynamics::kStandstillSpeed_mps;
+
 /// What was commanded at a row of a candidate.
 RecordedMoment moment_at(const PathTable& table, std::size_t i, const Vehicle& vehicle) {
   RecordedMoment moment;
@@ -157,7 +160,8 @@ RecordedMoment moment_at(const PathTable& table, std::size_t i, const Vehicle& v
   state.y_m = table.number(i, "y_m", kAnyNumber);
   state.yaw_rad = table.number(i, "yaw_deg", kAnyNumber) * kDegree;
   state.motion.vx_mps = speed;
-  state.rim_speed_mps = speed;
+  // What is left of a speed at rest says nothing of the direction that it was driven in.
+  state.rim_speed_mps = std::abs(speed) > kCreep_mps ? speed : 0;
   if (table.has("yaw_rate_rad_s")) {
     state.motion.yaw_rate_rad_s = table.number(i, "yaw_rate_rad_s", kAnyNumber);
   }
@@ -186,9 +190,6 @@ void add_accelerations(std::vector<RecordedMoment>& moments, double most_mps2) {
     moments[i].state.rim_acceleration_mps2 = std::clamp(rate, -most_mps2, most_mps2);
   }
 }
-
-/// At rest on a slope a vehicle may creep so fast against its direction.
-constexpr double kCreep_mps = VehicleDynamics::kStandstillSpeed_mps;
 
 /// The slowest moment about a change of direction ends one range and begins the next.
 std::vector<RowRange> ranges_of(const std::vector<RecordedMoment>& moments) {

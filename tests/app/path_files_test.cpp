@@ -68,6 +68,20 @@ TEST(PathFiles, GoingBackByAHandAtAPlaceWhereItAllButStandsIsNoLeg) {
   EXPECT_EQ(path.legs[0].recorded.size(), 11u);
 }
 
+TEST(PathFiles, WhatIsLeftOfASpeedAtRestSaysNothingOfADirection) {
+  const ScratchFolder folder;
+  folder.write("candidate-1.csv",
+               "time_s,x_m,y_m,yaw_deg,speed_mps,steer_deg,demand_n,margin,curvature_1pm\n"
+               "0,1050,5100,0,1,0,0,0.5,0\n1,1051,5100,0,1,0,0,0.5,0\n"
+               "2,1051.5,5100,0,-1.7e-10,0,0,0.5,0\n");
+  const PlanningProblem problem = report_test_problem(report_test_map(40));
+  const ReferencePath path = read_path(folder.path("candidate-1.csv"), problem, 3).path;
+  ASSERT_EQ(path.legs.size(), 1u);
+  const VehicleState& last = path.legs[0].recorded.back().state;
+  EXPECT_EQ(last.rim_speed_mps, 0);
+  EXPECT_EQ(last.direction_at_rest, 1);
+}
+
 TEST(PathFiles, ACandidateEndsAtTheSpeedOfItsLastRowHoweverNearTheOneBeforeLies) {
   for (const double end_mps : {0.0, 0.5}) {
     const ScratchFolder folder;
