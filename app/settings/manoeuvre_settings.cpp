@@ -129,9 +129,11 @@ std::vector<Manoeuvre> read_one(const SettingsNode& node, const PlanningProblem&
     const bool across = base.kind == ManoeuvreKind::kSlopeTraverse;
     const std::vector<double> slopes =
         numbers(mapping, "slope_deg", {.min = 0, .max = 60}, across ? 10 : 0);
-    base.slope_heading_rad =
-        mapping.number_or("slope_heading_deg", {.min = -360, .max = 360}, across ? 90 : 0) *
-        kDegree;
+    const SettingsNode* heading = mapping.optional("slope_heading_deg");
+    const double uphill_deg =
+        heading ? heading->number({.min = -360, .max = 360}) : (across ? 90 : 0);
+    base.slope_heading_rad = uphill_deg * kDegree;
+    const std::string towards = heading ? fmt::format(" uphill at {} deg", uphill_deg) : "";
     if (const SettingsNode* turn = mapping.optional("turn")) {
       base.to_the_right = turn->choice({"left", "right"}) == 1;
     }
@@ -154,8 +156,9 @@ std::vector<Manoeuvre> read_one(const SettingsNode& node, const PlanningProblem&
             one.slope_rad = slope * kDegree;
             (turns ? one.turn_rate_rad_s : one.speed_mps) = turns ? speed * kDegree : speed;
             if (one.braking_mps2 == 0) one.braking_mps2 = vehicle.acceleration_max_mps2;
-            one.name = fmt::format("{}: {}{}, {}, {} {}, slope {} deg", base_name, shape_text(one),
-                                   vehicle.name, soil.name, speed, turns ? "deg/s" : "m/s", slope);
+            one.name = fmt::format("{}: {}{}, {}, {} {}, slope {} deg{}", base_name,
+                                   shape_text(one), vehicle.name, soil.name, speed,
+                                   turns ? "deg/s" : "m/s", slope, towards);
             all.push_back(std::move(one));
           }
         }

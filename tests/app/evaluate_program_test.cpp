@@ -213,12 +213,14 @@ TEST_F(Evaluate, ManoeuvresThatDifferInShapeAloneHaveNamesOfTheirOwn) {
            "- {kind: steady_turn, radius_m: 15, angle_deg: 20, speed_mps: 1}\n"
            "- {kind: lane_change, offset_m: 1, length_m: 12, speed_mps: 1}\n"
            "- {kind: lane_change, offset_m: 1, length_m: 15, speed_mps: 1}\n"
+           "- {kind: slope_traverse, slope_heading_deg: 0}\n"
+           "- {kind: slope_traverse, slope_heading_deg: 90}\n"
            "- {kind: slalom, amplitude_m: 0.5, wavelength_m: 15, waves: 1, speed_mps: 1}\n"));
   ASSERT_EQ(run.status, 0) << run.errors;
   std::set<std::string> names;
   const nlohmann::json paths = result()["paths"];
   for (const nlohmann::json& path : paths) names.insert(path["manoeuvre"].get<std::string>());
-  EXPECT_EQ(names.size(), 5U);
+  EXPECT_EQ(names.size(), 7U);
   EXPECT_TRUE(names.contains("steady_turn: radius 12 m, lrv, mare, 1 m/s, slope 0 deg"));
 }
 
