@@ -48,6 +48,10 @@ std::vector<ConditionAxis> condition_axes(const TestBed& bed) {
   return axes;
 }
 
+bool follows_one_slip(const Condition& condition) {
+  return condition.after_slip_range <= kSlipGap;
+}
+
 std::optional<ConditionAxis> memory_axis(const TestBed& bed) {
   ConditionAxis axis = axis_of(bed, "after_slip_ratio", kSlipGap,
                                [](const Condition& at) { return at.after_slip_ratio; });

@@ -25,4 +25,8 @@ std::vector<ConditionAxis> condition_axes(const TestBed& bed);
 /// not vary.
 std::optional<ConditionAxis> memory_axis(const TestBed& bed);
 
+/// Whether the replicates of a condition had the same slip before them. Where they had not, their
+/// mean is a slip that no run came after: it is no place to point at.
+bool follows_one_slip(const Condition& condition);
+
 }  // namespace regoplan

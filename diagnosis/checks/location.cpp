@@ -76,7 +76,9 @@ class Scan {
     if (const auto memory = memory_axis(bed)) {
       const std::size_t first = regions_.size();
       for (const Interval& interval : intervals(memory->levels, true)) {
-        add({&*memory}, members(*memory, interval));
+        std::vector<std::size_t> told = members(*memory, interval);
+        std::erase_if(told, [&bed](std::size_t k) { return !follows_one_slip(bed.conditions[k]); });
+        add({&*memory}, std::move(told));
       }
       count_beyond_own_conditions(first);
     }

@@ -78,6 +78,9 @@ std::vector<Condition> group_conditions(const Recording& recording,
     const double first_s = recording.runs[group.runs.front()].conditions.time_s;
     group.conditions.time_s = first_s;
     group.day = recording.runs[group.runs.front()].day;
+    const auto [least, most] = std::ranges::minmax(
+        group.runs, {}, [&slip_before](std::size_t r) { return slip_before[r]; });
+    group.after_slip_range = slip_before[most] - slip_before[least];
     for (const std::size_t r : group.runs) {
       const WheelRun& run = recording.runs[r];
       group.load_n += share * run.load_n;

@@ -19,6 +19,7 @@ struct Condition {
   bool one_day = true;            ///< whether all its runs are of that day
   double when = 0;                ///< where time is a place: 0 for the first run, 1 for the last
   double after_slip_ratio = 0;    ///< mean slip of the runs before its own; 0 before the first
+  double after_slip_range = 0;    ///< from the least to the most of these
   std::vector<std::size_t> runs;  ///< indices into the recording
 };
 

@@ -1,11 +1,13 @@
 #include "diagnosis/checks/detection.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
+#include "diagnosis/bed/condition_axes.h"
 #include "diagnosis/checks/location.h"
 #include "diagnosis/fit/calibration.h"
 #include "synthetic_bed.h"
@@ -219,6 +221,22 @@ TEST(Location, WhereEachSlipAlwaysFollowsTheSameSlipTheRunItselfIsTold) {
   const auto found = locate(made.recording, made.remainder, 8);
   ASSERT_FALSE(found.empty());
   EXPECT_FALSE(found.front().region.contains("after_slip_ratio"));
+}
+
+TEST(Location, ReplicatesThatFollowedDifferentSlipsAreNoPlaceBehindARun) {
+  Recording recording;
+  for (const double slip : {0.1, 0.5, 0.3, 0.5}) {
+    WheelRun& run = recording.runs.emplace_back();
+    run.run_id = fmt::format("{}", recording.runs.size());
+    run.load_n = 40;
+    run.slip_ratio = slip;
+  }
+  // Runs at .5 came after .1 and after .3: at .2 in the mean, which nothing came after.
+  const std::vector<Condition> groups = group_conditions(recording, {0, 1, 2, 3});
+  ASSERT_EQ(groups.size(), 3u);
+  for (const Condition& group : groups) {
+    EXPECT_EQ(follows_one_slip(group), group.slip_ratio < 0.4) << group.slip_ratio;
+  }
 }
 
 TEST(Location, IsSilentWhereNothingDiffers) {
