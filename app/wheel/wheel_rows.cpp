@@ -57,12 +57,14 @@ struct Need {
   std::string_view column;
   bool above_0 = false;
 };
-constexpr std::array<Need, 5> kNeeds{{
+constexpr std::array<Need, 7> kNeeds{{
     {"multi_pass", "", "pass"},
     {"rate_dependence", "", "speed_mps", true},  // at rest there is no rate
     {"soil_zone", "", "position_m"},
     {"cohesion_drift", "", "time_s"},
     {"soil_change", "for_a_time", "time_s"},
+    {"load_transfer", "drifting", "time_s"},
+    {"load_transfer", "for_a_time", "time_s"},
 }};
 
 bool is_of(const Need& need, const Mechanism& mechanism) {

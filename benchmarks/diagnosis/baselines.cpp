@@ -153,7 +153,7 @@ bool can_bear(const MechanismForm& form, const RecordedColumns& columns) {
   if (form.id == "multi_pass") return columns.pass;
   if (form.id == "rate_dependence") return columns.speed;
   if (form.id == "soil_zone") return columns.position;
-  if (form.id == "cohesion_drift") return columns.time;
+  if (form.id == "cohesion_drift" || form.form == "drifting") return columns.time;
   return true;
 }
 

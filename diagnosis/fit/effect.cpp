@@ -13,7 +13,7 @@ bool has_one_form(const Effect& effect) {
 
 bool is_told_by_time(const Effect& effect) {
   return effect.id == "cohesion_drift" || effect.form == "for_a_time" ||
-         effect.course != FaultCourse::kConstant;
+         effect.form == "drifting" || effect.course != FaultCourse::kConstant;
 }
 
 }  // namespace regoplan

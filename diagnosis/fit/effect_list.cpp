@@ -82,6 +82,7 @@ bool can_bear(const MechanismForm& form, const Columns& columns) {
   const std::string_view id = form.id;
   // Of a soil that differs the other soil is recorded: by a reference, or by other times.
   if (form.form == "for_a_time") return columns.times_apart && !columns.difference;
+  if (form.form == "drifting") return columns.time && !columns.difference;
   if (id == "soil_change") return columns.difference;
   if (id == "multi_pass") return columns.pass;
   if (id == "rate_dependence") return columns.speed;
@@ -145,6 +146,12 @@ class EffectList {
         effect.fixed["direction_rad"] = direction;
         push(effect);
       }
+    } else if (form.form == "drifting") {
+      const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
+      effect.coordinates = {
+          Coordinate{.name = "per_s", .spread = 0.1 / (time.high - columns_.first_time_s)}};
+      effect.fixed["first_time_s"] = columns_.first_time_s;
+      push(effect);
     } else if (form.id == "cohesion_drift") {
       const Span time = span_of(bed_, [](const auto& at) { return at.conditions.time_s; });
       const double lasts_s = time.high - columns_.first_time_s;

@@ -161,6 +161,27 @@ std::vector<Definition> of_wheel() {
          e.load_per_drawbar += p[0];
          return e;
        }},
+      {{"load_transfer",
+        "drifting",
+        "W = W0 max(0, 1 + a (t - t0)+)",
+        "statics: a load cell that drifts",
+        {{"per_s", -1e-5, 1e-5, 1e-6, -10, 10}, {"first_time_s", 0, 1e6, 0, -1e12, 1e12}}},
+       [](E e, P p, S at) {
+         e.load_n *= std::max(0.0, 1 + p[0] * std::max(0.0, at.conditions.time_s - p[1]));
+         return e;
+       }},
+      {{"load_transfer",
+        "for_a_time",
+        "from <= time <= to: W = W0 (1 + k)",
+        "statics: a load cell that was set anew",
+        {{"from_s", 0, 1e6, 0, -1e12, 1e12},
+         {"to_s", 0, 1e6, 8.64e4, -1e12, 1e12},
+         {"share", -.2, .2, .08, -.99, 100}}},
+       [](E e, P p, S at) {
+         const double time_s = at.conditions.time_s;
+         if (time_s >= p[0] && time_s <= p[1]) e.load_n *= 1 + p[2];
+         return e;
+       }},
       {{"slip_scale",
         "rim_speed",
         "true rim speed = (1 + e) times the one told",
