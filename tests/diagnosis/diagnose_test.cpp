@@ -263,9 +263,11 @@ TEST(Diagnose, ASensorTurnedAboutTheVerticalIsASensorAndToldByItsAngle) {
       << found.sentence;
 }
 
+constexpr double kRun_s = 120;
+
 /// A recording of one day, a run every two minutes, of instruments that change in time.
-Diagnosis diagnosed_in_time(const std::function<void(WheelRun&, double time_s)>& instruments) {
-  constexpr double kRun_s = 120;
+Diagnosis diagnosed_in_time(const std::function<void(WheelRun&, double time_s)>& instruments,
+                            const TrueWheel& truth = {}) {
   BedPlan plan;
   plan.instruments = [&instruments, time_s = 0.0](WheelRun& run) mutable {
     run.conditions.time_s = time_s;
@@ -274,7 +276,7 @@ Diagnosis diagnosed_in_time(const std::function<void(WheelRun&, double time_s)>&
     time_s += kRun_s;
   };
   const DiagnosisSetup setup = simulant_setup();
-  Recording recording = record({}, setup, setup.soil.mean, plan, 12);
+  Recording recording = record(truth, setup, setup.soil.mean, plan, 12);
   recording.columns.time = true;
   return diagnose(recording, setup);
 }
@@ -293,6 +295,19 @@ TEST(Diagnose, AnAmplifierThatWarmsUpIsASensorAndSaidWhen) {
   ASSERT_TRUE(found.where.front().region.contains("time_s"));
   EXPECT_LT(found.where.front().region.at("time_s")[0], kSettling_s / 2);
   EXPECT_LT(found.where.front().region.at("time_s")[1], 2 * kSettling_s);
+}
+
+TEST(Diagnose, ALoadCellThatDriftsIsNoSoilThatDries) {
+  constexpr double kMoreARun = 1.5e-3;
+  TrueWheel truth;
+  // The runs are called r1, r2, ... in the order of their times.
+  truth.load = [](const WheelRun& run) { return 1 + kMoreARun * std::stod(run.run_id.substr(1)); };
+  const Diagnosis found = diagnosed_in_time([](WheelRun&, double) {}, truth);
+  ASSERT_TRUE(names(found, "load_transfer")) << found.sentence;
+  EXPECT_FALSE(names(found, "cohesion_drift")) << found.sentence;
+  const Claim& claim = found.claims.front();
+  EXPECT_EQ(claim.form, "drifting");
+  EXPECT_NEAR(claim.parameters.at("per_s").value, kMoreARun / kRun_s, 0.2 * kMoreARun / kRun_s);
 }
 
 TEST(Diagnose, AZeroThatSettlesIsASensorAndSaidWhen) {
