@@ -69,7 +69,7 @@ class Diagnosing {
     complete_ = found_;
     tell("proving it on held-out conditions", 0.85);
     decide();
-    found_.ranking = found_.verdict == Verdict::kPartly ? std::move(partial_ranking_) : ranking();
+    found_.ranking = partial_ranking_.empty() ? ranking() : std::move(partial_ranking_);
     complete_ = found_;
     const bool nothing_missing =
         found_.verdict == Verdict::kConsistent || found_.verdict == Verdict::kParameters;
@@ -258,6 +258,9 @@ class Diagnosing {
       take_places_of(claim->fit);
       take(
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
+      // Names of less than a third of what is missing say what a part of it is.
+      const bool leaves_most = found_.remainder_share > 1 - Thresholds::kWorthANameAlone;
+      if (single && found_.excess_is_clear && leaves_most) found_.verdict = Verdict::kPartly;
       return;
     }
     if (unfit_ && named_in_part()) return;
