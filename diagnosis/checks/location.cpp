@@ -78,7 +78,7 @@ class Scan {
       for (const Interval& interval : intervals(memory->levels, true)) {
         std::vector<std::size_t> told = members(*memory, interval);
         std::erase_if(told, [&bed](std::size_t k) { return !follows_one_slip(bed.conditions[k]); });
-        add({&*memory}, std::move(told));
+        add({&*memory}, told);
       }
       count_beyond_own_conditions(first);
     }
