@@ -25,8 +25,11 @@ Json list_json(const Items& items, ToJson to_json) {
   return list;
 }
 
+/// A parameter that was not fitted has no spread, and says why.
 Json estimate_json(const Estimate& estimate) {
-  return {{"value", estimate.value}, {"std", estimate.standard_deviation}};
+  Json json = {{"value", estimate.value}, {"std", estimate.standard_deviation}};
+  if (estimate.standard_deviation <= 0) json["fixed"] = true;
+  return json;
 }
 
 /// A soil number as settings files write it.

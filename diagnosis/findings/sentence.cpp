@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/findings/gain_unit.h"
 #include "diagnosis/recording/thresholds.h"
 
 namespace regoplan {
@@ -169,6 +170,8 @@ std::string number_words(const Claim& claim) {
     numbers += fmt::format("{}{} {:.3g}, std {:.2g}", numbers.empty() ? ": " : "; ", name,
                            estimate.value, estimate.standard_deviation);
   }
+  const std::string unit = unit_of_gain(claim);
+  if (!unit.empty()) numbers += fmt::format("; is it in {}?", unit);
   return fmt::format(" ({}{})", claim.form, numbers);
 }
 

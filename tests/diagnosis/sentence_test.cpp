@@ -50,6 +50,21 @@ TEST(Sentence, TellsFormAndFittedNumbersOfANameThatStandsAlone) {
   EXPECT_EQ(sentence_of(diagnosis).find("exponent"), std::string::npos);
 }
 
+TEST(Sentence, AsksForTheUnitWhoseFactorAGainIs) {
+  Diagnosis diagnosis = named();
+  diagnosis.claims = {{.id = "sensor_gain", .form = "fx_n", .probability = 0.99}};
+  Claim& claim = diagnosis.claims.front();
+  claim.parameters = {{"gain", {-0.772, 0.004}}};
+  expect_says(sentence_of(diagnosis), {"fx_n: gain -0.772, std 0.004; is it in lbf?"});
+  claim.form = "torque_nm";
+  claim.parameters = {{"gain", {-0.258, 0.01}}};
+  expect_says(sentence_of(diagnosis), {"is it in lbf ft?"});
+  for (const Estimate& none : {Estimate{-0.2, 0.01}, Estimate{-0.26, 0.1}}) {
+    claim.parameters = {{"gain", none}};
+    EXPECT_EQ(sentence_of(diagnosis).find("is it in"), std::string::npos) << none.value;
+  }
+}
+
 TEST(Sentence, NamesChannelSizeRegionMechanismAndProbability) {
   expect_says(sentence_of(named()),
               {"Sinkage lies 4.2 mm (95 %: 3.5 to 4.9) above the calibrated model at "
