@@ -7,6 +7,7 @@
 #include <numeric>
 #include <random>
 
+#include "diagnosis/bed/wheel_bed.h"
 #include "diagnosis/diagnosis.h"
 #include "synthetic_bed.h"
 #include "terramech/basics/angles.h"
