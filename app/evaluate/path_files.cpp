@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 
+#include "app/settings/settings_node.h"
 #include "planner/evaluation/course_bounds.h"
 #include "terramech/basics/angles.h"
 #include "terramech/basics/input_error.h"
@@ -59,9 +60,9 @@ class PathTable {
     const std::string& cell = rows_[row].cells[static_cast<std::size_t>(found - columns_.begin())];
     const std::optional<double> value = parse_number(cell);
     if (!value || !allowed.contains(*value)) {
-      throw error(rows_[row].line,
-                  fmt::format("{}: {} is not valid (allowed: {}{})", column,
-                              cell.empty() ? "an empty cell" : cell, allowed.text(), why));
+      throw error(rows_[row].line, fmt::format("{}: {} is not valid (allowed: {}{})", column,
+                                               cell.empty() ? "an empty cell" : cell,
+                                               value ? allowed.text() : number_text(allowed), why));
     }
     return *value;
   }
@@ -108,8 +109,13 @@ struct RowRange {
 PathCurve curve_of(const PathTable& table, const RowRange& rows, const GridFrame& map) {
   constexpr const char* kWhy = ", the map and as far around it as its diagonal";
   const double diagonal_m = std::hypot(map.east_m() - map.west_m, map.north_m - map.south_m());
-  const ValueRange x{.min = map.west_m - diagonal_m, .max = map.east_m() + diagonal_m};
-  const ValueRange y{.min = map.south_m() - diagonal_m, .max = map.north_m + diagonal_m};
+  // Told to the centimetre, and within the diagonal.
+  const auto at_least_m = [](double bound) { return std::ceil(bound * 100) / 100; };
+  const auto at_most_m = [](double bound) { return std::floor(bound * 100) / 100; };
+  const ValueRange x{.min = at_least_m(map.west_m - diagonal_m),
+                     .max = at_most_m(map.east_m() + diagonal_m)};
+  const ValueRange y{.min = at_least_m(map.south_m() - diagonal_m),
+                     .max = at_most_m(map.north_m + diagonal_m)};
   std::vector<PathPoint> points;
   for (std::size_t i = rows.first; i <= rows.last && i < table.rows(); ++i) {
     points.push_back(

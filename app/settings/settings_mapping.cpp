@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <vector>
 
 #include "terramech/basics/nearest_name.h"
@@ -49,6 +50,19 @@ bool may_misspell(std::string_view given, std::string_view missing) {
   return edits <= kEditsMax && 2 * edits <= missing.size() && !are_of_one_family(given, missing);
 }
 
+/// Whether a key that is given is one that is missing, in another unit: `heading_rad` and
+/// `heading_deg`.
+bool has_other_unit(std::string_view given, std::string_view missing) {
+  static const std::set<std::string_view> units{
+      "m",   "cm",  "mm",  "km",  "ft",   "in", "deg", "rad", "mps", "kmh", "kph", "mph",
+      "s",   "ms",  "min", "h",   "kg",   "g",  "lb",  "t",   "n",   "kn",  "nm",  "pa",
+      "kpa", "mpa", "psi", "bar", "mps2", "w",  "kw",  "j",   "kj",  "wh"};
+  const std::vector<std::string_view> of_given = parts_of(given), of_missing = parts_of(missing);
+  return of_given.size() > 1 && of_given.size() == of_missing.size() && given != missing &&
+         std::equal(of_given.begin(), of_given.end() - 1, of_missing.begin()) &&
+         units.contains(of_given.back()) && units.contains(of_missing.back());
+}
+
 }  // namespace
 
 SettingsError placed_error(const SettingsNode& node, const ValueError& bad) {
@@ -82,7 +96,12 @@ const SettingsNode* SettingsMapping::optional(std::string_view key) {
 
 const SettingsNode& SettingsMapping::required(std::string_view key) {
   if (const SettingsNode* value = optional(key)) return *value;
-  // A misspelt key is the likeliest reason.
+  for (const SettingsEntry& entry : node_.mapping()) {
+    if (asked_.contains(entry.key) || !has_other_unit(entry.key, key)) continue;
+    throw node_.error(fmt::format("{} is missing ({} on line {} is in another unit)", key,
+                                  entry.key, entry.line));
+  }
+  // A misspelt key is the likeliest other reason.
   const SettingsEntry* nearest = nullptr;
   for (const SettingsEntry& entry : node_.mapping()) {
     if (asked_.contains(entry.key) || !may_misspell(entry.key, key)) continue;

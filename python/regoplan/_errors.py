@@ -9,7 +9,7 @@ _NOT_VALID = re.compile(
     re.S,
 )
 # Dicts have no lines: where a misspelt key stands, its name says.
-_LINE_OF_KEY = re.compile(r" on line \d+(?=: did you mean )")
+_LINE_OF_KEY = re.compile(r" on line \d+(?=: did you mean | is in another unit)")
 _PLACE = re.compile(r"^(?P<file>[^\n]*?):(?P<line>\d+): ")
 # What is said of a key or an argument that has no value to tell.
 _NAMED = re.compile(

@@ -128,6 +128,9 @@ def test_a_misspelt_key_is_told_from_the_one_that_is_missing(scenario):
     for goal in ({"y_m": 25, "radius_m": 3}, {"y_m": 25, "radius_m": 3, "z": 1}):
         with pytest.raises(regoplan.InputError, match="x_m is missing$"):
             regoplan.plan({**scenario, "goal": goal})
+    start = {"x_m": 10, "y_m": 25, "heading_rad": 0}
+    with pytest.raises(regoplan.InputError, match=r"heading_deg is missing \(heading_rad is in another unit\)$"):
+        regoplan.plan({**scenario, "start": start})
 
 
 def test_every_refusal_says_of_which_argument(scenario, soil):

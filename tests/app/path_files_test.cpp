@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 
 #include "tests/app/plan_report_fixture.h"
 #include "tests/error_text.h"
@@ -111,6 +112,13 @@ TEST(PathFiles, AFileOfAnotherProgramSaysWhatIsWrongWithIt) {
   EXPECT_TRUE(refusal("x_m,y_m\r1050,5100\r1060,5100\r")
                   .ends_with("path.csv:1: a carriage return within the line (allowed: lines that "
                              "end in a line feed)"));
+  const std::string no_number = refusal("x_m,y_m\n1050,abc\n1060,5100\n");
+  EXPECT_NE(no_number.find("path.csv:2: y_m: abc is not valid (allowed: a number, "),
+            std::string::npos)
+      << no_number;
+  const std::string far = refusal("x_m,y_m\n9e9,5100\n1060,5100\n");
+  EXPECT_EQ(far.find("a number"), std::string::npos) << far;
+  EXPECT_FALSE(std::regex_search(far, std::regex(R"(\.\d{3})"))) << "at most centimetres: " << far;
   const std::string two_bytes_a_letter = "x\0,\0y\0\n\0"s;
   EXPECT_TRUE(refusal(two_bytes_a_letter)
                   .ends_with("path.csv:1: zero bytes, as of UTF-16 (allowed: UTF-8)"));

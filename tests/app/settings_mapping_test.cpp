@@ -60,6 +60,21 @@ TEST(SettingsMapping, AMissingKeyNamesAKeyInWhichOneLetterIsAnother) {
   EXPECT_EQ(misspelt, "f.yaml:1: goal is missing (gosl on line 1: did you mean goal?)");
 }
 
+TEST(SettingsMapping, AMissingKeyNamesTheOneThatIsGivenInAnotherUnit) {
+  const auto read = [](const std::string& key, const std::string& yaml) {
+    return error_text([&] {
+      read_mapping(parse_settings(yaml, "f.yaml"),
+                   [&](SettingsMapping& mapping) { return mapping.number(key, kAbove0); });
+    });
+  };
+  EXPECT_EQ(read("heading_deg", "\nheading_rad: 1\n"),
+            "f.yaml:2: heading_deg is missing (heading_rad on line 2 is in another unit)");
+  // One letter off, and yet no slip: whoever renames it has a value that is 1000 times too large.
+  EXPECT_EQ(read("mass_kg", "mass_g: 1\n"),
+            "f.yaml:1: mass_kg is missing (mass_g on line 1 is in another unit)");
+  EXPECT_EQ(read("margin_max", "margin_min: 1\n"), "f.yaml:1: margin_max is missing");
+}
+
 TEST(SettingsMapping, SomethingElseThanAMappingIsAnError) {
   EXPECT_NE(error_text([] { read_radius("[1, 2]"); }), "");
   EXPECT_NE(error_text([] { read_radius("5"); }), "");
