@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <numeric>
+#include <optional>
 #include <vector>
 
 #include "planner/certificate/least_length.h"
@@ -59,10 +62,34 @@ std::string reserve_words(const PlanningProblem& problem, const RejectedState& s
                      counted.unit.empty() ? "" : " ", counted.unit);
 }
 
+/// How much what is over of a limit is of it.
+double missed_by(const RejectedState& state) {
+  if (!state.exceeded) return std::numeric_limits<double>::max();
+  const auto [found, limit] = *state.exceeded;
+  return std::abs(found - limit) / std::max(std::abs(limit), 0.1);
+}
+
+/// What refused by far the most states, where that is something else than a reason that refused
+/// few; else empty.
+std::string mostly_refused_by(const PlanResult& result, Rejection reason) {
+  const auto most = std::ranges::max_element(result.rejected);
+  constexpr std::int64_t kRare = 10;
+  if (*most <= kRare * result.rejected[static_cast<std::size_t>(reason)]) return "";
+  const auto usual = static_cast<Rejection>(most - result.rejected.begin());
+  const RejectedState* shown = nullptr;
+  for (const RejectedState& state : result.rejected_states) {
+    if (state.reason != usual) continue;
+    if (!shown || missed_by(state) < missed_by(*shown)) shown = &state;
+  }
+  const auto all = std::accumulate(result.rejected.begin(), result.rejected.end(), std::int64_t{0});
+  return fmt::format("; most often, in {} of {} refusals, it was stopped by {}", *most, all,
+                     rejection_text(usual, shown ? shown->exceeded : std::nullopt));
+}
+
 /// The rejected state that stands for those nearest to the goal: of their most frequent reason, the
 /// one that missed its limit by the smallest share.
-std::string narrowest_place(const PlanningProblem& problem,
-                            const std::vector<RejectedState>& rejected) {
+std::string narrowest_place(const PlanningProblem& problem, const PlanResult& result) {
+  const std::vector<RejectedState>& rejected = result.rejected_states;
   const LeastLength way(problem);
   constexpr double kNear = 1.1, kNear_m = 2;
   std::vector<double> left_m;
@@ -73,26 +100,28 @@ std::string narrowest_place(const PlanningProblem& problem,
   }
   const double nearest_m = *std::min_element(left_m.begin(), left_m.end());
   if (!std::isfinite(nearest_m)) return "";
-  std::array<int, kRejectionCount> counts{};
   const auto near = [&](std::size_t i) { return left_m[i] <= kNear * nearest_m + kNear_m; };
+  // Of each reason about as many are kept, however many there were.
+  std::array<double, kRejectionCount> kept{}, kept_near{}, were_near{};
   for (std::size_t i = 0; i < rejected.size(); ++i) {
-    if (near(i)) ++counts[static_cast<std::size_t>(rejected[i].reason)];
+    const auto reason = static_cast<std::size_t>(rejected[i].reason);
+    ++kept.at(reason);
+    if (near(i)) ++kept_near.at(reason);
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const double were = std::max(kept[k], static_cast<double>(result.rejected[k]));
+    if (kept[k] > 0) were_near[k] = were * kept_near[k] / kept[k];
   }
   const auto reason =
-      static_cast<Rejection>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-  const auto missed_by = [](const RejectedState& state) {
-    if (!state.exceeded) return std::numeric_limits<double>::max();
-    const auto [found, limit] = *state.exceeded;
-    return std::abs(found - limit) / std::max(std::abs(limit), 0.1);
-  };
+      static_cast<Rejection>(std::ranges::max_element(were_near) - were_near.begin());
   std::size_t best = rejected.size();
   for (std::size_t i = 0; i < rejected.size(); ++i) {
     if (!near(i) || rejected[i].reason != reason) continue;
     if (best == rejected.size() || missed_by(rejected[i]) < missed_by(rejected[best])) best = i;
   }
-  return fmt::format("nearest to the goal, with at least {:.0f} m to go, it was stopped by {}{}",
+  return fmt::format("nearest to the goal, with at least {:.0f} m to go, it was stopped by {}{}{}",
                      left_m[best], rejection_text(rejected[best]),
-                     reserve_words(problem, rejected[best]));
+                     reserve_words(problem, rejected[best]), mostly_refused_by(result, reason));
 }
 
 }  // namespace
@@ -116,7 +145,7 @@ std::string why_undecided(const PlanningProblem& problem, const PlanResult& resu
   } else {
     text = "no path was found";
     const std::string place =
-        result.rejected_states.empty() ? "" : narrowest_place(problem, result.rejected_states);
+        result.rejected_states.empty() ? "" : narrowest_place(problem, result);
     if (!place.empty()) text += "; " + place;
   }
   return time.empty() ? text : time + ": " + text;

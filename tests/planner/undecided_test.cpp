@@ -93,5 +93,42 @@ TEST(Undecided, NamesTheNarrowestPlaceNearestToTheGoal) {
   EXPECT_NE(why.find("with at least 7 m to go"), std::string::npos) << why;
 }
 
+/// As searches keep them: of each reason a few, however many states it refused.
+PlanResult refused_by_slope_and_seldom_by_speed(double slope_x_m) {
+  PlanResult result;
+  result.rejected_states = {{.reason = Rejection::kSpeed,
+                             .x_m = 30,
+                             .y_m = 25,
+                             .exceeded = Exceeded{.found = 1.991, .limit = 1.99}},
+                            {.reason = Rejection::kSpeed,
+                             .x_m = 30,
+                             .y_m = 25,
+                             .exceeded = Exceeded{.found = 1.992, .limit = 1.99}},
+                            {.reason = Rejection::kSlope,
+                             .x_m = slope_x_m,
+                             .y_m = 25,
+                             .exceeded = Exceeded{.found = 0.44, .limit = 0.43}}};
+  result.rejected[static_cast<std::size_t>(Rejection::kSpeed)] = 485;
+  result.rejected[static_cast<std::size_t>(Rejection::kSlope)] = 42788;
+  return result;
+}
+
+TEST(Undecided, WhatRefusedMostNearTheGoalIsCountedAndNotHowManyOfItWereKept) {
+  const std::string why =
+      why_undecided(problem_with({}), refused_by_slope_and_seldom_by_speed(30), {});
+  EXPECT_NE(why.find("m to go, it was stopped by slope 25.21 deg"), std::string::npos) << why;
+  EXPECT_EQ(why.find("most often"), std::string::npos) << why;
+}
+
+TEST(Undecided, AReasonThatIsRareIsToldBesideTheOneThatRefusedMost) {
+  const std::string why =
+      why_undecided(problem_with({}), refused_by_slope_and_seldom_by_speed(12), {});
+  EXPECT_NE(why.find("m to go, it was stopped by speed 1.991 m/s"), std::string::npos) << why;
+  EXPECT_TRUE(
+      why.ends_with("; most often, in 42788 of 43273 refusals, it was stopped by slope "
+                    "25.21 deg (allowed: at most 24.64 deg)"))
+      << why;
+}
+
 }  // namespace
 }  // namespace regoplan
