@@ -1,6 +1,7 @@
 #include "planner/soils/soil_uncertainty.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <map>
@@ -52,20 +53,49 @@ std::vector<std::size_t> decisive_on_each_soil(const TerrainMap& map,
   return decisive;
 }
 
+using MarginOfPath = double PathMargins::*;
+constexpr std::array<MarginOfPath, 3> kMarginsOfPath{
+    &PathMargins::cornering, &PathMargins::tip_over, &PathMargins::traction};
+
+/// How far a surrogate may promise too much. What it promises too much is taken off.
+constexpr double kTrusted = 0.03;
+
+/// Of margins that the surrogate promises too much of, only what it does where they are the
+/// smallest, in all draws of the wheel model: how they are judged elsewhere decides nothing.
+/// \param said, judged of the surrogate and of the wheel model, in each draw
+PathMargins error_where_it_counts(PathMargins error, const std::vector<PathMargins>& said,
+                                  const std::vector<PathMargins>& judged) {
+  PathMargins counting = error;
+  for (const MarginOfPath kind : kMarginsOfPath) {
+    if (error.*kind <= kTrusted) continue;
+    counting.*kind = 0;
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      const bool another_is_as_small = std::ranges::any_of(kMarginsOfPath, [&](MarginOfPath other) {
+        return error.*other <= kTrusted && judged[i].*other <= judged[i].*kind;
+      });
+      if (another_is_as_small) continue;
+      counting.*kind = std::max(counting.*kind, said[i].*kind - judged[i].*kind);
+    }
+  }
+  return counting;
+}
+
 /// Fills in quantiles, probability and influences from the margins of every draw.
+/// \param told how many of the draws tell each margin, in the order of its kinds
 void summarize(SoilSpread& spread, const PlanningProblem& problem, const SoilNumbers& numbers,
-               const std::vector<PathMargins>& margins, const Eigen::MatrixXd& deviations) {
-  const auto quantiles = [&](const auto& value) {
+               const std::vector<PathMargins>& margins, const std::array<std::size_t, 3>& told,
+               const Eigen::MatrixXd& deviations) {
+  const auto quantiles = [&](std::size_t k) {
     std::vector<double> values;
-    for (const PathMargins& one : margins) values.push_back(value(one));
+    for (std::size_t i = 0; i < told.at(k); ++i) values.push_back(margins[i].*kMarginsOfPath.at(k));
     return quantiles_of(std::move(values));
   };
-  spread.cornering = quantiles([](const PathMargins& m) { return m.cornering; });
-  spread.tip_over = quantiles([](const PathMargins& m) { return m.tip_over; });
-  spread.traction = quantiles([](const PathMargins& m) { return m.traction; });
-  spread.margin = quantiles([](const PathMargins& m) { return m.smallest(); });
+  spread.cornering = quantiles(0);
+  spread.tip_over = quantiles(1);
+  spread.traction = quantiles(2);
   std::vector<double> smallest_margins;
   for (const PathMargins& one : margins) smallest_margins.push_back(one.smallest());
+  spread.margin = quantiles_of(smallest_margins);
   spread.margin_p05_interval = quantile_interval(smallest_margins, 0.05, {.low = -1, .high = 1});
   const auto allowed = std::count_if(margins.begin(), margins.end(), [&](const PathMargins& m) {
     return m.smallest() >= problem.limits.margin_min;
@@ -224,6 +254,8 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   }
   spread.draws = draws;
   spread.direct_draws = static_cast<int>(direct);
+  std::array<std::size_t, 3> told{};
+  told.fill(margins.size());
   if (static_cast<int>(direct) < draws) {
     std::vector<PlaceProbe> probes;
     for (const VehicleState& state : decisive) probes.emplace_back(problem, state);
@@ -240,20 +272,27 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
       for (const auto& of_place : features) of_places.push_back(of_place[i]);
       return surrogate.smallest(of_places);
     };
-    PathMargins& error = spread.surrogate_error;
+    std::vector<PathMargins> said;
+    for (std::size_t i = 0; i < direct; ++i) said.push_back(say(i));
+    PathMargins checked_error{.cornering = 0, .tip_over = 0, .traction = 0};
     for (std::size_t i = static_cast<std::size_t>(learned); i < direct; ++i) {
-      const PathMargins said = say(i);
-      error.cornering = std::max(error.cornering, said.cornering - margins[i].cornering);
-      error.tip_over = std::max(error.tip_over, said.tip_over - margins[i].tip_over);
-      error.traction = std::max(error.traction, said.traction - margins[i].traction);
+      for (const MarginOfPath kind : kMarginsOfPath) {
+        checked_error.*kind = std::max(checked_error.*kind, said[i].*kind - margins[i].*kind);
+      }
     }
-    constexpr double kTrusted = 0.03;
-    if (std::max({error.cornering, error.tip_over, error.traction}) <= kTrusted) {
+    const PathMargins error = error_where_it_counts(checked_error, said, margins);
+    const bool trusted = std::ranges::all_of(
+        kMarginsOfPath, [&](MarginOfPath kind) { return error.*kind <= kTrusted; });
+    spread.surrogate_error = trusted ? error : checked_error;
+    if (trusted) {
+      for (std::size_t k = 0; k < told.size(); ++k) {
+        told.at(k) = checked_error.*kMarginsOfPath.at(k) <= kTrusted ? margins.size() : direct;
+      }
       for (std::size_t i = direct; i < margins.size(); ++i) {
-        const PathMargins said = say(i);
-        margins[i] = {.cornering = std::max(-1.0, said.cornering - error.cornering),
-                      .tip_over = std::max(-1.0, said.tip_over - error.tip_over),
-                      .traction = std::max(-1.0, said.traction - error.traction)};
+        const PathMargins of_draw = say(i);
+        for (const MarginOfPath kind : kMarginsOfPath) {
+          margins[i].*kind = std::max(-1.0, of_draw.*kind - error.*kind);
+        }
       }
     } else {
       const auto all = static_cast<std::size_t>(std::min(draws, kDirectDrawsMax));
@@ -263,9 +302,10 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
         margins[direct + k] = smallest_of(margins_on(problem, decisive, soils[direct + k]));
       });
       spread.draws = spread.direct_draws = static_cast<int>(margins.size());
+      told.fill(margins.size());
     }
   }
-  summarize(spread, problem, numbers, margins,
+  summarize(spread, problem, numbers, margins, told,
             deviations.topRows(static_cast<Eigen::Index>(margins.size())));
   return spread;
 }

@@ -55,11 +55,14 @@ struct SoilSpread {
   int draws = 0;         ///< 0 where every soil number is known
   int direct_draws = 0;  ///< of them judged by the wheel model itself; the others by a surrogate
   /// How much the surrogate promised too much at worst, in draws that it was not made from, against
-  /// the wheel model at more places of the path. Taken off what the surrogate says; where it is too
-  /// large for that, every draw is the wheel model's.
+  /// the wheel model at more places of the path. Taken off what the surrogate says. Where that is
+  /// too large of a margin, what it promised too much where that margin was the smallest; and where
+  /// that too is too large, every draw is the wheel model's.
   PathMargins surrogate_error{.cornering = 0, .tip_over = 0, .traction = 0};
   int places = 0;  ///< of the path that were judged in each draw
-  Quantiles cornering, tip_over, traction, margin;
+  /// Of a margin that the surrogate promises too much of, over the wheel model's draws alone.
+  Quantiles cornering, tip_over, traction;
+  Quantiles margin;
   QuantileInterval margin_p05_interval;  ///< what sampling leaves open of `margin.p05`
   Probability feasible;                  ///< that the smallest margin is allowed
   /// The largest first; empty where the draws are fewer than `kDrawsANumber` for each uncertain
@@ -78,9 +81,9 @@ struct SpreadSettings {
 /// The spread over `draws` draws of the soils. The margins are judged, on every uncertain soil that
 /// the states stand on, at the places where each is smallest at the mean soils. A quadratic
 /// surrogate in the soil numbers is made from the first draws, checked on the next, and used where
-/// its error is small; otherwise the wheel model judges every draw, of which there are then at most
-/// `kDirectDrawsMax`. \param states along the path \param at_mean their margins at the mean soils,
-/// of the same size
+/// its error is small in every margin that is the smallest in some draw; otherwise the wheel model
+/// judges every draw, of which there are then at most `kDirectDrawsMax`. \param states along the
+/// path \param at_mean their margins at the mean soils, of the same size
 SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<VehicleState>& states,
                        const std::vector<PathMargins>& at_mean, const SpreadSettings& settings);
 

@@ -1,5 +1,6 @@
 #include "planner/soils/soil_uncertainty.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,6 +112,74 @@ TEST(SoilUncertainty, TheSurrogateIsOnTheSafeSideOfTheWheelModel) {
   EXPECT_LE(spread.margin.p50, exact.p50 + 1e-3);
   EXPECT_NEAR(spread.margin.p05, exact.p05, 0.02);
   EXPECT_NEAR(spread.margin.p50, exact.p50, 0.02);
+}
+
+/// Across a slope on which the side force ends far before traction does.
+Judged six_wheels_across_a_slope() {
+  UncertainSoil sand{.mean = {.cohesion_pa = 500,
+                              .friction_angle_rad = 33 * kTestDegree,
+                              .kc = 2000,
+                              .kphi = 1.2e6,
+                              .n = 1.05,
+                              .a0 = 0.4,
+                              .a1 = 0.15,
+                              .lambda = 0.9,
+                              .density_kgpm3 = 1550,
+                              .kx0_m = 0.02,
+                              .ky0_m = 0.015,
+                              .ky1_m = 0.02}};
+  sand.standard_deviation.cohesion_pa = 150;
+  sand.standard_deviation.friction_angle_rad = 2 * kTestDegree;
+  const auto across = [](double /*x_m*/, double y_m) { return y_m * std::tan(23 * kTestDegree); };
+  Judged judged{
+      .problem = lrv_problem(one_soil_map(60, sand, across)), .states = {}, .at_mean = {}};
+  PlanningProblem& problem = judged.problem;
+  problem.gravity_mps2 = 9.81;
+  Vehicle& vehicle = problem.vehicle;
+  vehicle.mass_kg = 300;
+  vehicle.yaw_inertia_kgm2 = 150;
+  vehicle.cg_height_m = 0.5;
+  vehicle.wheel = {.radius_m = 0.2, .width_m = 0.2};
+  vehicle.wheels.clear();
+  for (const double x_m : {0.9, 0.0, -0.9}) {
+    for (const double y_m : {0.7, -0.7}) {
+      vehicle.wheels.push_back(
+          {.name = fmt::format("{} {}", x_m, y_m), .x_m = x_m, .y_m = y_m, .steered = x_m != 0});
+    }
+  }
+  vehicle.turn_centre_x_m = 0;
+  vehicle.curvature_max_1pm = 0.5;
+  vehicle.steer_angle_max_rad = 50 * kTestDegree;
+  vehicle.slip_angle_max_rad = 16 * kTestDegree;
+  vehicle.sinkage_max_m = 0.07;
+  problem.limits = default_limits(vehicle);
+  const World world(problem, WorldUse::kVerdict, 1);
+  for (int i = 0; i < 3; ++i) {
+    judged.states.push_back(world.dynamics().rolling_state(20 + 5 * i, 25, 0, 0.1));
+  }
+  judged.at_mean = margins_on(problem, judged.states, {sand.mean});
+  return judged;
+}
+
+TEST(SoilUncertainty, WhatTheSurrogateSaysOfAMarginThatIsNeverTheSmallestCostsNoDraws) {
+  constexpr int kDraws = 300;
+  const Judged j = six_wheels_across_a_slope();
+  for (const std::uint64_t seed : {1, 2}) {
+    const SoilSpread spread =
+        soil_spread(j.problem, j.states, j.at_mean, {.draws = kDraws, .seed = seed, .threads = 2});
+    ASSERT_GT(spread.traction.p05, spread.cornering.p95);
+    EXPECT_EQ(spread.draws, kDraws) << "seed " << seed;
+    EXPECT_LT(spread.direct_draws, kDraws) << "seed " << seed;
+    std::vector<double> smallest, traction;
+    for (int i = 0; i < kDraws; ++i) {
+      const PathMargins direct =
+          smallest_of(margins_on(j.problem, j.states, soil_draw(j.problem, seed, i)));
+      smallest.push_back(direct.smallest());
+      if (i < spread.direct_draws) traction.push_back(direct.traction);
+    }
+    EXPECT_NEAR(spread.margin.p05, quantiles_of(smallest).p05, 1e-3);
+    EXPECT_NEAR(spread.traction.p05, quantiles_of(traction).p05, 1e-3);
+  }
 }
 
 TEST(SoilUncertainty, AnUncertainSoilCountsThoughAKnownOneBindsAtTheMeans) {
