@@ -180,12 +180,16 @@ class Diagnosing {
   }
 
   /// What is claimed says itself when or on which stretch it acts: nearer than a scan does. Soil
-  /// that was fitted to an instrument's fault takes part of it up and is off in sound channels: the
-  /// fault lies where what was measured is off the soil fitted beside it.
+  /// that was fitted without it takes part of it up, and is off where nothing else is at work: the
+  /// claim acts where what was measured is off the soil fitted beside it.
   void take_places_of(const CandidateFit& fit) {
-    found_.where_beside_fault = std::ranges::any_of(
-        fit.candidate.effects, [](const Effect& e) { return is_instrument(e.id); });
-    if (found_.where_beside_fault) locate_mismatch(calibrated_.off_soil_beside(fit));
+    std::vector<MismatchRegion> off_calibrated = std::move(found_.where);
+    locate_mismatch(calibrated_.off_soil_beside(fit));
+    if (found_.where.empty()) {
+      found_.where = std::move(off_calibrated);
+    } else {
+      found_.where_off = WhereOff::kSoilBesideClaim;
+    }
     const std::vector<MismatchRegion> places = claimed_places(calibrated_.problem(), fit);
     found_.where.insert(found_.where.begin(), places.begin(), places.end());
   }
@@ -249,18 +253,13 @@ class Diagnosing {
     }
     if (const auto claim = claim_of_names()) {
       found_.claims = claims_of(calibrated_.problem(), scored_, claim->names, claim->fit);
-      const bool single = std::ranges::all_of(
-          claim->names, [](const NameClass& names) { return names.ids.size() == 1; });
-      found_.verdict = single ? Verdict::kNamed : Verdict::kClass;
-      if (!single) members_ = members_of(scored_, claim->names);
+      if (is_class(found_.claims)) members_ = members_of(scored_, claim->names);
       measure_shares(calibrated_, scored_, claim->fit, options_.threads, found_.claims);
       found_.remainder_share = remainder_share(found_.claims);
       take_places_of(claim->fit);
       take(
           correction_by(calibrated_, claim->fit, claim->remainder, claim->proof, options_.threads));
-      // Names of less than a third of what is missing say what a part of it is.
-      const bool leaves_most = found_.remainder_share > 1 - Thresholds::kWorthANameAlone;
-      if (single && found_.excess_is_clear && leaves_most) found_.verdict = Verdict::kPartly;
+      found_.verdict = verdict_of_names(found_);
       return;
     }
     if (unfit_ && named_in_part()) return;

@@ -90,6 +90,7 @@ class Differing {
       consistent();
       complete_ = found_;
     } else {
+      found_.where_off = WhereOff::kReference;
       found_.where = locate(primary().calibrated->recording(),
                             primary().calibrated->remainder_of(primary().calibrated->base()),
                             options_.seed + 1);

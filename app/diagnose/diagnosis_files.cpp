@@ -187,6 +187,7 @@ nlohmann::ordered_json diagnosis_content(const DiagnosisRun& run) {
             {"best_gain_nats", diagnosis.support.best_gain_nats},
             {"log_odds", diagnosis.support.log_odds}}},
           {"where", list_json(diagnosis.where, region_json)},
+          {"where_off", name(diagnosis.where_off)},
           {"fit", fit_json(diagnosis)},
           {"held_out_by", diagnosis.held_out_by},
           {"share_explained", diagnosis.share_explained},

@@ -28,7 +28,8 @@ class WhitenedFit {
         fit_(fit),
         tails_(tails),
         factor_(recording.bed),
-        jacobian_(whitened(recording.bed, factor_, fit.jacobian)) {
+        jacobian_(whitened(recording.bed, factor_, fit.jacobian)),
+        uncertain_(whitened(recording.bed, factor_, fit.uncertain)) {
     const Eigen::Index p = jacobian_.cols();
     precision_ = (jacobian_.transpose() * jacobian_ + Eigen::MatrixXd::Identity(p, p)).eval().llt();
     Eigen::MatrixXd correlation = recording.correlation;
@@ -89,7 +90,9 @@ class WhitenedFit {
     for (double& value : truth) value = fit_.truth_spread * normal(random);
     z += jacobian_ * truth;
     const Eigen::VectorXd x = precision_.solve(jacobian_.transpose() * z);
-    return {z - jacobian_ * x, x};
+    Eigen::VectorXd residual = z - jacobian_ * x;
+    for (const auto& column : uncertain_.colwise()) residual += normal(random) * column;
+    return {residual, x};
   }
 
   /// Misfit of all channels with the priors, then of each channel.
@@ -109,7 +112,7 @@ class WhitenedFit {
   const FitRemainder& fit_;
   NoiseTails tails_;
   NoiseFactors factor_;
-  Eigen::MatrixXd jacobian_;
+  Eigen::MatrixXd jacobian_, uncertain_;
   Eigen::LLT<Eigen::MatrixXd> precision_;
   Eigen::MatrixXd mix_;
 };

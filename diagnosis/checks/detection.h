@@ -14,6 +14,9 @@ struct FitRemainder {
   Eigen::VectorXd x;         ///< fitted numbers, standard normal beforehand
   Eigen::MatrixXd jacobian;  ///< by x
   double truth_spread = 1;   ///< standard deviation of the true x (1/3 where priors were widened)
+  /// What else is uncertain of what was fitted: columns, each times a standard normal factor that
+  /// the numbers x do not take up.
+  Eigen::MatrixXd uncertain = {};
 };
 
 /// How far noise goes beside its standard deviation.

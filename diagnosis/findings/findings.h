@@ -160,6 +160,14 @@ struct RunDifference {
   double by_names = 0;            ///< what the claims make of it, no remainder added
 };
 
+/// What the places of a mismatch are off.
+enum class WhereOff {
+  kCalibratedModel,
+  kSoilBesideClaim,  ///< the model with its soil fitted beside what is claimed, which is left out
+  kReference,
+};
+std::string_view name(WhereOff off);
+
 /// Everything that a diagnosis finds.
 struct Diagnosis {
   Verdict verdict = Verdict::kUndecided;
@@ -169,7 +177,7 @@ struct Diagnosis {
   std::vector<ScoredCandidate> ranking;  ///< sums to 1
   NameSupport support;
   std::vector<MismatchRegion> where;  ///< strongest first
-  bool where_beside_fault = false;    ///< off the soil that was fitted beside an instrument's fault
+  WhereOff where_off = WhereOff::kCalibratedModel;
   std::vector<ChannelFit> fit;
   std::string held_out_by;  ///< `slip_angle`, `slip band`, ...
   double share_explained = 0;
@@ -196,6 +204,13 @@ struct Diagnosis {
   std::vector<std::string> references;  ///< what the recording was compared with
   bool interrupted = false;
 };
+
+/// Whether some claim stands for names that do the same.
+bool is_class(const std::vector<Claim>& claims);
+
+/// `named` or `class`, of claims whose shares have been measured; `partly` where they clearly leave
+/// more than names that stand beside a remainder may leave.
+Verdict verdict_of_names(const Diagnosis& diagnosis);
 
 /// A diagnosis that was interrupted before it had found anything.
 Diagnosis undecided(const Recording& recording);

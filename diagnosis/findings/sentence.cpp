@@ -315,9 +315,15 @@ std::string no_difference_words(double p_value) {
 
 /// What the places of a mismatch are off.
 std::string_view held_against(const Diagnosis& diagnosis) {
-  if (!diagnosis.references.empty()) return "reference";
-  if (diagnosis.where_beside_fault) return "model with its soil fitted beside the fault";
-  return "calibrated model";
+  switch (diagnosis.where_off) {
+    case WhereOff::kCalibratedModel:
+      return "calibrated model";
+    case WhereOff::kSoilBesideClaim:
+      return "model with its soil fitted beside the claim";
+    case WhereOff::kReference:
+      return "reference";
+  }
+  return "";
 }
 
 std::string words_of(const Diagnosis& diagnosis) {

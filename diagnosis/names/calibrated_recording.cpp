@@ -49,9 +49,12 @@ FitRemainder CalibratedRecording::remainder_of(const CandidateFit& fit) const {
 FitRemainder CalibratedRecording::off_soil_beside(const CandidateFit& fit) const {
   const Eigen::Index numbers = base_.x.size();
   const Eigen::VectorXd x = fit.x.head(numbers);
+  const Eigen::MatrixXd covariance = fit.evidence.covariance.topLeftCorner(numbers, numbers);
+  const Eigen::MatrixXd deviations = covariance.llt().matrixL();
   return {.residual = bed().measured() - predict(bed(), soil_, {}, x).value(),
-          .x = x,
-          .jacobian = fit.jacobian.leftCols(numbers)};
+          .x = Eigen::VectorXd(0),
+          .jacobian = Eigen::MatrixXd(bed().size(), 0),
+          .uncertain = fit.jacobian.leftCols(numbers) * deviations};
 }
 
 bool CalibratedRecording::soil_explains_something() const {

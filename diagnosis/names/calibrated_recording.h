@@ -40,6 +40,8 @@ class CalibratedRecording {
   Eigen::VectorXd prediction_at_prior_means() const;
   FitRemainder remainder_of(const CandidateFit& fit) const;
   /// What was measured against the soil of a fit, without the effects that it was fitted beside.
+  /// That soil is as uncertain as the fit leaves it; that it follows the noise is not counted, so
+  /// its deviations are no smaller than they are.
   FitRemainder off_soil_beside(const CandidateFit& fit) const;
 
   /// Whether calibrated soil numbers gain more over their prior means, the pulls on them counted,

@@ -61,6 +61,7 @@ TEST(DiagnosisJson, SaysWhereByColumnsOfTheRecording) {
   EXPECT_EQ(where[0]["effect"], 0.0031);
   EXPECT_EQ(where[0]["ci95"], Json({0.0024, 0.0038}));
   EXPECT_EQ(where[0]["p_value"], 1e-6);
+  EXPECT_EQ(parsed(claimed_diagnosis())["where_off"], "soil_beside_claim");
 }
 
 TEST(DiagnosisJson, FitIsByChannelAndSaysHowConditionsWereHeldOut) {

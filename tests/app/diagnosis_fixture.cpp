@@ -44,6 +44,7 @@ DiagnosisRun claimed_diagnosis() {
               .effect = 0.0031,
               .ci95 = {0.0024, 0.0038},
               .p_value = 1e-6}};
+  d.where_off = WhereOff::kSoilBesideClaim;
   d.fit = {{Channel::kFx, 0.1, 2.0, 1.1, 0.12}, {Channel::kSinkage, 2e-4, 3e-3, 1e-3, 2.2e-4}};
   d.held_out_by = "slip band";
   d.share_explained = 0.97;

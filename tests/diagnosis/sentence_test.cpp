@@ -191,10 +191,10 @@ TEST(Sentence, OfAZeroOrADragAsksForTheLiftedWheel) {
   expect_says(sentence_of(diagnosis), {"lift the wheel and read its torque at rest and turning"});
 }
 
-TEST(Sentence, OfAFaultHoldsWhatWasMeasuredAgainstTheSoilFittedBesideIt) {
+TEST(Sentence, OfAClaimHoldsWhatWasMeasuredAgainstTheSoilFittedBesideIt) {
   Diagnosis diagnosis = named();
-  diagnosis.where_beside_fault = true;
-  expect_says(sentence_of(diagnosis), {"above the model with its soil fitted beside the fault at"});
+  diagnosis.where_off = WhereOff::kSoilBesideClaim;
+  expect_says(sentence_of(diagnosis), {"above the model with its soil fitted beside the claim at"});
 }
 
 TEST(Sentence, InPartTellsNoShareAsAllNorAsNothing) {
