@@ -377,6 +377,7 @@ class Diagnosing {
       found_.notes.push_back(
           fmt::format("the model is handed on without a correction: {}", correction.refused));
     }
+    if (!correction.despite.empty()) found_.notes.push_back(correction.despite);
     if (!correction.carried.empty()) found_.notes.push_back(correction.carried);
     found_.fit = correction.proof.fit;
     found_.held_out_by = correction.proof.families.by;

@@ -347,12 +347,12 @@ std::optional<ChannelLoss> clear_loss(const TestBed& bed, const Eigen::VectorXd&
   return std::nullopt;
 }
 
-std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof) {
-  if (const auto loss = clear_loss(bed, proof.corrected, proof.calibrated)) {
+std::string no_better_than(const Eigen::VectorXd& plain, const TestBed& bed, const HeldOut& proof) {
+  if (const auto loss = clear_loss(bed, proof.corrected, plain)) {
     return fmt::format("held out by {}, it predicts {} worse by {:.1f} standard errors",
                        proof.families.by, name(loss->channel), loss->errors);
   }
-  const double gain = gain_in_errors(bed, proof.corrected, proof.calibrated);
+  const double gain = gain_in_errors(bed, proof.corrected, plain);
   if (gain > Thresholds::kClear_errors) return "";
   return fmt::format("held out by {}, it gains {:.1f} standard errors, and {:.0f} are asked for",
                      proof.families.by, gain, Thresholds::kClear_errors);

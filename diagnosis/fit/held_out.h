@@ -81,10 +81,10 @@ struct ChannelLoss {
 std::optional<ChannelLoss> clear_loss(const TestBed& bed, const Eigen::VectorXd& prediction,
                                       const Eigen::VectorXd& than);
 
-/// Why a corrected model is not handed out in place of the calibrated one; empty where it is: on
-/// held-out conditions it is not better by more than two standard errors, or worse by more than
-/// two in some channel.
-std::string no_better_than_calibrated(const TestBed& bed, const HeldOut& proof);
+/// Why a corrected model is not handed out in place of a plain one; empty where it is: on held-out
+/// conditions it is not better by more than two standard errors, or worse by more than two in some
+/// channel. \param plain what that predicts there
+std::string no_better_than(const Eigen::VectorXd& plain, const TestBed& bed, const HeldOut& proof);
 
 /// Held out by the kind of families in which the correction does best: a form that holds between
 /// conditions need not hold beyond them.

@@ -173,6 +173,16 @@ std::optional<CandidateFit> soil_near_tests(const CalibratedRecording& calibrate
                         start_of(problem, {}), kSteps);
 }
 
+/// Whether soil numbers that lie farther from their tests than soils lie, calibrated alone, come
+/// back within that beside what is claimed. Such numbers may predict well where they were fitted;
+/// they are no soil, and go astray elsewhere.
+bool brings_soil_back(const CalibratedRecording& calibrated, const CandidateFit& fit) {
+  const Eigen::VectorXd& alone = calibrated.base().x;
+  return !fit.candidate.effects.empty() && alone.size() > 0 &&
+         alone.lpNorm<Eigen::Infinity>() > Thresholds::kWorstPull &&
+         fit.x.head(alone.size()).lpNorm<Eigen::Infinity>() <= Thresholds::kWorstPull;
+}
+
 /// Why the prior means are handed on in place of the calibrated model; empty where they are not: of
 /// two that each spoil a channel of the other's the calibrated one is what others are held to.
 std::string prior_means_for(const CalibratedRecording& calibrated, const HeldOut& proof) {
@@ -206,9 +216,20 @@ Correction calibrated_alone(const CalibratedRecording& calibrated, const HeldOut
 Correction correction_by(const CalibratedRecording& calibrated, const CandidateFit& fit,
                          const std::vector<std::size_t>& remainder, const HeldOut& proof,
                          int threads) {
-  std::string reason = no_better_than_calibrated(calibrated.bed(), proof);
+  std::string reason = no_better_than(proof.calibrated, calibrated.bed(), proof);
+  std::string despite;
+  if (!reason.empty() && brings_soil_back(calibrated, fit)) {
+    despite = fmt::format(
+        "calibrated soil numbers alone lie {:.1f} standard deviations from their tests: what is "
+        "claimed is handed on, though against them, {}",
+        calibrated.base().x.lpNorm<Eigen::Infinity>(), reason);
+    reason = no_better_than(calibrated.prediction_at_prior_means(), calibrated.bed(), proof);
+  }
   if (reason.empty()) {
-    return handed_out(calibrated, fit, remainder, proof, calibrated.base().prediction);
+    Correction correction =
+        handed_out(calibrated, fit, remainder, proof, calibrated.base().prediction);
+    correction.despite = std::move(despite);
+    return correction;
   }
   const HeldOut plain = calibrated.held_out({}, proof.families, threads);
   const std::string worse = prior_means_for(calibrated, plain);

@@ -21,6 +21,7 @@ struct Correction {
   std::string carried;  ///< where its correction without a name stands; empty: nothing else varies
   std::string
       refused;  ///< why the model asked for gave way to the calibrated one; empty: it did not
+  std::string despite;  ///< what speaks against the model asked for, and why it stands all the same
 };
 
 /// Why a calibrated model is not handed on; empty where it is: soil numbers that fit some channels
@@ -34,7 +35,8 @@ Correction calibrated_alone(const CalibratedRecording& calibrated, const HeldOut
                             int threads);
 
 /// A fitted candidate with the remainder added to it (settings of the discrepancy; empty: none), or
-/// the calibrated model where that does as well on held-out conditions.
+/// the calibrated model where that does as well on held-out conditions. Calibrated soil that lies
+/// farther from its tests than soils lie gives way to a candidate beside which it does not.
 /// \param proof of that candidate and that remainder
 Correction correction_by(const CalibratedRecording& calibrated, const CandidateFit& fit,
                          const std::vector<std::size_t>& remainder, const HeldOut& proof,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "synthetic_bed.h"
@@ -47,6 +49,22 @@ TEST(Correction, PriorMeansDoNotReplaceSoilNumbersThatPredictAnotherChannelBette
   for (const ChannelFit& fit : refused.proof.fit) {
     EXPECT_LE(fit.corrected_rmse, fit.calibrated_rmse * (1 + 1e-9)) << name(fit.channel);
   }
+}
+
+/// Soft ground a few millimetres down, which bearing numbers far from their tests do as well.
+TEST(Correction, WhatIsClaimedIsHandedOnWhereOnlySoilFarFromItsTestsDoesWithout) {
+  TrueWheel truth;
+  truth.depth_stiffness = [](double h) { return h < 0.004 ? 1 : 1 - 0.6 * (1 - 0.004 / h); };
+  DiagnosisSetup setup = simulant_setup();
+  for (const SoilParameter& p : soil_parameters()) setup.soil.standard_deviation.*p.member /= 2;
+  const Diagnosis found = diagnose(record(truth, setup, setup.soil.mean, {}, 3), setup);
+  ASSERT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
+    return note.starts_with("calibrated soil numbers alone lie") &&
+           note.find("from their tests") != std::string::npos;
+  })) << found.sentence;
+  ASSERT_EQ(found.corrected_model.mechanisms.size(), 1u);
+  EXPECT_EQ(found.claims.front().id, "layered_soil");
+  for (const SoilPull& soil : found.soil) EXPECT_LT(std::abs(soil.corrected_pull), 4.5);
 }
 
 }  // namespace

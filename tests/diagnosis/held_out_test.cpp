@@ -115,16 +115,16 @@ TEST(HeldOut, AModelThatIsNoBetterOrWorseInOneChannelIsNotHandedOut) {
   HeldOut proof{.families = {.by = "slip angle"}, .calibrated = measured, .corrected = measured};
   proof.calibrated.array() += 0.1;
   proof.corrected = proof.calibrated;
-  EXPECT_NE(no_better_than_calibrated(bed, proof).find("gains 0.0"), std::string::npos);
+  EXPECT_NE(no_better_than(proof.calibrated, bed, proof).find("gains 0.0"), std::string::npos);
   for (std::size_t c = 0; c < bed.channels.size(); ++c) {
     proof.calibrated.segment(bed.offset(c), bed.channels[c].mean.size()) =
         (bed.channels[c].mean.array() + 2 * bed.channels[c].scale).matrix();
   }
   proof.corrected = measured;
-  EXPECT_EQ(no_better_than_calibrated(bed, proof), "");
+  EXPECT_EQ(no_better_than(proof.calibrated, bed, proof), "");
   auto torque = proof.corrected.segment(bed.offset(2), bed.channels[2].mean.size());
   torque.array() += 4 * bed.channels[2].scale;
-  EXPECT_NE(no_better_than_calibrated(bed, proof).find("torque_nm worse"), std::string::npos);
+  EXPECT_NE(no_better_than(proof.calibrated, bed, proof).find("torque_nm worse"), std::string::npos);
 }
 
 TEST(HeldOut, AGainScattersByOneStandardErrorHoweverMuchDaysMoveAllAtOnce) {
