@@ -79,6 +79,11 @@ std::string_view slip_hint(const std::string& cell) {
   return std::abs(*value) > 1 ? "is it in per cent?" : "";
 }
 
+/// What a measured value that is no number may have been meant as.
+std::string_view measured_hint(const std::string& cell) {
+  return parse_number(cell) ? "" : "leave the cell empty where nothing was measured";
+}
+
 /// One row on its way to a run.
 class Row {
  public:
@@ -138,7 +143,8 @@ WheelRun read_run(const CsvTable& table, const Cells& cells) {
   if (row.says("replicate")) run.replicate = row.integer("replicate", 0);
   for (const Channel channel : kChannels) {
     if (row.says(name(channel))) {
-      run.measured[static_cast<std::size_t>(channel)] = row.number(name(channel), kMeasurable);
+      run.measured[static_cast<std::size_t>(channel)] =
+          row.number(name(channel), kMeasurable, measured_hint(row.text(name(channel))));
     }
   }
   return run;
@@ -208,6 +214,24 @@ bool is_recorded(const RecordingFile& read, std::string_view column) {
   throw InputError(fmt::format(
       "{}:{}: {}: an empty cell is not valid (allowed: a value in every row, or in none)",
       read.file, read.lines[static_cast<std::size_t>(empty - read.cells.begin())], column));
+}
+
+/// Different runs of one name, and one replicate of it, which notes and residuals could not tell
+/// apart; empty: none.
+std::string names_of_several_runs(const RecordingFile& read) {
+  std::map<std::pair<std::string_view, std::optional<int>>, std::vector<std::int64_t>> lines_of;
+  for (std::size_t i = 0; i < read.recording.runs.size(); ++i) {
+    const WheelRun& run = read.recording.runs[i];
+    lines_of[{run.run_id, run.replicate}].push_back(read.lines[i]);
+  }
+  std::erase_if(lines_of, [](const auto& run) { return run.second.size() == 1; });
+  if (lines_of.empty()) return "";
+  const auto& [run, lines] = *lines_of.begin();
+  return fmt::format(
+      "{}: run_id: {} on lines {} and {} are different runs{}; what is told of one may be of "
+      "another",
+      read.file, run.first, lines[0], lines[1],
+      lines_of.size() == 1 ? "" : fmt::format(", and so of {} more", lines_of.size() - 1));
 }
 
 /// A sensor errs now and then; what is wrong throughout has another reason, such as a unit.
@@ -280,6 +304,9 @@ RecordingFile read_recording(std::istream& stream, const std::string& file) {
                          return std::ranges::find(known_columns(), column) == known_columns().end();
                        });
   if (auto copies = leave_out_copies(read)) recording.warnings.push_back(std::move(*copies));
+  if (std::string several = names_of_several_runs(read); !several.empty()) {
+    recording.warnings.push_back(std::move(several));
+  }
   return read;
 }
 

@@ -351,9 +351,9 @@ CondensedRecording condense(const Recording& raw, const DiagnosisSetup& setup, s
   Grouped grouped = group(recording, usable, model, {});
   if (grouped.conditions.size() < fewest) {
     throw InputError(
-        fmt::format("recording: {} different conditions that the model can judge; a "
+        fmt::format("recording: {} different condition{} that the model can judge; a "
                     "diagnosis needs {} and more",
-                    grouped.conditions.size(), fewest));
+                    grouped.conditions.size(), grouped.conditions.size() == 1 ? "" : "s", fewest));
   }
   auto elsewhere = replicates_elsewhere(recording, usable, model, grouped);
   const Grouped& replicated = elsewhere ? *elsewhere : grouped;

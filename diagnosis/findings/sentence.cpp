@@ -210,12 +210,17 @@ std::string parameters_words(const Diagnosis& diagnosis) {
     text += fmt::format(" (most: {} {:.4g} instead of {:.4g}, {:+.1f} prior standard deviations)",
                         worst->parameter, worst->calibrated.value, worst->prior.value, worst->pull);
   }
-  if (diagnosis.suspects.empty()) {
-    const bool doubted = diagnosis.support.tests != PlainModel::kHolds;
-    return text + (doubted
-                       ? "; what stands out beside it proves nothing on held-out conditions and "
-                         "is taken for chance (see the notes)."
-                       : "; no physics is missing that these data could show.");
+  const bool is_far =
+      worst != diagnosis.soil.end() && std::abs(worst->pull) > Thresholds::kSuspectPull;
+  if (diagnosis.suspects.empty() || !is_far) {
+    if (diagnosis.suspects.empty() && diagnosis.support.tests == PlainModel::kHolds) {
+      return text + "; no physics is missing that these data could show.";
+    }
+    text +=
+        "; what stands out beside it proves nothing on held-out conditions and is taken for "
+        "chance (see the notes)";
+    if (diagnosis.suspects.empty()) return text + ".";
+    return text + "; nearest to a name: " + list_of(diagnosis.suspects) + ".";
   }
   return text +
          "; a number that far from its tests is no clean bill: " + list_of(diagnosis.suspects) +

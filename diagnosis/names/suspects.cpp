@@ -15,14 +15,14 @@ std::vector<std::string> suspects_of(const CalibratedRecording& calibrated,
   for (Eigen::Index i = 0; i < base.size(); ++i) {
     if (std::abs(base[i]) > Thresholds::kSuspectPull) far.push_back(i);
   }
-  if (far.empty()) return {};
   const double parameters = scored_as(Account::Kind::kParameters, scored).score;
   std::vector<const ScoredId*> singles;
   for (const ScoredId& s : scored) {
     if (s.fit.candidate.effects.size() != 1) continue;
     const bool near = std::ranges::all_of(
         far, [&](Eigen::Index i) { return std::abs(s.fit.x[i]) < Thresholds::kUnsuspectPull; });
-    if (near && s.score > parameters - Thresholds::kAsGood_nats) singles.push_back(&s);
+    const double asked = far.empty() ? Thresholds::kUnprompted_nats : -Thresholds::kAsGood_nats;
+    if (near && s.score > parameters + asked) singles.push_back(&s);
   }
   std::ranges::stable_sort(singles, std::greater{}, &ScoredId::score);
   std::vector<std::string> suspects;

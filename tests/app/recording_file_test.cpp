@@ -94,10 +94,11 @@ TEST(RecordingFile, WhatCannotBeIsAnErrorWithItsPlace) {
             "r.csv:2: load_n: 0 is not valid (allowed: above 0 to 1000000000)" + one_of_three);
   EXPECT_EQ(recording_error("64.7,", "-3,"),
             "r.csv:2: load_n: -3 is not valid (allowed: above 0 to 1000000000)" + one_of_three);
+  const std::string empty = "; leave the cell empty where nothing was measured";
   EXPECT_EQ(recording_error("-20,", "nan,"),
-            "r.csv:2: fx_n: nan is not valid (allowed: -1000000000 to 1000000000)");
+            "r.csv:2: fx_n: nan is not valid (allowed: -1000000000 to 1000000000)" + empty);
   EXPECT_EQ(recording_error("4.5,18", "4.5,inf"),
-            "r.csv:3: fy_n: inf is not valid (allowed: -1000000000 to 1000000000)");
+            "r.csv:3: fy_n: inf is not valid (allowed: -1000000000 to 1000000000)" + empty);
   EXPECT_EQ(recording_error("0.30,16", "0.30,106"),
             "r.csv:3: slip_angle_deg: 106 is not valid (allowed: -90 to 90)" + one_of_three);
   EXPECT_EQ(recording_error("2020-11-16", "2020-02-30"),
@@ -123,6 +124,23 @@ TEST(RecordingFile, ARowThatIsACopyOfAnotherIsNoReplicate) {
   EXPECT_EQ(error_text([&] { read(head + row + row); }),
             "r.csv:4: run_id: r1: this row is a copy of line 3 (allowed: each run once; a copy is "
             "no replicate)");
+}
+
+TEST(RecordingFile, RunsOfOneNameAreToldUnlessTheyAreItsReplicates) {
+  const std::string head = "run_id,load_n,slip_ratio,slip_angle_deg,replicate,fx_n\n";
+  const std::string rows = "a,64.7,0.3,16,1,4.5\na,64.7,0.3,16,2,4.6\n";
+  EXPECT_TRUE(read(head + rows).recording.warnings.empty());
+  EXPECT_EQ(
+      read(head + rows + "b,64.7,0.3,16,1,4.5\nb,64.7,0.2,16,1,4.3\n").recording.warnings,
+      std::vector<std::string>{"r.csv: run_id: b on lines 4 and 5 are different runs; what is "
+                               "told of one may be of another"});
+}
+
+TEST(RecordingFile, AMeasuredValueThatIsNoNumberAsksForAnEmptyCell) {
+  const std::string error =
+      error_text([] { read("run_id,load_n,slip_ratio,slip_angle_deg,fx_n\na,64.7,0.3,16,n/a\n"); });
+  EXPECT_NE(error.find("leave the cell empty where nothing was measured"), std::string::npos)
+      << error;
 }
 
 TEST(RecordingFile, ARowOutOfRangeIsLeftOutAndListedAndTheRestIsKept) {

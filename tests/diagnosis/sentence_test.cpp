@@ -215,6 +215,17 @@ TEST(Sentence, OfWrongSoilNumbersNamesTheFarthest) {
               {"kphi", "-3.5 prior standard deviations", "no physics is missing"});
 }
 
+TEST(Sentence, OfWrongSoilNumbersTellsWhatGainsMoreThanChanceAndIsNotProven) {
+  Diagnosis diagnosis{.verdict = Verdict::kParameters};
+  diagnosis.soil = {{.parameter = "n", .prior = {1, 0.05}, .calibrated = {1.1, 0.02}, .pull = 2}};
+  diagnosis.support.tests = PlainModel::kRefuted;
+  diagnosis.suspects = {"shear_hump"};
+  expect_says(sentence_of(diagnosis),
+              {"proves nothing on held-out conditions", "nearest to a name: shear_hump."});
+  diagnosis.soil.front().pull = 3.5;
+  expect_says(sentence_of(diagnosis), {"no clean bill: shear_hump would do instead."});
+}
+
 TEST(Sentence, OfTheUnexplainedInventsNoName) {
   Diagnosis diagnosis = named();
   diagnosis.verdict = Verdict::kUnexplained;
