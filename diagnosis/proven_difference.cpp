@@ -21,6 +21,9 @@ std::vector<Direction> shifts_of_channels(const CalibratedRecording& calibrated)
     Direction share = constant;
     constant.values.segment(from, n).setOnes();
     share.values.segment(from, n) = calibrated.base().prediction.segment(from, n);
+    if (const auto& shared = bed.channels[c].shared; shared.size() > 0) {
+      share.values.segment(from, n) += shared;
+    }
     shifts.push_back(std::move(constant));
     shifts.push_back(std::move(share));
   }

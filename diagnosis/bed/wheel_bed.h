@@ -25,6 +25,9 @@ struct ChannelData {
   Eigen::VectorXd mean;                 ///< of the replicates, at the condition's own load
   Eigen::MatrixXd noise;                ///< covariance of the means, days included
   double scale = 0;                     ///< standard deviation of one run, middle of all
+  /// What references tell that the model lacks there, and that was taken off the mean: a sensor
+  /// reads it too. Empty where nothing was.
+  Eigen::VectorXd shared = {};
 };
 
 /// The condensed recording: conditions, and per channel the means with their covariance. Vectors

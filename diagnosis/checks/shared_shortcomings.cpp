@@ -256,6 +256,7 @@ DifferenceBed difference_bed(const CondensedRecording& test,
     result.measured.noise_variance.segment(from, n) = data.noise.diagonal();
     result.measured.shared.segment(from, n) = surface.mean;
     data.mean -= surface.mean;
+    data.shared = surface.mean;
     data.noise += surface.covariance;
     for (Eigen::Index i = 0; i < n; ++i) {
       for (const std::size_t run :

@@ -36,6 +36,7 @@ TestBed without(const TestBed& bed, const Families& families, std::size_t family
       kept.conditions.push_back(new_index[data.conditions[i]]);
     }
     kept.mean = data.mean(rows);
+    if (data.shared.size() > 0) kept.shared = data.shared(rows);
     kept.noise = data.noise(rows, rows);
   }
   return rest;

@@ -47,10 +47,17 @@ void leak(const TestBed& bed, std::size_t from_channel, std::size_t to_channel, 
   }
 }
 
-}  // namespace
+/// Adds what the model lacks as references tell, or takes it off again.
+void add_shared(const TestBed& bed, double times, Eigen::VectorXd& values) {
+  for (std::size_t c = 0; c < bed.channels.size(); ++c) {
+    const Eigen::VectorXd& shared = bed.channels[c].shared;
+    if (shared.size() > 0) values.segment(bed.offset(c), shared.size()) += times * shared;
+  }
+}
 
-void apply_fault(const TestBed& bed, const Effect& effect, const Eigen::VectorXd& x,
-                 Eigen::VectorXd& values) {
+/// \param values of the channels as a sound sensor reads them
+void apply(const TestBed& bed, const Effect& effect, const Eigen::VectorXd& x,
+           Eigen::VectorXd& values) {
   const double amount = effect.coordinates.front().value(x[0]);
   if (effect.kind == EffectKind::kCrosstalk) {
     leak(bed, effect.from, effect.to, amount, values);
@@ -75,6 +82,15 @@ void apply_fault(const TestBed& bed, const Effect& effect, const Eigen::VectorXd
       to *= 1 + now;
     }
   }
+}
+
+}  // namespace
+
+void apply_fault(const TestBed& bed, const Effect& effect, const Eigen::VectorXd& x,
+                 Eigen::VectorXd& values) {
+  add_shared(bed, 1, values);
+  apply(bed, effect, x, values);
+  add_shared(bed, -1, values);
 }
 
 }  // namespace regoplan
