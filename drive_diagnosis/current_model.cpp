@@ -354,10 +354,10 @@ void name_excess(CurrentDiagnosis& result) {
   constexpr double kBuildShare = 0.1;  ///< by which the sides of a sound vehicle differ
   constexpr double kSigmas = 4.5;
   constexpr int kClustersLeast = 6;
-  const double std =
-      std::hypot(result.left_excess_a.std, kBuildShare * std::abs(result.level_mean_a));
+  const double beyond_build_a =
+      std::abs(result.left_excess_a.value) - kBuildShare * std::abs(result.level_mean_a);
   result.side_drag =
-      result.clusters >= kClustersLeast && std::abs(result.left_excess_a.value) > kSigmas * std;
+      result.clusters >= kClustersLeast && beyond_build_a > kSigmas * result.left_excess_a.std;
   if (!result.side_drag) return;
   result.equivalent = {"side_drag", "wheel_drag", "cg_offset"};
   // A motor that takes more for the same torque takes more against gravity as well.

@@ -10,6 +10,23 @@ double SampleSmoothing::at(double t_s) const {
   return value + (std::isnan(slope) ? 0 : slope * t_s) + bend * t_s * t_s / 2;
 }
 
+double SampleSmoothing::left_in(double from_s, double to_s) const {
+  double sum = 0;
+  int within = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (time_s[i] < from_s || time_s[i] > to_s) continue;
+    sum += left[i];
+    ++within;
+  }
+  if (within > 0) return sum / within;
+  // Between two samples: on the line through them.
+  const auto after = std::ranges::lower_bound(time_s, from_s) - time_s.begin();
+  if (left.empty() || after == 0 || after == std::ssize(time_s)) return 0;
+  const auto b = static_cast<std::size_t>(after), a = b - 1;
+  const double gone = ((from_s + to_s) / 2 - time_s[a]) / (time_s[b] - time_s[a]);
+  return left[a] + gone * (left[b] - left[a]);
+}
+
 double SampleSmoothing::share(double from_s, double to_s) const {
   double sum = 0;
   for (std::size_t i = 0; i < slope_weights.size(); ++i) {
@@ -20,7 +37,7 @@ double SampleSmoothing::share(double from_s, double to_s) const {
 
 SampleSmoothing smoothed(const std::vector<double>& time_s, const std::vector<double>& values) {
   SampleSmoothing result{
-      .count = static_cast<int>(values.size()), .time_s = time_s, .slope_weights = {}};
+      .count = static_cast<int>(values.size()), .time_s = time_s, .left = {}, .slope_weights = {}};
   if (values.empty()) return result;
   const auto n = static_cast<Eigen::Index>(values.size());
   const Eigen::Index degree = n >= 5 ? 2 : n >= 3 ? 1 : 0;
@@ -37,6 +54,8 @@ SampleSmoothing smoothed(const std::vector<double>& time_s, const std::vector<do
   result.value = c[0];
   if (degree >= 1) result.slope = c[1];
   if (degree >= 2) result.bend = 2 * c[2];
+  const Eigen::VectorXd left = y - design * c;
+  result.left.assign(left.begin(), left.end());
   const Eigen::MatrixXd weights = solver.solve(design.transpose());
   result.value_by_sample = weights.row(0).norm();
   if (degree >= 1) {
@@ -44,7 +63,7 @@ SampleSmoothing smoothed(const std::vector<double>& time_s, const std::vector<do
     result.slope_by_sample = weights.row(1).norm();
   }
   if (degree >= 1 && n > degree + 1) {
-    const double variance = (y - design * c).squaredNorm() / static_cast<double>(n - degree - 1);
+    const double variance = left.squaredNorm() / static_cast<double>(n - degree - 1);
     result.slope_std = std::sqrt(variance) * result.slope_by_sample;
   }
   return result;

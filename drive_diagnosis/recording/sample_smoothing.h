@@ -15,9 +15,13 @@ struct SampleSmoothing {
   /// Standard deviations by that of one sample.
   double value_by_sample = kNotSampled, slope_by_sample = kNotSampled;
   int count = 0;
-  std::vector<double> time_s, slope_weights;  ///< the slope is the weights' sum over the samples
+  std::vector<double> time_s, left;   ///< of each sample: its time, and how far off it lies
+  std::vector<double> slope_weights;  ///< the slope is the weights' sum over the samples
 
   double at(double t_s) const;
+  /// How far samples lie off from one time to another, in the mean; between two of them, on the line
+  /// through them; nothing beyond the first and the last.
+  double left_in(double from_s, double to_s) const;
   /// How much of the slope is the mean slope from one time to another.
   double share(double from_s, double to_s) const;
 };

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
@@ -65,6 +66,36 @@ TEST(DriveWindows, AGapOfTenStepsEndsNoneWheneverTheClockBegins) {
     taken_out(drive.x_m);
     taken_out(drive.y_m);
     EXPECT_EQ(rows_of(drive).size(), 12u) << first_s;
+  }
+}
+
+/// Straight on, then 2 rad round in a tight turn, then straight on.
+TEST(DriveWindows, ATurnThatEndsWithinIsFollowed) {
+  constexpr double kStep_s = 0.1, kFrom_s = 6, kTo_s = 11, kRate_rad_s = 0.4;
+  DriveRecording drive{.drive_id = "d", .file = "d.csv"};
+  DriveChannel yaw{.name = "yaw_rad", .values = {}};
+  const auto yaw_at = [](double time_s) {
+    return kRate_rad_s * std::clamp(time_s - kFrom_s, 0.0, kTo_s - kFrom_s);
+  };
+  double x_m = 0, y_m = 0;
+  for (int i = 0; i <= 200; ++i) {
+    const double time_s = i * kStep_s;
+    drive.time_s.push_back(time_s);
+    drive.x_m.push_back(x_m);
+    drive.y_m.push_back(y_m);
+    yaw.values.push_back(static_cast<float>(yaw_at(time_s)));
+    x_m += kStep_s * std::cos(yaw_at(time_s + kStep_s / 2));
+    y_m += kStep_s * std::sin(yaw_at(time_s + kStep_s / 2));
+  }
+  drive.channels.push_back(std::move(yaw));
+  for (const DriveWindow& window : drive_windows(drive, 0, 5, 0.3)) {
+    // What goes at 1 m/s along the yaw of each part is smoothed to the speed that is measured.
+    double forward_mps = 0;
+    for (const WindowPart& part : window.divided(48)) {
+      EXPECT_NEAR(part.yaw_rad, yaw_at((part.start_s + part.end_s) / 2), 0.02) << part.start_s;
+      forward_mps += part.track_share * std::cos(part.yaw_rad - window.yaw_rad);
+    }
+    EXPECT_NEAR(forward_mps, window.forward_mps, 0.005) << window.start_s;
   }
 }
 
