@@ -19,8 +19,8 @@ struct SampleSmoothing {
   std::vector<double> slope_weights;  ///< the slope is the weights' sum over the samples
 
   double at(double t_s) const;
-  /// How far samples lie off from one time to another, in the mean; between two of them, on the line
-  /// through them; nothing beyond the first and the last.
+  /// How far samples lie off from one time to another, in the mean; between two of them, on the
+  /// line through them; nothing beyond the first and the last.
   double left_in(double from_s, double to_s) const;
   /// How much of the slope is the mean slope from one time to another.
   double share(double from_s, double to_s) const;

@@ -1,13 +1,16 @@
 #include "drive_diagnosis/recording/time_checks.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
 
+#include "drive_diagnosis/recording/fix_jumps.h"
 #include "drive_diagnosis/recording/fix_scatter.h"
 #include "drive_diagnosis/recording/robust_statistics.h"
 
@@ -103,13 +106,12 @@ struct FixStep {
 };
 
 std::vector<FixStep> steps_of(const DriveRecording& drive) {
-  constexpr double kLongest_s = 2.5;  // fixes at half a hertz, however their stamps scatter
   constexpr std::size_t kAround = 3;
   std::vector<FixStep> moves;
   std::optional<std::size_t> last;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     if (std::isnan(drive.x_m[i])) continue;
-    if (last && drive.time_s[i] - drive.time_s[*last] <= kLongest_s) {
+    if (last && drive.time_s[i] - drive.time_s[*last] <= kFixesApart_s) {
       moves.push_back({i, drive.time_s[i] - drive.time_s[*last], drive.x_m[i] - drive.x_m[*last],
                        drive.y_m[i] - drive.y_m[*last]});
     }
@@ -169,6 +171,58 @@ void take_steps_back(DriveRecording& drive, double speed_max_mps) {
                    "changed: taken back, so that the track goes on where it was",
                    count == 1 ? "once" : fmt::format("{} times", count), largest_m, at_s),
        largest_m, "m");
+}
+
+/// Fixes farther from the median of those around than the vehicle can be.
+std::vector<FixJump> far_fixes(const DriveRecording& drive, const std::vector<std::size_t>& fresh,
+                               double speed_max_mps) {
+  constexpr std::size_t kAround = 3;
+  const double slack_m = slack_of_m(drive, speed_max_mps);
+  std::vector<FixJump> far;
+  for (std::size_t k = 0; k < fresh.size(); ++k) {
+    std::vector<double> xs, ys;
+    double reach_s = 0;
+    for (std::size_t j = k >= kAround ? k - kAround : 0;
+         j < std::min(k + kAround + 1, fresh.size()); ++j) {
+      if (j == k) continue;
+      xs.push_back(drive.x_m[fresh[j]]);
+      ys.push_back(drive.y_m[fresh[j]]);
+      reach_s = std::max(reach_s, std::abs(drive.time_s[fresh[j]] - drive.time_s[fresh[k]]));
+    }
+    if (xs.size() < 4) continue;
+    const double off_m = std::hypot(drive.x_m[fresh[k]] - median_value(std::move(xs)),
+                                    drive.y_m[fresh[k]] - median_value(std::move(ys)));
+    if (off_m > 2 * speed_max_mps * reach_s + slack_m) {
+      far.push_back({.row = fresh[k], .off_m = off_m});
+    }
+  }
+  return far;
+}
+
+void leave_out(const std::vector<FixJump>& jumps, DriveRecording& drive,
+               std::vector<std::size_t>& fresh) {
+  for (const FixJump& jump : jumps) drive.x_m[jump.row] = drive.y_m[jump.row] = kNotSampled;
+  std::erase_if(fresh, [&](std::size_t row) { return std::isnan(drive.x_m[row]); });
+}
+
+void tell_jumps(std::vector<FixJump> jumps, DriveRecording& drive) {
+  constexpr std::size_t kTold = 5;
+  std::ranges::sort(jumps, {}, &FixJump::row);
+  std::vector<std::string> times_s;
+  for (const FixJump& jump : jumps) {
+    if (times_s.size() < kTold) times_s.push_back(fmt::format("{:.2f}", drive.time_s[jump.row]));
+  }
+  const FixJump& largest = *std::ranges::max_element(jumps, {}, &FixJump::off_m);
+  std::string text =
+      jumps.size() == 1
+          ? fmt::format("1 position jumps (by {:.3g} m at {} s) and is left out", largest.off_m,
+                        times_s.front())
+          : fmt::format(
+                "{} positions jump (at {}{} s; the largest by {:.3g} m at {:.2f} s) and are "
+                "left out",
+                jumps.size(), fmt::join(times_s, ", "), jumps.size() > kTold ? ", ..." : "",
+                largest.off_m, drive.time_s[largest.row]);
+  tell(drive, "position_jump", std::move(text), largest.off_m, "m");
 }
 
 }  // namespace
@@ -253,8 +307,7 @@ void mend_time(DriveRecording& drive) {
 }
 
 void mend_positions(DriveRecording& drive, double speed_max_mps) {
-  std::size_t stale = 0, sampled = 0, jumps = 0;
-  double largest_m = 0, at_s = 0;
+  std::size_t stale = 0, sampled = 0;
   std::vector<std::size_t> fresh;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     if (std::isnan(drive.x_m[i]) || std::isnan(drive.y_m[i])) {
@@ -276,38 +329,12 @@ void mend_positions(DriveRecording& drive, double speed_max_mps) {
          fmt::format("{} of {} positions repeat the one before and are not used", stale, sampled),
          static_cast<double>(stale) / static_cast<double>(sampled));
   }
-  constexpr std::size_t kAround = 3;
-  const double slack_m = slack_of_m(drive, speed_max_mps);
-  std::vector<std::size_t> bad;
-  for (std::size_t k = 0; k < fresh.size(); ++k) {
-    std::vector<double> xs, ys;
-    double reach_s = 0;
-    for (std::size_t j = k >= kAround ? k - kAround : 0;
-         j < std::min(k + kAround + 1, fresh.size()); ++j) {
-      if (j == k) continue;
-      xs.push_back(drive.x_m[fresh[j]]);
-      ys.push_back(drive.y_m[fresh[j]]);
-      reach_s = std::max(reach_s, std::abs(drive.time_s[fresh[j]] - drive.time_s[fresh[k]]));
-    }
-    if (xs.size() < 4) continue;
-    const double off_m = std::hypot(drive.x_m[fresh[k]] - median_value(std::move(xs)),
-                                    drive.y_m[fresh[k]] - median_value(std::move(ys)));
-    if (off_m > 2 * speed_max_mps * reach_s + slack_m) bad.push_back(fresh[k]);
-    if (off_m > 2 * speed_max_mps * reach_s + slack_m && off_m > largest_m) {
-      largest_m = off_m;
-      at_s = drive.time_s[fresh[k]];
-    }
-  }
-  for (const std::size_t i : bad) {
-    drive.x_m[i] = drive.y_m[i] = kNotSampled;
-    ++jumps;
-  }
-  if (jumps > 0) {
-    tell(drive, "position_jump",
-         fmt::format("{} positions jump (the largest by {:.3g} m at {:.2f} s) and are left out",
-                     jumps, largest_m, at_s),
-         largest_m, "m");
-  }
+  std::vector<FixJump> jumps = fix_jumps(drive, fresh, speed_max_mps);
+  leave_out(jumps, drive, fresh);
+  std::vector<FixJump> far = far_fixes(drive, fresh, speed_max_mps);
+  leave_out(far, drive, fresh);
+  std::ranges::move(far, std::back_inserter(jumps));
+  if (!jumps.empty()) tell_jumps(std::move(jumps), drive);
   take_steps_back(drive, speed_max_mps);
 }
 

@@ -10,10 +10,11 @@ namespace regoplan {
 /// set back for good, what follows counts on from there. Each is told as a finding.
 void mend_time(DriveRecording& drive);
 
-/// Takes out positions that only repeat the one before (stale), and those that jump: farther from
-/// the median of the fixes around than a vehicle of that speed can be. Steps after which positions
-/// go on with another datum are taken back. Told as findings.
-/// \param speed_max_mps what the vehicle can do at most; a jump is at least twice that
+/// Takes out positions that only repeat the one before (stale), and those that jump: off the track
+/// that goes on after them (`fix_jumps`), or farther from the median of the fixes around than a
+/// vehicle of twice that speed can be. Steps after which positions go on with another datum are
+/// taken back. Told as findings.
+/// \param speed_max_mps what the vehicle can do at most
 void mend_positions(DriveRecording& drive, double speed_max_mps);
 
 /// The median step of the clock from row to row; a tenth of a second where there is none.
