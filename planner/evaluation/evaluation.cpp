@@ -127,10 +127,9 @@ bool hangs_on_soil(Rejection reason) {
   return is_margin(reason) || reason == Rejection::kSinkage;
 }
 
-/// Whether the commanded path is refused where no steady trim has the forward force.
-bool is_short_of_drive(const std::optional<Refusal>& refusal) {
-  return refusal && refusal->reason == Rejection::kTraction && !refusal->exceeded &&
-         !refusal->while_tracking;
+/// Whether a state is refused because no steady trim has the forward force.
+bool is_short_of_drive(const std::optional<RejectedState>& rejected) {
+  return rejected && rejected->reason == Rejection::kTraction && !rejected->exceeded;
 }
 
 /// Why the vehicle cannot stop where it has arrived.
@@ -337,6 +336,9 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
     smallest = {.cornering = std::min(smallest.cornering, margins.cornering),
                 .tip_over = std::min(smallest.tip_over, margins.tip_over),
                 .traction = std::min(smallest.traction, margins.traction)};
+    without_gaps[i].cornering_margin = margins.cornering;
+    without_gaps[i].tip_over_margin = margins.tip_over;
+    without_gaps[i].traction_margin = margins.traction;
     without_gaps[i].margin = margins.smallest();
     if (std::isnan(evaluation.points[i].tip_over_margin)) continue;  // no ground, no steering
     states.push_back(stations[i].state);
@@ -344,14 +346,15 @@ PathEvaluation judged(const World& verdict, const DrivenCourse& course,
   }
   evaluation.margin_min = evaluation.margins.smallest();
   evaluation.margin_worst_tenth = margin_of_worst_tenth(without_gaps);
-  evaluation.limiting = limiting_place(evaluation.points);
-  const std::size_t worst = smallest_margin_index(evaluation.points);
+  // Where a margin is missing counts as it does in the smallest, so that both are of one state.
+  evaluation.limiting = limiting_place(without_gaps);
+  const Station& worst = stations[smallest_margin_index(without_gaps)];
   // Without a trim the margins are told apart by what it is wanting for.
-  if (is_short_of_drive(evaluation.refusal) && evaluation.refusal->s_m == evaluation.s_m[worst]) {
+  if (is_short_of_drive(judge(verdict, worst).rejected)) {
     evaluation.limiting.margin = MarginKind::kTraction;
   }
   if (evaluation.limiting.margin == MarginKind::kCornering) {
-    evaluation.cornering_limit = cornering_limit(verdict, stations[worst].state);
+    evaluation.cornering_limit = cornering_limit(verdict, worst.state);
   }
   if (states.size() < stations.size()) return evaluation;
   evaluation.spread = soil_spread(problem, states, at_mean,

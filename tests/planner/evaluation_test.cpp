@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -172,6 +173,25 @@ TEST(Evaluation, ATurnTooFastNamesCorneringItsPlaceAndTheLimitOfTheSupply) {
   ASSERT_TRUE(e.cornering_limit);
   EXPECT_EQ(e.cornering_limit->limit, BranchLimit::kSlipAngle);
   EXPECT_FALSE(e.cornering_limit->wheel.empty());
+}
+
+TEST(Evaluation, TheLimitingPlaceIsThatOfTheSmallestMarginNotThatOfTheRefusal) {
+  // Beyond the supply there is no traction margin, yet the cornering margin goes on falling.
+  for (const double speed_mps : {2.0, 3.5, 4.0}) {
+    const PathEvaluation e = evaluated(turn(speed_mps));
+    const auto at = std::ranges::find(e.points, e.limiting.time_s, &TrajectoryPoint::time_s);
+    ASSERT_NE(at, e.points.end()) << speed_mps;
+    EXPECT_EQ(e.limiting.x_m, at->x_m);
+    EXPECT_EQ(e.limiting.y_m, at->y_m);
+    EXPECT_EQ(margins_at(*at).smallest(), e.margin_min) << speed_mps;
+    ASSERT_EQ(e.limiting.margin, MarginKind::kCornering);
+    ASSERT_TRUE(e.cornering_limit);
+    EXPECT_NEAR(e.cornering_limit->supply_n, at->supply_max_n, 0.01 * at->supply_max_n);
+    EXPECT_EQ(e.cornering_limit->supply_n < at->demand_n, e.margin_min < 0) << speed_mps;
+    if (e.refusal && !e.refusal->while_tracking) {
+      EXPECT_LT(e.refusal->time_s, e.limiting.time_s) << speed_mps;
+    }
+  }
 }
 
 TEST(Evaluation, APathThatLeavesTheMapIsRefusedThere) {
