@@ -188,6 +188,17 @@ void read_entries(const Json& json, ComparedResult& result) {
   }
 }
 
+Json read_json(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string() + ": cannot be read");
+  try {
+    return Json::parse(stream);
+  } catch (const Json::parse_error& bad) {
+    throw InputError(fmt::format("{}: not valid JSON from byte {} on; remedy: make it again",
+                                 file.string(), bad.byte));
+  }
+}
+
 /// The file of a result, and what it is of by its name.
 std::pair<std::filesystem::path, ResultKind> file_of(const std::filesystem::path& result) {
   std::error_code none;
@@ -196,6 +207,10 @@ std::pair<std::filesystem::path, ResultKind> file_of(const std::filesystem::path
     if (std::filesystem::is_regular_file(result / kind.file, none)) {
       return {result / kind.file, kind.kind};
     }
+  }
+  // Under any other name, too, a text that was cut short is told as such.
+  if (result.extension() == ".json" && std::filesystem::is_regular_file(result, none)) {
+    read_json(result);
   }
   throw InputError(fmt::format(
       "{}: no result (allowed: a folder with plan.json, evaluation.json or benchmark.json)",
@@ -234,11 +249,9 @@ const std::vector<ComparedMetric>& metrics_of(ResultKind kind) {
 
 ComparedResult read_compared_result(const std::filesystem::path& folder) {
   const auto [file, kind] = file_of(folder);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string() + ": cannot be read");
   ComparedResult result{.kind = kind, .file = file, .inputs = Json::object()};
   try {
-    const Json json = Json::parse(stream);
+    const Json json = read_json(file);
     result.version = json.at("version").get<std::string>();
     result.status = json.value("status", "");
     read_entries(json, result);

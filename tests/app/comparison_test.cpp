@@ -272,6 +272,10 @@ TEST_F(CompareProgram, RefusesWhatIsNoResultAndResultsOfTwoKinds) {
   expect_refusal(compare("before", "nowhere"), {"nowhere", "plan.json, evaluation.json"});
   folder_.write("plan.json", "{\"version\": \"1\"}");
   expect_refusal(compare("before", "plan.json"), {"plan.json", "is not as plan writes it"});
+  for (const char* cut_short : {"plan.json", "renamed.json"}) {
+    folder_.write(cut_short, "{\"status\":");
+    expect_refusal(compare("before", cut_short), {cut_short, "not valid JSON from byte 11 on"});
+  }
   folder_.write("path.csv", "x_m,y_m\n8,20\n20,20.5\n");
   ASSERT_EQ(run_program(folder_, fmt::format("evaluate '{}' '{}' --draws 10 --quiet --out '{}'",
                                              folder_.path("before.yaml"), folder_.path("path.csv"),
