@@ -14,6 +14,7 @@
 #include "drive_diagnosis/comparison/torque_sign.h"
 #include "drive_diagnosis/differing_drives.h"
 #include "drive_diagnosis/drive_claims.h"
+#include "drive_diagnosis/instruments/rim_holes.h"
 #include "drive_diagnosis/instruments/rim_sign.h"
 #include "drive_diagnosis/instruments/rim_unit.h"
 #include "drive_diagnosis/instruments/steering_sign.h"
@@ -342,6 +343,7 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   leave_doubtful_torques_out(setup, drives, result);
   const SideGeometry sides = sides_of(setup.vehicle);
   tell_mended(mend_yaw_in_radians(drives, result.windows), setup, drives, result);
+  std::ranges::move(rim_holes(drives), std::back_inserter(result.findings));
   tell_mended(leave_stuck_rims_out(drives), setup, drives, result);
   tell_mended(mend_rim_signs(drives, result.windows, sides), setup, drives, result);
   if (setup.vehicle) {

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "drive_diagnosis/instruments/rim_holes.h"
 
 namespace regoplan {
 namespace {
@@ -12,8 +15,9 @@ namespace {
 /// last of those within what the window is smoothed over, the channel keeps its value. NaN where it
 /// has none there. The mean of the samples alone would be that of another time, by up to half the
 /// time between two of them: where a vehicle brakes with .3 m/s2, of speeds .015 m/s off.
+/// \param hole_s NaN too where a part lies in a hole between samples that is longer
 double value_in(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
-                const std::string& name) {
+                const std::string& name, double hole_s = std::numeric_limits<double>::infinity()) {
   const DriveChannel* channel = drive.channel(name);
   if (!channel) return kNotSampled;
   const auto begin =
@@ -32,6 +36,8 @@ double value_in(const DriveRecording& drive, const DriveWindow& window, const Wi
        ++i) {
     const auto value = static_cast<double>(channel->values[i]);
     if (std::isnan(value)) continue;
+    const double from_s = std::isnan(last_s) ? window.smoothed_from_s : last_s;
+    if (drive.time_s[i] - from_s > hole_s && drive.time_s[i] > part.start_s) return kNotSampled;
     if (std::isnan(last_s)) {
       integral += value * std::max(0.0, std::min(part.end_s, drive.time_s[i]) - part.start_s);
     } else {
@@ -41,6 +47,7 @@ double value_in(const DriveRecording& drive, const DriveWindow& window, const Wi
     last = value;
   }
   if (std::isnan(last_s)) return kNotSampled;
+  if (part.end_s > last_s && window.smoothed_to_s - last_s > hole_s) return kNotSampled;
   integral += last * std::max(0.0, part.end_s - std::max(part.start_s, last_s));
   return integral / (part.end_s - part.start_s);
 }
@@ -48,10 +55,11 @@ double value_in(const DriveRecording& drive, const DriveWindow& window, const Wi
 /// The rim speed of a wheel, its own or its side's.
 double rim_rad_s(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,
                  const WheelMount& mount) {
-  const double own = value_in(drive, window, part, fmt::format("wheel_speed_{}_rad_s", mount.name));
+  const double own =
+      value_in(drive, window, part, fmt::format("wheel_speed_{}_rad_s", mount.name), kRimHole_s);
   if (!std::isnan(own)) return own;
   return value_in(drive, window, part,
-                  mount.y_m > 0 ? "wheel_speed_left_rad_s" : "wheel_speed_right_rad_s");
+                  mount.y_m > 0 ? "wheel_speed_left_rad_s" : "wheel_speed_right_rad_s", kRimHole_s);
 }
 
 double steer_of(const DriveRecording& drive, const DriveWindow& window, const WindowPart& part,

@@ -124,7 +124,8 @@ TEST(HeldOut, AModelThatIsNoBetterOrWorseInOneChannelIsNotHandedOut) {
   EXPECT_EQ(no_better_than(proof.calibrated, bed, proof), "");
   auto torque = proof.corrected.segment(bed.offset(2), bed.channels[2].mean.size());
   torque.array() += 4 * bed.channels[2].scale;
-  EXPECT_NE(no_better_than(proof.calibrated, bed, proof).find("torque_nm worse"), std::string::npos);
+  EXPECT_NE(no_better_than(proof.calibrated, bed, proof).find("torque_nm worse"),
+            std::string::npos);
 }
 
 TEST(HeldOut, AGainScattersByOneStandardErrorHoweverMuchDaysMoveAllAtOnce) {

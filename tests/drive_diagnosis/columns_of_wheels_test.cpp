@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "drive_diagnosis/comparison/swapped_sides.h"
 #include "drive_diagnosis/drive_diagnosis.h"
+#include "drive_diagnosis/instruments/rim_holes.h"
 #include "drive_diagnosis/instruments/stuck_rims.h"
 #include "tests/drive_diagnosis/simulated_drive.h"
 
@@ -100,6 +102,25 @@ TEST(ColumnsOfWheels, ARimSpeedThatSticksIsLeftOutWhileOthersChange) {
   for (std::size_t i = 0; i < left.size(); ++i) {
     EXPECT_EQ(std::isnan(left[i]), i >= kFrom && i < kTo) << i;
   }
+}
+
+TEST(ColumnsOfWheels, WhereAWheelTellsNothingNothingIsComparedAndTheHoleIsTold) {
+  DriveRecording drive = sound_drive();
+  EXPECT_TRUE(rim_holes({drive}).empty());
+  const DriveDiagnosis sound = diagnosed(drive);
+  std::vector<float>& rim = drive.channel("wheel_speed_rear_right_rad_s")->values;
+  const std::size_t from = 500, to = from + static_cast<std::size_t>(std::ranges::count_if(
+                                                drive.time_s, [&](double time_s) {
+                                                  return time_s >= drive.time_s[from] &&
+                                                         time_s < drive.time_s[from] + 8;
+                                                }));
+  for (std::size_t i = from; i < to; ++i) rim[i] = std::numeric_limits<float>::quiet_NaN();
+  const DriveDiagnosis found = diagnosed(drive);
+  EXPECT_EQ(std::ranges::count(found.findings, "hole", &DriveFinding::id), 1);
+  EXPECT_TRUE(found.claims.empty());
+  // Windows of 5 s: at least one lies within the hole of 8 s or over an end of it.
+  EXPECT_LT(found.windows_used->compared, sound.windows_used->compared);
+  EXPECT_GE(found.windows_used->compared, sound.windows_used->compared - 4);
 }
 
 TEST(ColumnsOfWheels, SpeedsThatAllStandStillAtOnceAreNotStuck) {
