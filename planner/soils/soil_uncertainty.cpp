@@ -60,6 +60,19 @@ constexpr std::array<MarginOfPath, 3> kMarginsOfPath{
 /// How far a surrogate may promise too much. What it promises too much is taken off.
 constexpr double kTrusted = 0.03;
 
+/// By how much the surrogate promises too much of each margin, from one of the draws on.
+/// \param said, judged of the surrogate and of the wheel model, in each draw
+PathMargins largest_overestimates(const std::vector<PathMargins>& said,
+                                  const std::vector<PathMargins>& judged, std::size_t from) {
+  PathMargins largest{.cornering = 0, .tip_over = 0, .traction = 0};
+  for (std::size_t i = from; i < said.size(); ++i) {
+    for (const MarginOfPath kind : kMarginsOfPath) {
+      largest.*kind = std::max(largest.*kind, said[i].*kind - judged[i].*kind);
+    }
+  }
+  return largest;
+}
+
 /// Of margins that the surrogate promises too much of, only what it does where they are the
 /// smallest, in all draws of the wheel model: how they are judged elsewhere decides nothing.
 /// \param said, judged of the surrogate and of the wheel model, in each draw
@@ -78,6 +91,18 @@ PathMargins error_where_it_counts(PathMargins error, const std::vector<PathMargi
     }
   }
   return counting;
+}
+
+/// Of soils whose every number is known.
+void tell_known(SoilSpread& spread, const PathMargins& known, double margin_min) {
+  const auto fixed = [](double value) { return Quantiles{value, value, value}; };
+  spread.cornering = fixed(known.cornering);
+  spread.tip_over = fixed(known.tip_over);
+  spread.traction = fixed(known.traction);
+  spread.margin = fixed(known.smallest());
+  spread.margin_p05_interval = {.low = known.smallest(), .high = known.smallest()};
+  const double share = known.smallest() >= margin_min ? 1 : 0;
+  spread.feasible = {.share = share, .low = share, .high = share};
 }
 
 /// Fills in quantiles, probability and influences from the margins of every draw.
@@ -210,15 +235,7 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
   const SoilNumbers numbers = uncertain_numbers(problem, decisive);
   SoilSpread spread{.places = static_cast<int>(places.size())};
   if (numbers.empty()) {
-    const PathMargins known = smallest_of(at_mean);
-    const auto fixed = [](double value) { return Quantiles{value, value, value}; };
-    spread.cornering = fixed(known.cornering);
-    spread.tip_over = fixed(known.tip_over);
-    spread.traction = fixed(known.traction);
-    spread.margin = fixed(known.smallest());
-    spread.margin_p05_interval = {.low = known.smallest(), .high = known.smallest()};
-    const double share = known.smallest() >= problem.limits.margin_min ? 1 : 0;
-    spread.feasible = {.share = share, .low = share, .high = share};
+    tell_known(spread, smallest_of(at_mean), problem.limits.margin_min);
     return spread;
   }
 
@@ -274,12 +291,8 @@ SoilSpread soil_spread(const PlanningProblem& problem, const std::vector<Vehicle
     };
     std::vector<PathMargins> said;
     for (std::size_t i = 0; i < direct; ++i) said.push_back(say(i));
-    PathMargins checked_error{.cornering = 0, .tip_over = 0, .traction = 0};
-    for (std::size_t i = static_cast<std::size_t>(learned); i < direct; ++i) {
-      for (const MarginOfPath kind : kMarginsOfPath) {
-        checked_error.*kind = std::max(checked_error.*kind, said[i].*kind - margins[i].*kind);
-      }
-    }
+    const PathMargins checked_error =
+        largest_overestimates(said, margins, static_cast<std::size_t>(learned));
     const PathMargins error = error_where_it_counts(checked_error, said, margins);
     const bool trusted = std::ranges::all_of(
         kMarginsOfPath, [&](MarginOfPath kind) { return error.*kind <= kTrusted; });
