@@ -1,62 +1,84 @@
-// Fixes that leave the track and come back to it.
 #include "drive_diagnosis/recording/fix_jumps.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
+
+#include "drive_diagnosis/recording/time_checks.h"
 
 namespace regoplan {
 namespace {
 
 constexpr double kSpeedMax_mps = 2;
 
-/// Goes off, turns with a radius of 4 m, brakes and stands, its fixes scattered by some
-/// centimetres.
-DriveRecording driven(std::uint64_t seed, double step_s, double scatter_m = 0.02) {
-  DriveRecording drive{.drive_id = "d", .file = "d.csv"};
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> off(0, scatter_m);
-  double x_m = 0, y_m = 0, yaw_rad = 0;
-  for (double time_s = 0; time_s < 60; time_s += step_s) {
-    const double speed_mps = std::clamp(std::min(time_s, 50 - time_s), 0.0, 1.5);
-    yaw_rad += time_s > 20 && time_s < 30 ? speed_mps / 4 * step_s : 0;
-    x_m += speed_mps * std::cos(yaw_rad) * step_s;
-    y_m += speed_mps * std::sin(yaw_rad) * step_s;
+/// Round a circle at 1 m/s, a fix each `step_s` that scatters by 2 cm, standing for a while.
+DriveRecording circle(double step_s) {
+  DriveRecording drive{.drive_id = "d"};
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> scatter(0, 0.02);
+  double way_m = 0;
+  for (int i = 0; i < 120; ++i) {
+    const double time_s = i * step_s;
+    if (i < 50 || i > 60) way_m += step_s;
     drive.time_s.push_back(time_s);
-    drive.x_m.push_back(x_m + off(random));
-    drive.y_m.push_back(y_m + off(random));
+    drive.x_m.push_back(8 * std::cos(way_m / 8) + scatter(random));
+    drive.y_m.push_back(8 * std::sin(way_m / 8) + scatter(random));
   }
   return drive;
 }
 
-std::vector<std::size_t> jumping_rows(const DriveRecording& drive) {
-  std::vector<std::size_t> rows(drive.size()), jumping;
+std::vector<std::size_t> jumps_of(const DriveRecording& drive) {
+  std::vector<std::size_t> rows(drive.size());
   std::iota(rows.begin(), rows.end(), 0);
-  for (const FixJump& jump : fix_jumps(drive, rows, kSpeedMax_mps)) jumping.push_back(jump.row);
-  return jumping;
+  std::vector<std::size_t> found;
+  for (const FixJump& jump : fix_jumps(drive, rows, kSpeedMax_mps)) found.push_back(jump.row);
+  return found;
 }
 
-TEST(FixJumps, OfASoundTrackThereAreNone) {
-  for (const std::uint64_t seed : {1, 2, 3}) {
-    for (const double step_s : {0.1, 0.2, 1.0}) {
-      EXPECT_TRUE(jumping_rows(driven(seed, step_s)).empty()) << seed << " " << step_s;
+using Rows = std::vector<std::size_t>;
+
+TEST(FixJumps, OfAVehicleThatTurnsStopsAndSetsOffNoneIsFound) {
+  for (const double step_s : {0.1, 0.2, 1.0, 2.0}) EXPECT_EQ(jumps_of(circle(step_s)), Rows{});
+}
+
+TEST(FixJumps, AFixThatGoesOutByMoreThanAMetreAndComesBackIsOne) {
+  for (const double step_s : {0.2, 1.0}) {
+    for (const std::size_t row : {0U, 1U, 30U, 55U, 118U, 119U}) {
+      DriveRecording drive = circle(step_s);
+      drive.y_m[row] += row == 30 || row == 55 ? 1.4 : 10;
+      EXPECT_EQ(jumps_of(drive), Rows{row}) << step_s << ", " << row;
     }
   }
 }
 
-TEST(FixJumps, AreThoseThatComeBackAndNoOthers) {
-  DriveRecording drive = driven(4, 0.1);
-  for (const std::size_t row : {100, 250, 251, 400}) drive.y_m[row] += 1.5;
-  EXPECT_EQ(jumping_rows(drive), (std::vector<std::size_t>{100, 250, 251, 400}));
+TEST(FixJumps, SomeInARowForASecondAreAndSoAreTwoOfThreeInARow) {
+  DriveRecording drive = circle(0.2);
+  for (const std::size_t row : {30U, 31U, 32U, 33U, 34U, 80U, 82U}) drive.x_m[row] += 5;
+  EXPECT_EQ(jumps_of(drive), (Rows{30, 31, 32, 33, 34, 80, 82}));
 }
 
-TEST(FixJumps, AStepAfterWhichPositionsStayIsNone) {
-  DriveRecording drive = driven(5, 0.1);
-  for (std::size_t row = 300; row < drive.size(); ++row) drive.x_m[row] += 5;
-  EXPECT_TRUE(jumping_rows(drive).empty());
+TEST(FixJumps, WhatStaysAwayIsNone) {
+  DriveRecording drive = circle(1);
+  for (std::size_t row = 40; row < 70; ++row) drive.x_m[row] += 5;
+  EXPECT_EQ(jumps_of(drive), Rows{});
+}
+
+TEST(FixJumps, OneIsToldAsAJumpOfItsTimeAndNotAsTwoStepsOfTheDatum) {
+  DriveRecording drive = circle(1);
+  const DriveRecording sound = drive;
+  drive.x_m[30] += 2;
+  mend_positions(drive, kSpeedMax_mps);
+  ASSERT_EQ(drive.findings.size(), 1U);
+  EXPECT_EQ(drive.findings[0].id, "position_jump");
+  EXPECT_NE(drive.findings[0].text.find("1 position jumps (by"), std::string::npos);
+  EXPECT_NE(drive.findings[0].text.find("at 30.00 s"), std::string::npos);
+  EXPECT_TRUE(std::isnan(drive.x_m[30]));
+  for (std::size_t row = 0; row < drive.size(); ++row) {
+    if (row == 30) continue;
+    EXPECT_EQ(drive.x_m[row], sound.x_m[row]);
+  }
 }
 
 }  // namespace
