@@ -110,6 +110,8 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
+  bool is_held() const { return file_ >= 0; }
+
  private:
   bool wait() const {
     int failed = 0;
@@ -168,7 +170,9 @@ std::string other_page(const ResultFolder& folder, std::string_view command,
 void require_results_fit(const ResultFolder& folder, const std::vector<std::string>& names) {
   require_writable_folder(folder);
   const FolderLock lock(folder.path, FolderLock::Missing::kLeave);
-  require_replaceable(folder, names);
+  // In a missing folder there is nothing to replace. What another process puts there from now on
+  // stands beside a manifest that would have to be read together with it, under the lock.
+  if (lock.is_held()) require_replaceable(folder, names);
 }
 
 StagedFiles::StagedFiles(const ResultFolder& folder)
@@ -285,6 +289,7 @@ void StagedFiles::remove_kept(const std::string& name, ResultManifest& manifest)
 
 bool StagedFiles::remove(const std::string& name) {
   const FolderLock lock(folder_.path, FolderLock::Missing::kLeave);
+  if (!lock.is_held()) return false;
   ResultManifest manifest(folder_.path);
   if (!manifest.is_own(name)) return false;
   std::error_code failed;
