@@ -56,6 +56,13 @@ function namesExplained(ids) {
       element('ul', {}, ...names.sort().map(entry)));
 }
 
+/// What places are off, by `where_off`.
+const HELD_AGAINST = {
+  calibrated_model: 'model, the soil numbers calibrated',
+  soil_beside_claim: 'model, its soil fitted beside what is claimed and that left out',
+  reference: 'what it shares with the reference',
+};
+
 function whereTable(host) {
   if (!DIAGNOSIS.where.length) {
     host.append(element('p', {}, 'Nowhere beyond what noise explains.'));
@@ -77,7 +84,7 @@ function whereTable(host) {
   host.append(
       element(
           'p', {class: 'note'},
-          'Measured minus model, the soil numbers calibrated; strongest first. P-values are corrected for the number of places looked at.'),
+          `Measured minus ${HELD_AGAINST[DIAGNOSIS.where_off]}; strongest first. P-values are corrected for the number of places looked at.`),
       scrolled(
           'Table of places where model and recording differ',
           table(
