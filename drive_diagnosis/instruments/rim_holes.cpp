@@ -14,20 +14,19 @@ struct Hole {
 
 std::vector<Hole> holes_of(const DriveRecording& drive, const DriveChannel& rim) {
   std::vector<Hole> holes;
-  double last_s = drive.time_s.front();
-  bool any = false;
+  std::optional<double> last_s;  // when it told a speed
   for (std::size_t i = 0; i < drive.size(); ++i) {
     if (std::isnan(rim.values[i])) continue;
-    any = true;
     // Where the recording itself pauses, no wheel has a hole of its own.
     const bool goes_on = i > 0 && drive.time_s[i] - drive.time_s[i - 1] <= kRimHole_s;
-    if (goes_on && drive.time_s[i] - last_s > kRimHole_s)
-      holes.push_back({last_s, drive.time_s[i]});
+    const double from_s = last_s.value_or(drive.time_s.front());
+    if (goes_on && drive.time_s[i] - from_s > kRimHole_s)
+      holes.push_back({from_s, drive.time_s[i]});
     last_s = drive.time_s[i];
   }
-  if (any && drive.time_s.back() - last_s > kRimHole_s)
-    holes.push_back({last_s, drive.time_s.back()});
-  if (!any) holes.clear();
+  if (last_s && drive.time_s.back() - *last_s > kRimHole_s) {
+    holes.push_back({*last_s, drive.time_s.back()});
+  }
   return holes;
 }
 
