@@ -117,6 +117,13 @@ std::string instead_text(const VehicleFinding& finding) {
   return fmt::format("; hardly told from {}", fmt::join(numbers, " or from "));
 }
 
+/// A wheel that follows another law is nothing to mend at the vehicle.
+std::string_view law_text(const VehicleFinding& finding) {
+  if (std::ranges::find(finding.equivalent, "wheel_law") == finding.equivalent.end()) return "";
+  return "; wheel_law is wheel physics that the model lacks and no fault of the vehicle: nothing "
+         "of it is handed back";
+}
+
 }  // namespace
 
 double chance_of(const VehicleFinding& finding) {
@@ -236,7 +243,8 @@ void claim_effects(const DriveSetup& setup, const std::vector<DriveRecording>& d
                      .instead = finding.instead,
                      .channels = effects.channels,
                      .sigmas = finding.sigmas};
-    claim.text = fault_text(finding) + instead_text(finding);
+    claim.text =
+        fmt::format("{}{}{}", fault_text(finding), instead_text(finding), law_text(finding));
     if (finding.zone) {
       if (finding.zone->at_border &&
           std::ranges::find(claim.equivalent, "zone_border") == claim.equivalent.end()) {

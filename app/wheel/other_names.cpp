@@ -70,6 +70,12 @@ const std::vector<OtherName>& other_names() {
        kTorques,
        {{"forward_m, left_m, up_m", "m"}}},
       {"tow_drag", kVehicle, "something that it pulls holds it back", kTorques, {{"drag_n", "N"}}},
+      {"wheel_law",
+       kVehicle,
+       "torque, or drawbar pull, rises otherwise with a wheel's load than the wheel model says: "
+       "physics that it lacks, and no fault of the vehicle",
+       kTorques,
+       {{"torque_by_load, pull_by_load", "of the load, per share of it above the mean"}}},
       {"attitude_mounting",
        kVehicle,
        "the attitude sensor is mounted otherwise than is told",

@@ -34,6 +34,8 @@ double share_or(const std::optional<DriveEstimate>& number, double sound) {
 constexpr double kSoundSteer_deg = 0.1, kSoundMotor = 0.01;
 /// Of all wheels, and of one of them beside the others.
 constexpr double kSoundRadius = 0.003, kSoundRadiusOfOne = 0.001;
+/// Of torque over radius and of pull, per share of load, as a share of the load.
+constexpr double kSoundLaw = 0.003;
 /// By how much the times of sensors of one recording differ.
 constexpr double kSoundLate_s = 0.03;
 
@@ -121,6 +123,9 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_
   trials.add("cg_offset", "left_m", sound.cg_m, &VehicleDeviation::cg_left_m);
   trials.add("cg_offset", "up_m", sound.cg_up_m, &VehicleDeviation::cg_up_m);
   trials.add("tow_drag", "drag_n", sound.tow_n, &VehicleDeviation::tow_drag_n);
+  // Model and wheel part soonest in how forces rise with the load, which no number of a soil gives.
+  trials.add("wheel_law", "torque_by_load", kSoundLaw, &VehicleDeviation::torque_by_load);
+  trials.add("wheel_law", "pull_by_load", kSoundLaw, &VehicleDeviation::pull_by_load);
   trials.add("map_offset", "east_m", 0.2, &VehicleDeviation::map_east_m);
   trials.add("map_offset", "north_m", 0.2, &VehicleDeviation::map_north_m);
   if (std::ranges::count(soils, true) > 1) {

@@ -23,8 +23,9 @@ struct Scene {
   const BodyMotion* before = nullptr;       ///< at the place before; null at the first
   const BodyMotion* long_before = nullptr;  ///< before that; null at the first two
   double step_s = 0;                        ///< from place to place
-  double slow_mps = 0;    ///< steps of the search for a motion are no shorter at less speed
-  double tow_drag_n = 0;  ///< along the vehicle, against its way
+  double slow_mps = 0;      ///< steps of the search for a motion are no shorter at less speed
+  double tow_drag_n = 0;    ///< along the vehicle, against its way
+  double pull_by_load = 0;  ///< see VehicleDeviation
   PatchAxes axes;
   double hollow_1pm = 0;
   std::array<const WheelModel*, kMaxWheels> models{};
@@ -79,11 +80,13 @@ SoilNumbers numbers_at(const VehicleDeviation& deviation, std::size_t soil,
 struct Sums {
   BodyForce force;
   std::array<double, kMaxWheels> torque_nm{};
+  std::array<double, kMaxWheels> uneven_load_n{};  ///< see WindowMotions
   bool carried = true;
 };
 
 Sums sums_at(const Scene& scene, const BodyMotion& motion, const GroundReaction& reaction) {
   Sums sums;
+  const double mean_load_n = reaction.normal_n / static_cast<double>(scene.vehicle.wheels.size());
   for (std::size_t i = 0; i < scene.vehicle.wheels.size(); ++i) {
     const double load_n = scene.sharing.load_n(i, reaction);
     if (!(load_n > 0)) {
@@ -91,8 +94,10 @@ Sums sums_at(const Scene& scene, const BodyMotion& motion, const GroundReaction&
       continue;
     }
     const WheelMount& mount = scene.vehicle.wheels[i];
-    const WheelForces forces = scene.models.at(i)->forces(
+    WheelForces forces = scene.models.at(i)->forces(
         load_n, wheel_motion(mount, scene.wheels.at(i), motion, scene.rim_mps.at(i)));
+    sums.uneven_load_n.at(i) = load_n * (load_n / mean_load_n - 1);
+    forces.fx_n += scene.pull_by_load * sums.uneven_load_n.at(i);
     if (!has_forces(forces.status)) sums.carried = false;
     sums.force.add(mount, scene.wheels.at(i), forces);
     sums.torque_nm.at(i) = forces.torque_nm;
@@ -204,7 +209,7 @@ double sign_of(double way) {
 
 /// Adds a place to what is said of its window, by its shares.
 void add_place(const WindowInput::Place& place, const WindowMotions::Place& found,
-               double window_yaw_rad, const VehicleDeviation& deviation, std::size_t wheels,
+               double window_yaw_rad, const VehicleDeviation& deviation, const Vehicle& vehicle,
                WindowPrediction& prediction) {
   const WindowPart& part = place.part;
   const BodyMotion& motion = found.found.motion;
@@ -219,10 +224,12 @@ void add_place(const WindowInput::Place& place, const WindowMotions::Place& foun
   prediction.forward_mps += part.track_share * (c * forward - s * left);
   prediction.left_mps += part.track_share * (s * forward + c * left);
   prediction.yaw_rate_rad_s += part.turn_share * axes.yaw_per_turn * motion.yaw_rate_rad_s;
-  for (std::size_t i = 0; i < wheels; ++i) {
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
     const double drag_nm = sign_of(place.rim_rad_s.at(i)) * deviation.wheel_drag_nm.at(i);
-    prediction.torque_nm.at(i) +=
-        part.mean_share * (found.torque_nm.at(i) + drag_nm) * (1 + deviation.motor_share.at(i));
+    const double by_load_nm =
+        deviation.torque_by_load * vehicle.wheel.radius_m * found.uneven_load_n.at(i);
+    prediction.torque_nm.at(i) += part.mean_share * (found.torque_nm.at(i) + by_load_nm + drag_nm) *
+                                  (1 + deviation.motor_share.at(i));
   }
 }
 
@@ -260,6 +267,7 @@ WheelTime wheel_time(const WindowInput& input, const WindowInput::Place& place,
 bool move_alike(const VehicleDeviation& a, VehicleDeviation b, const std::vector<bool>& on_soil) {
   b.wheel_drag_nm = a.wheel_drag_nm;
   b.motor_share = a.motor_share;
+  b.torque_by_load = a.torque_by_load;
   b.mounting_pitch_rad = a.mounting_pitch_rad;
   b.mounting_roll_rad = a.mounting_roll_rad;
   b.attitude_late_s = a.attitude_late_s;
@@ -283,32 +291,6 @@ WindowPrediction told_by_sensors(WindowPrediction prediction, const VehicleDevia
 }
 
 }  // namespace
-
-void VehicleDeviation::add(const VehicleDeviation& other, double times) {
-  for (std::size_t i = 0; i < kMaxWheels; ++i) {
-    wheel_drag_nm.at(i) += times * other.wheel_drag_nm.at(i);
-    steering_offset_rad.at(i) += times * other.steering_offset_rad.at(i);
-    motor_share.at(i) += times * other.motor_share.at(i);
-    wheel_radius_share.at(i) += times * other.wheel_radius_share.at(i);
-    wheel_speed_late_s.at(i) += times * other.wheel_speed_late_s.at(i);
-  }
-  for (double VehicleDeviation::*of :
-       {&VehicleDeviation::radius_share, &VehicleDeviation::attitude_late_s,
-        &VehicleDeviation::payload_share, &VehicleDeviation::cg_forward_m,
-        &VehicleDeviation::cg_left_m, &VehicleDeviation::cg_up_m, &VehicleDeviation::tow_drag_n,
-        &VehicleDeviation::map_east_m, &VehicleDeviation::map_north_m,
-        &VehicleDeviation::soil_east_m, &VehicleDeviation::soil_north_m,
-        &VehicleDeviation::mounting_pitch_rad, &VehicleDeviation::mounting_roll_rad,
-        &VehicleDeviation::mounting_yaw_rad}) {
-    this->*of += times * (other.*of);
-  }
-  if (soils.size() < other.soils.size()) soils.resize(other.soils.size());
-  for (std::size_t i = 0; i < other.soils.size(); ++i) {
-    for (std::size_t k = 0; k < kSoilNumbers; ++k) {
-      soils[i].at(k) += times * other.soils[i].at(k);
-    }
-  }
-}
 
 WindowModel::WindowModel(const TerrainMap& map, const Vehicle& vehicle, double gravity_mps2)
     : map_(map),
@@ -389,6 +371,7 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
                 .step_s = place.part.end_s - place.part.start_s,
                 .slow_mps = kSlow_mps * input.pace,
                 .tow_drag_n = sign_of(input.forward_mps) * deviation.tow_drag_n,
+                .pull_by_load = deviation.pull_by_load,
                 .axes = PatchAxes(patch, gravity_mps2_),
                 .hollow_1pm = patch.curvature_1pm};
     for (std::size_t i = 0; i < changed.wheels.size(); ++i) {
@@ -411,7 +394,8 @@ WindowMotions WindowModel::motions(const WindowInput& input, const VehicleDeviat
                       .axes = scene.axes,
                       .slope_forward = patch.slope_forward,
                       .slope_left = patch.slope_left,
-                      .torque_nm = balance->sums.torque_nm});
+                      .torque_nm = balance->sums.torque_nm,
+                      .uneven_load_n = balance->sums.uneven_load_n});
   }
   motions.places = std::move(places);
   return motions;
@@ -431,7 +415,7 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
   for (std::size_t j = 0; j < input.places.size(); ++j) {
     const WindowMotions::Place& place = (*known->places)[j];
     const WindowPart& part = input.places[j].part;
-    add_place(input.places[j], place, input.yaw_rad, deviation, vehicle_.wheels.size(), prediction);
+    add_place(input.places[j], place, input.yaw_rad, deviation, vehicle_, prediction);
     const Attitude told =
         attitude_told(*known->places, j, part.end_s - part.start_s, deviation.attitude_late_s);
     prediction.pitch_rad += part.mean_share * told.pitch_rad;

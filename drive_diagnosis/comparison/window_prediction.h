@@ -7,6 +7,7 @@
 
 #include "drive_diagnosis/comparison/deviating_wheels.h"
 #include "drive_diagnosis/comparison/soil_deviation.h"
+#include "drive_diagnosis/comparison/vehicle_deviation.h"
 #include "drive_diagnosis/recording/drive_windows.h"
 #include "maps/ground_finder.h"
 #include "maps/terrain_map.h"
@@ -55,28 +56,6 @@ struct WindowPrediction {
   std::vector<MotionStart> found;  ///< motions of the body at each place
 };
 
-/// What may be otherwise with the vehicle or the ground than it is said to be; all 0 is as said.
-struct VehicleDeviation {
-  std::array<double, kMaxWheels> wheel_drag_nm{};  ///< against the way that each wheel turns
-  std::array<double, kMaxWheels> steering_offset_rad{};
-  std::array<double, kMaxWheels> motor_share{};         ///< of the torque told
-  double radius_share = 0;                              ///< of the wheels' radius
-  std::array<double, kMaxWheels> wheel_radius_share{};  ///< of one wheel's, as it rolls
-  std::array<double, kMaxWheels> wheel_speed_late_s{};  ///< that wheel speeds are told late
-  double attitude_late_s = 0;                           ///< that pitch and roll are
-  double payload_share = 0;                             ///< of the mass
-  double cg_forward_m = 0, cg_left_m = 0, cg_up_m = 0;
-  double tow_drag_n = 0;                     ///< at the centre of gravity, against the way
-  double map_east_m = 0, map_north_m = 0;    ///< by which the map lies off
-  double soil_east_m = 0, soil_north_m = 0;  ///< by which its soils lie off besides
-  double mounting_pitch_rad = 0, mounting_roll_rad = 0, mounting_yaw_rad = 0;  ///< of the sensors
-  std::vector<SoilNumbers> soils;  ///< of each soil of the map; empty: none
-
-  bool operator==(const VehicleDeviation&) const = default;
-  /// Adds so many times another.
-  void add(const VehicleDeviation& other, double times);
-};
-
 /// Whatever soil the map has below each wheel.
 inline constexpr int kAsMapped = -1;
 
@@ -110,6 +89,8 @@ struct WindowMotions {
     PatchAxes axes;
     double slope_forward = 0, slope_left = 0;
     std::array<double, kMaxWheels> torque_nm{};  ///< of the soil alone
+    /// Each wheel's load times the share by which it is above the mean of all.
+    std::array<double, kMaxWheels> uneven_load_n{};
   };
   VehicleDeviation deviation;
   std::vector<SoilStretch> stretches;

@@ -105,6 +105,24 @@ TEST(DriveClaims, AMassOfLessThanNothingIsNotClaimedButTold) {
   EXPECT_EQ(std::ranges::count(diagnosis.findings, "no_name", &DriveFinding::id), 1);
 }
 
+/// The torque of real wheels rises with their load otherwise than the model's: that was a centre of
+/// gravity .3 m lower, at 17 standard deviations.
+TEST(DriveClaims, AWheelWhoseTorqueRisesOtherwiseWithItsLoadIsNoFaultOfTheVehicle) {
+  SimulatedDrive drive{.seed = 33};
+  drive.deviation.torque_by_load = -0.1;
+  const DriveDiagnosis diagnosis = diagnose_drives(
+      {record(drive, rolling_map())},
+      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
+      {});
+  ASSERT_EQ(diagnosis.claims.size(), 1u);
+  const DriveClaim& claim = diagnosis.claims[0];
+  EXPECT_EQ(claim.equivalent, std::vector<std::string>{"wheel_law"});
+  const DriveEstimate& size = claim.parameters.at("torque_by_load");
+  EXPECT_NEAR(size.value, -0.1, 3 * size.std);
+  EXPECT_LT(size.std, 0.03);
+  EXPECT_EQ(count_of("wheel physics that the model lacks", claim.text), 1) << claim.text;
+}
+
 /// Whatever is not sought is told: how wheels stand that are not steered, where others are.
 TEST(DriveClaims, WheelsThatAreTakenToStandStraightAheadAreTold) {
   const auto told_of = [](const Vehicle& vehicle) {

@@ -117,10 +117,14 @@ DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {
     for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
       const WheelMount& mount = vehicle.wheels[i];
       const double rim_mps = state.rim_speed_mps * set.at(i).rim_speed_per_speed;
-      const double torque_nm = laws[static_cast<std::size_t>(patch.soil.at(i))]
-                                   .forces(dynamics.sharing().load_n(i, reaction),
-                                           wheel_motion(mount, set.at(i), state.motion, rim_mps))
-                                   .torque_nm;
+      const double load_n = dynamics.sharing().load_n(i, reaction);
+      const double mean_load_n = reaction.normal_n / static_cast<double>(vehicle.wheels.size());
+      const double torque_nm =
+          laws[static_cast<std::size_t>(patch.soil.at(i))]
+              .forces(load_n, wheel_motion(mount, set.at(i), state.motion, rim_mps))
+              .torque_nm +
+          drive.deviation.torque_by_load * vehicle.wheel.radius_m * load_n *
+              (load_n / mean_load_n - 1);
       constexpr double kHold = 0.9;  // the ground changes over about a metre
       ground.at(i) = kHold * ground.at(i) +
                      std::sqrt(1 - kHold * kHold) * drive.torque_scatter * normal(random);
