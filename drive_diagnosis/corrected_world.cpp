@@ -109,6 +109,16 @@ MapPlace offset(const VehicleEffects& effects, std::string_view id) {
   return off;
 }
 
+/// Slopes are what drives tell, and heights above the datum go with them.
+void scale_heights(const VehicleEffects& effects, ElevationRaster& elevation) {
+  for (const VehicleFinding& found : effects.found) {
+    if (found.id != "map_heights") continue;
+    for (float& height_m : elevation.height_m) {
+      height_m = static_cast<float>(height_m * (1 + found.size));
+    }
+  }
+}
+
 void move(GridFrame& frame, const MapPlace& by) {
   frame.west_m += by.x_m;
   frame.north_m += by.y_m;
@@ -146,6 +156,7 @@ TerrainMap corrected_map(const TerrainMap& map, const VehicleEffects& effects,
   std::vector<Rock> rocks = map.rocks();
   const MapPlace all = offset(effects, "map_offset"), soils = offset(effects, "zone_border");
   move(elevation.frame, all);
+  scale_heights(effects, elevation);
   move(classes.frame, {all.x_m + soils.x_m, all.y_m + soils.y_m});
   for (Rock& rock : rocks) {
     rock.x_m += all.x_m;

@@ -22,8 +22,9 @@ struct VehicleDeviation {
   double attitude_late_s = 0;                           ///< that pitch and roll are
   double payload_share = 0;                             ///< of the mass
   double cg_forward_m = 0, cg_left_m = 0, cg_up_m = 0;
-  double tow_drag_n = 0;                     ///< at the centre of gravity, against the way
-  double map_east_m = 0, map_north_m = 0;    ///< by which the map lies off
+  double tow_drag_n = 0;                   ///< at the centre of gravity, against the way
+  double map_east_m = 0, map_north_m = 0;  ///< by which the map lies off
+  double map_height_share = 0;             ///< by which the ground's heights are the map's and more
   double soil_east_m = 0, soil_north_m = 0;  ///< by which its soils lie off besides
   double mounting_pitch_rad = 0, mounting_roll_rad = 0, mounting_yaw_rad = 0;  ///< of the sensors
   std::vector<SoilNumbers> soils;  ///< of each soil of the map; empty: none

@@ -59,6 +59,9 @@ GroundPatch ground_of(const GroundFinder& finder, const TerrainMap& map, const V
   place.y_m -= deviation.map_north_m;
   place.yaw_rad -= deviation.mounting_yaw_rad;
   GroundPatch patch = finder.at(place.x_m, place.y_m, place.yaw_rad);
+  for (double* of : {&patch.slope_forward, &patch.slope_left, &patch.curvature_1pm}) {
+    *of *= 1 + deviation.map_height_share;
+  }
   const bool borders_lie_off = deviation.soil_east_m != 0 || deviation.soil_north_m != 0;
   if (patch.known && borders_lie_off) {
     place.x_m -= deviation.soil_east_m;

@@ -364,9 +364,10 @@ TEST_F(Program, AFaultThatDiagnoseNamesIsToldWithItsColumnsAndUnits) {
     EXPECT_NE(gain.output.find(words), std::string::npos) << words << " in: " << gain.output;
   }
   // Those that docs/drive-diagnosis.md lists as faults of a vehicle and its map.
-  for (const char* id : {"wheel_drag", "side_drag", "steering_offset", "wheel_radius",
-                         "clock_offset", "payload", "motor_constant", "cg_offset", "tow_drag",
-                         "wheel_law", "map_offset", "zone_border", "attitude_mounting"}) {
+  for (const char* id :
+       {"wheel_drag", "side_drag", "steering_offset", "wheel_radius", "clock_offset", "payload",
+        "motor_constant", "cg_offset", "tow_drag", "wheel_law", "map_offset", "map_heights",
+        "zone_border", "attitude_mounting"}) {
     const ProgramRun told = run(std::string("mechanisms --json ") + id);
     EXPECT_EQ(told.status, 0) << told.errors;
     const auto names = nlohmann::json::parse(told.output);

@@ -127,6 +127,16 @@ TEST(CorrectedMap, AnOffsetMovesHeightsSoilsAndRocks) {
   EXPECT_EQ(corrected.soil_index(1, 30), std::nullopt);  // nothing is known there any more
 }
 
+TEST(CorrectedMap, HeightsThatAreTooLargeAreScaledAndNothingElse) {
+  const TerrainMap map = map_of({{.name = "firm", .source = "", .soil = kFirm}});
+  const TerrainMap corrected = corrected_map(
+      map, with({.id = "map_heights", .parameter = "height_share", .size = -0.2}, map),
+      windows_east(15));
+  EXPECT_NEAR(corrected.height_m(50, 30), 0.8 * map.height_m(50, 30), 1e-6);
+  EXPECT_EQ(corrected.rocks(), map.rocks());
+  EXPECT_EQ(corrected.classes()->code, map.classes()->code);
+}
+
 TEST(CorrectedMap, ABorderMovesSoilsAlone) {
   const TerrainMap map = map_of({{.name = "firm", .source = "", .soil = kFirm}});
   const TerrainMap corrected = corrected_map(

@@ -123,6 +123,24 @@ TEST(DriveClaims, AWheelWhoseTorqueRisesOtherwiseWithItsLoadIsNoFaultOfTheVehicl
   EXPECT_EQ(count_of("wheel physics that the model lacks", claim.text), 1) << claim.text;
 }
 
+/// Heights a quarter too large had been a vehicle that weighs a sixth less.
+TEST(DriveClaims, AMapWhoseHeightsAreTooLargeIsNoPayload) {
+  const TerrainMap map = rolling_map();
+  ElevationRaster higher = map.elevation();
+  for (float& height_m : higher.height_m) height_m *= 1.25F;
+  const DriveDiagnosis diagnosis =
+      diagnose_drives({record({.seed = 34}, map)},
+                      {.map = {higher, map.classes(), map.catalogue(), map.rocks()},
+                       .vehicle = preset_vehicle("lrv"),
+                       .gravity_mps2 = 1.62,
+                       .window_s = 5},
+                      {});
+  ASSERT_EQ(diagnosis.claims.size(), 1u);
+  const DriveClaim& claim = diagnosis.claims[0];
+  EXPECT_EQ(claim.equivalent, std::vector<std::string>{"map_heights"});
+  EXPECT_NEAR(claim.parameters.at("height_share").value, 1 / 1.25 - 1, 0.04);
+}
+
 /// Whatever is not sought is told: how wheels stand that are not steered, where others are.
 TEST(DriveClaims, WheelsThatAreTakenToStandStraightAheadAreTold) {
   const auto told_of = [](const Vehicle& vehicle) {
