@@ -230,6 +230,7 @@ std::string_view sampled(ResultKind kind) {
 const std::vector<ComparedMetric>& metrics_of(ResultKind kind) {
   static const std::vector<ComparedMetric> kPaths{
       {"margin_p05", "margin, 5 % of soils", "", Better::kMore, "margin_p05_ci95"},
+      {"margin_p50", "margin, median of soils", "", Better::kMore, "margin_p50_ci95", true},
       {"probability_feasible", "probability", "", Better::kMore, "probability_feasible_ci95"},
       {"margin_min", "margin, mean soils", "", Better::kMore},
       {"duration_s", "time", "s", Better::kLess},

@@ -78,6 +78,9 @@ Json interval_json(double low, double high) {
 /// What is told of a path that has margins everywhere; null where it has not.
 Json margins_of_path_json(const PathEvaluation& e) {
   const auto& spread = e.spread;
+  const auto interval_of = [&](QuantileInterval SoilSpread::*of) {
+    return spread ? interval_json(((*spread).*of).low, ((*spread).*of).high) : Json(nullptr);
+  };
   const auto of_path = [&](const auto& value) { return spread ? Json(value) : Json(nullptr); };
   Json influences = Json::array();
   if (spread) {
@@ -90,9 +93,9 @@ Json margins_of_path_json(const PathEvaluation& e) {
   }
   return {{"margin_min", of_path(e.margin_min)},
           {"margin_p05", spread ? Json(spread->margin.p05) : Json(nullptr)},
-          {"margin_p05_ci95",
-           spread ? interval_json(spread->margin_p05_interval.low, spread->margin_p05_interval.high)
-                  : Json(nullptr)},
+          {"margin_p05_ci95", interval_of(&SoilSpread::margin_p05_interval)},
+          {"margin_p50", spread ? Json(spread->margin.p50) : Json(nullptr)},
+          {"margin_p50_ci95", interval_of(&SoilSpread::margin_p50_interval)},
           {"margin_worst_tenth", of_path(e.margin_worst_tenth)},
           {"margins", margins_json(spread ? std::optional(e.margins) : std::nullopt)},
           {"quantiles",

@@ -22,6 +22,9 @@ std::optional<MarginSpread> margin_spread_of(const std::optional<SoilSpread>& sp
                       .p05 = spread->margin.p05,
                       .p05_low = spread->margin_p05_interval.low,
                       .p05_high = spread->margin_p05_interval.high,
+                      .p50 = spread->margin.p50,
+                      .p50_low = spread->margin_p50_interval.low,
+                      .p50_high = spread->margin_p50_interval.high,
                       .feasible = spread->feasible};
 }
 

@@ -14,6 +14,8 @@ struct MarginSpread {
   int draws = 0;                     ///< 0 where every soil number is known
   double p05 = 0;                    ///< 5 % quantile of the smallest margin
   double p05_low = 0, p05_high = 0;  ///< its 95 % interval, of sampling alone
+  double p50 = 0;                    ///< the median, which six draws bound on both sides
+  double p50_low = 0, p50_high = 0;  ///< likewise
   /// The share of the draws in which every judged place has a steady manoeuvre within all limits,
   /// with the least margin (`smallest_margins`): what starting and ending it takes is not in it.
   Probability feasible;

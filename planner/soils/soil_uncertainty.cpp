@@ -101,6 +101,7 @@ void tell_known(SoilSpread& spread, const PathMargins& known, double margin_min)
   spread.traction = fixed(known.traction);
   spread.margin = fixed(known.smallest());
   spread.margin_p05_interval = {.low = known.smallest(), .high = known.smallest()};
+  spread.margin_p50_interval = spread.margin_p05_interval;
   const double share = known.smallest() >= margin_min ? 1 : 0;
   spread.feasible = {.share = share, .low = share, .high = share};
 }
@@ -122,6 +123,7 @@ void summarize(SoilSpread& spread, const PlanningProblem& problem, const SoilNum
   for (const PathMargins& one : margins) smallest_margins.push_back(one.smallest());
   spread.margin = quantiles_of(smallest_margins);
   spread.margin_p05_interval = quantile_interval(smallest_margins, 0.05, {.low = -1, .high = 1});
+  spread.margin_p50_interval = quantile_interval(smallest_margins, 0.5, {.low = -1, .high = 1});
   const auto allowed = std::count_if(margins.begin(), margins.end(), [&](const PathMargins& m) {
     return m.smallest() >= problem.limits.margin_min;
   });

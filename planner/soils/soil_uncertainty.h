@@ -64,6 +64,7 @@ struct SoilSpread {
   Quantiles cornering, tip_over, traction;
   Quantiles margin;
   QuantileInterval margin_p05_interval;  ///< what sampling leaves open of `margin.p05`
+  QuantileInterval margin_p50_interval;  ///< and of the median
   Probability feasible;                  ///< that the smallest margin is allowed
   /// The largest first; empty where the draws are fewer than `kDrawsANumber` for each uncertain
   /// number: a regression on so few says nothing.

@@ -97,6 +97,41 @@ TEST(Comparison, ADifferenceBeyondTheSamplingErrorIsTold) {
       comparison_headline(broken, b, compared(broken, b)).starts_with("Of 1 in both, B is better"));
 }
 
+/// Of so few draws that the 5 % quantile has no lower bound.
+ComparedEntry of_few_draws(double margin_p05, double margin_p50) {
+  ComparedEntry few = drawn(margin_p05, -1, margin_p05 + 0.04);
+  const std::vector<ComparedMetric>& metrics = metrics_of(ResultKind::kPlan);
+  const auto median = std::ranges::find(metrics, "margin_p50", &ComparedMetric::key);
+  const auto at = static_cast<std::size_t>(median - metrics.begin());
+  few.values.at(at) = margin_p50;
+  few.intervals.at(at) = {margin_p50 - 0.01, margin_p50 + 0.01};
+  return few;
+}
+
+TEST(Comparison, MediansDecideWhereDrawsAreTooFewToBoundTheLowestMargins) {
+  const ComparedResult low = plan({of_few_draws(0.30, 0.35)}),
+                       high = plan({of_few_draws(0.33, 0.40)}),
+                       like_low = plan({of_few_draws(0.28, 0.36)});
+  const auto said = [](const ComparedResult& a, const ComparedResult& b) {
+    return comparison_headline(a, b, compared(a, b));
+  };
+  EXPECT_TRUE(
+      said(low, high).starts_with("Of 1 in both, B is better for 1 (margin, 5 % of soils; "
+                                  "for 1 by the median"))
+      << said(low, high);
+  EXPECT_TRUE(said(high, low).starts_with("Of 1 in both, B is worse for 1"));
+  EXPECT_TRUE(said(low, like_low).starts_with("Of 1 in both, B is tied within the draws for 1"));
+}
+
+TEST(Comparison, MediansDecideNothingThatTheLowestMarginsDo) {
+  ComparedEntry bounded = of_few_draws(0.30, 0.45), other = of_few_draws(0.35, 0.40);
+  bounded.intervals.front() = {0.29, 0.31};
+  other.intervals.front() = {0.34, 0.36};
+  const ComparedResult a = plan({bounded}), b = plan({other});
+  const std::string said = comparison_headline(a, b, compared(a, b));
+  EXPECT_TRUE(said.starts_with("Of 1 in both, B is better for 1 (margin, 5 % of soils).")) << said;
+}
+
 /// What is said of B, as it must be said where A and B change places.
 std::string mirrored(std::string headline) {
   constexpr std::string_view kBetter = "B is better", kWorse = "B is worse";

@@ -84,9 +84,9 @@ TEST_F(Evaluate, WhatWasNeverDrawnOrDrivenIsNoNumber) {
   const nlohmann::json path = result()["paths"][0];
   EXPECT_EQ(path["refusal"]["reason"], "bounds");
   EXPECT_EQ(path["soil_draws"]["draws"], 0);
-  for (const char* key :
-       {"limiting", "margin_min", "margin_worst_tenth", "margin_p05", "margin_p05_ci95",
-        "probability_feasible", "probability_feasible_ci95", "energy_j"}) {
+  for (const char* key : {"limiting", "margin_min", "margin_worst_tenth", "margin_p05",
+                          "margin_p05_ci95", "margin_p50", "margin_p50_ci95",
+                          "probability_feasible", "probability_feasible_ci95", "energy_j"}) {
     EXPECT_TRUE(path[key].is_null()) << key;
   }
   EXPECT_TRUE(path["quantiles"]["margin"]["p05"].is_null());

@@ -82,7 +82,7 @@ TEST(PlanFiles, PlanJsonHasTheKeysThatOthersRead) {
   const auto& second = json["candidates"][1];
   for (const char* key :
        {"rank", "planner", "file", "length_m", "duration_s", "energy_j", "margin_min", "margin_p05",
-        "limiting", "probability_feasible", "verified"}) {
+        "margin_p50", "limiting", "probability_feasible", "verified"}) {
     EXPECT_TRUE(second.contains(key)) << key;
   }
   EXPECT_EQ(second["file"], "candidate-2.csv");
