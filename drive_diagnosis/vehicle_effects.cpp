@@ -42,7 +42,7 @@ class EffectSearch {
         comparison_(comparison),
         uncertain_(settings.uncertain),
         trials_(vehicle_trials(vehicle, gravity_mps2, settings.uncertain, map,
-                               comparison.soils_driven())),
+                               comparison.soils_driven(), comparison.has_attitude())),
         likely_(likely_soils(map, comparison.soils_driven())),
         settings_(settings),
         seed_(settings.seed),

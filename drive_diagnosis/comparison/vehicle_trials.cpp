@@ -36,7 +36,7 @@ constexpr double kSoundSteer_deg = 0.1, kSoundMotor = 0.01;
 constexpr double kSoundRadius = 0.003, kSoundRadiusOfOne = 0.001;
 /// Of torque over radius and of pull, per share of load, as a share of the load.
 constexpr double kSoundLaw = 0.003;
-/// Cells smooth what wheels stand on.
+/// Cells smooth what wheels stand on, and wheels that sink deeper downhill tilt a vehicle more.
 constexpr double kSoundHeights = 0.03;
 /// By how much the times of sensors of one recording differ.
 constexpr double kSoundLate_s = 0.03;
@@ -107,7 +107,7 @@ void add_pairs(const Vehicle& vehicle, double drag_nm, Trials& trials) {
 
 std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_mps2,
                                          const UncertainVehicle& uncertain, const TerrainMap& map,
-                                         const std::vector<bool>& soils) {
+                                         const std::vector<bool>& soils, bool has_attitude) {
   const SoundSizes sound = sound_sizes(vehicle, gravity_mps2);
   Trials trials;
   add_wheels(vehicle, sound.drag_nm, trials);
@@ -130,7 +130,9 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_
   trials.add("wheel_law", "pull_by_load", kSoundLaw, &VehicleDeviation::pull_by_load);
   trials.add("map_offset", "east_m", 0.2, &VehicleDeviation::map_east_m);
   trials.add("map_offset", "north_m", 0.2, &VehicleDeviation::map_north_m);
-  trials.add("map_heights", "height_share", kSoundHeights, &VehicleDeviation::map_height_share);
+  if (has_attitude) {
+    trials.add("map_heights", "height_share", kSoundHeights, &VehicleDeviation::map_height_share);
+  }
   if (std::ranges::count(soils, true) > 1) {
     trials.add("zone_border", "east_m", 0.5, &VehicleDeviation::soil_east_m);
     trials.add("zone_border", "north_m", 0.5, &VehicleDeviation::soil_north_m);

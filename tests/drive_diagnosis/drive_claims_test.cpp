@@ -129,7 +129,7 @@ TEST(DriveClaims, AMapWhoseHeightsAreTooLargeIsNoPayload) {
   ElevationRaster higher = map.elevation();
   for (float& height_m : higher.height_m) height_m *= 1.25F;
   const DriveDiagnosis diagnosis =
-      diagnose_drives({record({.seed = 34}, map)},
+      diagnose_drives({record({.attitude = true, .seed = 34}, map)},
                       {.map = {higher, map.classes(), map.catalogue(), map.rocks()},
                        .vehicle = preset_vehicle("lrv"),
                        .gravity_mps2 = 1.62,

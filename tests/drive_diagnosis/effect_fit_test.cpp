@@ -99,7 +99,7 @@ double drag_nm(double off_nm, double off_at_m, bool is_fitted) {
   }
   drive.comparison.emplace(drive.drives, drive.windows, drive.map, drive.vehicle, 1.62, 2);
   std::vector<VehicleTrial> trials =
-      vehicle_trials(drive.vehicle, 1.62, {}, drive.map, drive.comparison->soils_driven());
+      vehicle_trials(drive.vehicle, 1.62, {}, drive.map, drive.comparison->soils_driven(), false);
   std::erase_if(trials, [](const VehicleTrial& trial) { return trial.id != "wheel_drag"; });
   const std::stop_token stop;
   const std::vector<LikelySoil> likely;
@@ -162,7 +162,7 @@ TEST(EffectFit, AZonesSoilStaysWhatItIsWhereItsEdgesMoveMostOfItToAnotherSoilOfT
   const std::vector<DriveWindow> windows = drive_windows(drives[0], 0, 5, 0.3);
   WindowComparison comparison(drives, windows, map, vehicle, 1.62, 2);
   const std::vector<VehicleTrial> trials =
-      vehicle_trials(vehicle, 1.62, {}, map, comparison.soils_driven());
+      vehicle_trials(vehicle, 1.62, {}, map, comparison.soils_driven(), false);
   const std::vector<LikelySoil> likely;
   const std::stop_token stop;
   EffectFit fit(comparison, map, trials, likely, stop);

@@ -88,6 +88,8 @@ DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {
       kGravity_mps2);
   std::mt19937_64 random(drive.seed);
   std::normal_distribution<double> normal;
+  std::mt19937_64 random_of_attitude(drive.seed + 1);
+  const auto attitude_noise = [&] { return 0.3 * kDegree * normal(random_of_attitude); };
   DriveRecording recording{.drive_id = "simulated", .file = "simulated.csv"};
   VehicleState state = dynamics.rolling_state(6, 30, 0, 1.2);
   std::array<double, kMaxWheels> ground{};
@@ -110,6 +112,12 @@ DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {
     recording.y_m.push_back(fix ? state.y_m + noise * 0.02 * normal(random) : kNaN);
     add(recording, "yaw_rad", fix ? state.yaw_rad + noise * kDegree * normal(random) : kNaN);
     const GroundPatch patch = dynamics.ground(state.x_m, state.y_m, state.yaw_rad);
+    if (drive.attitude) {
+      const double slope = patch.slope_forward;
+      add(recording, "pitch_rad", std::atan(slope) + attitude_noise());
+      add(recording, "roll_rad",
+          std::atan(patch.slope_left / std::hypot(1, slope)) + attitude_noise());
+    }
     const PatchAxes axes(patch, kGravity_mps2);
     const GroundReaction reaction{vehicle.mass_kg * axes.gravity_normal_mps2,
                                   state.transfer_forward_n, state.transfer_left_n};

@@ -26,6 +26,7 @@ struct SimulatedDrive {
   std::function<double(double time_s, double x_m)> weave_1pm = [](double, double x_m) {
     return 0.06 * std::sin(x_m / 9);
   };
+  bool attitude = false;  ///< whether pitch and roll are told, within .3 deg
   std::uint64_t seed = 1;
 };
 

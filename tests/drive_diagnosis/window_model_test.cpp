@@ -50,7 +50,8 @@ TEST(WindowModel, MotionsAreSoughtAgainWhereTheVehicleMovesOtherwiseAndNowhereEl
   WindowMotions elsewhere = here;  // shows whether they are taken
   for (WindowMotions::Place& place : *elsewhere.places) place.found.motion.vx_mps += 1;
   int taken = 0, sought = 0;
-  for (const VehicleTrial& trial : vehicle_trials(compared.vehicle, 1.62, {}, map, {true, true})) {
+  for (const VehicleTrial& trial :
+       vehicle_trials(compared.vehicle, 1.62, {}, map, {true, true}, true)) {
     const auto anew = model.predict(input, trial.deviation),
                known = model.predict(input, trial.deviation, {}, &here),
                shown = model.predict(input, trial.deviation, {}, &elsewhere);
@@ -123,7 +124,8 @@ TEST(WindowModel, NumbersOnTopOfWhateverTheMapHasAreThoseOfItsSoils) {
 TEST(VehicleTrials, WhatASoundVehicleIsOffGrowsWithItsWeightAndLength) {
   const TerrainMap map = rolling_map();
   const auto unit = [&map](const char* vehicle, double gravity_mps2, std::string_view parameter) {
-    const auto trials = vehicle_trials(preset_vehicle(vehicle), gravity_mps2, {}, map, {true});
+    const auto trials =
+        vehicle_trials(preset_vehicle(vehicle), gravity_mps2, {}, map, {true}, true);
     return std::ranges::find(trials, parameter, &VehicleTrial::parameter)->unit;
   };
   EXPECT_DOUBLE_EQ(unit("lrv", 1.62, "drag_front_left_nm"), 0.2);
@@ -154,7 +156,7 @@ TEST(VehicleTrials, AWheelMayStandAskewWhereNoneIsSteered) {
   const TerrainMap map = rolling_map();
   const auto angles_of = [&map](const Vehicle& vehicle) {
     std::vector<std::string> parameters;
-    for (const VehicleTrial& trial : vehicle_trials(vehicle, 1.62, {}, map, {true})) {
+    for (const VehicleTrial& trial : vehicle_trials(vehicle, 1.62, {}, map, {true}, true)) {
       if (trial.id == "steering_offset") parameters.push_back(trial.parameter);
     }
     return parameters;
