@@ -280,22 +280,34 @@ DriveVerdict verdict_of(const DriveDiagnosis& diagnosis) {
 }
 
 /// Takes swapped columns of wheels for what they are; told of wheel speeds, found of torques.
-void mend_sides(const DriveSetup& setup, const DriveDiagnosisOptions& options,
-                std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
-  const Vehicle* vehicle = setup.vehicle ? &*setup.vehicle : nullptr;
-  exchange_sides("wheel_speed", vehicle, drives);
-  if (vehicle == nullptr || !any_has(drives, "torque_")) return;
-  if (!torques_are_swapped(drives, result.windows, setup.map, *vehicle, setup.gravity_mps2,
-                           options.threads, options.stop)) {
+void mend_sides(const std::vector<WheelPair>& pairs, const DriveSetup& setup,
+                const DriveDiagnosisOptions& options, std::vector<DriveRecording>& drives,
+                DriveDiagnosis& result) {
+  exchange("wheel_speed", pairs, drives);
+  if (!setup.vehicle || !any_has(drives, "torque_")) return;
+  if (!torques_are_swapped(drives, result.windows, setup.map, *setup.vehicle, setup.gravity_mps2,
+                           pairs, options.threads, options.stop)) {
     return;
   }
-  exchange_sides("torque", vehicle, drives);
+  exchange("torque", pairs, drives);
   result.findings.push_back(
       {.id = "swapped_sides",
        .drive = "",
        .text = "torques: with their sides exchanged as the wheel speeds' were the vehicle's model "
                "comes nearer to them: the columns left and right are taken the other way round",
        .mended = true});
+}
+
+/// The same of two wheels across from each other.
+void mend_pairs(const DriveSetup& setup, const DriveDiagnosisOptions& options,
+                std::vector<DriveRecording>& drives, DriveDiagnosis& result) {
+  if (!setup.vehicle) return;
+  std::vector<WheelPair> pairs;
+  for (const ExchangedRims& exchanged : exchanged_rims(drives, result.windows, *setup.vehicle)) {
+    result.findings.push_back(exchanged_finding(exchanged));
+    pairs.push_back(exchanged.wheels);
+  }
+  if (!pairs.empty()) mend_sides(pairs, setup, options, drives, result);
 }
 
 /// Of several drives, those that the vehicle's model is not held against, and those that lack a
@@ -355,7 +367,11 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
   std::ranges::move(checks.findings, std::back_inserter(result.findings));
   throw_if_stopped(options.stop);
   check_place(setup, drives, result);
-  if (checks.wheel_sides_swapped) mend_sides(setup, options, drives, result);
+  if (checks.wheel_sides_swapped) {
+    const Vehicle* vehicle = setup.vehicle ? &*setup.vehicle : nullptr;
+    mend_sides(sides_across(vehicle), setup, options, drives, result);
+  }
+  mend_pairs(setup, options, drives, result);
   if (setup.vehicle && !is_found(result, "yaw_unreliable")) {
     tell_mended(mend_steering(drives, result.windows, *setup.vehicle), setup, drives, result);
   }

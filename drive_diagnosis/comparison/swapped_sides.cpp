@@ -3,32 +3,11 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "drive_diagnosis/comparison/window_comparison.h"
 
 namespace regoplan {
 namespace {
-
-/// Names of a wheel of the left side and of the one across from it.
-using Across = std::pair<std::string, std::string>;
-
-std::vector<Across> wheels_across(const Vehicle& vehicle) {
-  std::vector<Across> pairs;
-  for (const WheelMount& left : vehicle.wheels) {
-    if (!(left.y_m > 0)) continue;
-    const WheelMount* nearest = nullptr;
-    for (const WheelMount& right : vehicle.wheels) {
-      if (!(right.y_m < 0)) continue;
-      if (nearest == nullptr ||
-          std::abs(right.x_m - left.x_m) < std::abs(nearest->x_m - left.x_m)) {
-        nearest = &right;
-      }
-    }
-    if (nearest != nullptr) pairs.emplace_back(left.name, nearest->name);
-  }
-  return pairs;
-}
 
 /// Sum of squares of what the model leaves of torques, beside each wheel's mean; nothing where no
 /// window can be compared.
@@ -49,13 +28,15 @@ std::optional<double> torque_misfit(const std::vector<DriveRecording>& drives,
 
 }  // namespace
 
-void exchange_sides(std::string_view quantity, const Vehicle* vehicle,
-                    std::vector<DriveRecording>& drives) {
-  std::vector<Across> pairs{{"left", "right"}};
-  if (vehicle != nullptr) {
-    const std::vector<Across> wheels = wheels_across(*vehicle);
-    pairs.insert(pairs.end(), wheels.begin(), wheels.end());
-  }
+std::vector<WheelPair> sides_across(const Vehicle* vehicle) {
+  std::vector<WheelPair> pairs;
+  if (vehicle != nullptr) pairs = wheels_across(*vehicle);
+  pairs.emplace_back("left", "right");
+  return pairs;
+}
+
+void exchange(std::string_view quantity, const std::vector<WheelPair>& pairs,
+              std::vector<DriveRecording>& drives) {
   const std::string prefix = std::string(quantity) + "_";
   for (DriveRecording& drive : drives) {
     for (DriveChannel& channel : drive.channels) {
@@ -73,7 +54,8 @@ void exchange_sides(std::string_view quantity, const Vehicle* vehicle,
 
 bool torques_are_swapped(const std::vector<DriveRecording>& drives,
                          const std::vector<DriveWindow>& windows, const TerrainMap& map,
-                         const Vehicle& vehicle, double gravity_mps2, int threads,
+                         const Vehicle& vehicle, double gravity_mps2,
+                         const std::vector<WheelPair>& pairs, int threads,
                          const std::stop_token& stop) {
   const auto misfit = [&](const std::vector<DriveRecording>& taken) {
     return torque_misfit(taken, windows, map, vehicle, gravity_mps2, threads, stop);
@@ -81,7 +63,7 @@ bool torques_are_swapped(const std::vector<DriveRecording>& drives,
   const auto told = misfit(drives);
   if (!told) return false;
   std::vector<DriveRecording> exchanged = drives;
-  exchange_sides("torque", &vehicle, exchanged);
+  exchange("torque", pairs, exchanged);
   const auto other = misfit(exchanged);
   return other && *other < *told;
 }

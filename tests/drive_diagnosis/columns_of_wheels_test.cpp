@@ -147,12 +147,15 @@ TEST(ColumnsOfWheels, OnAMapOfOtherGroundNothingIsClaimedAndTheSlopesAreTold) {
 }
 
 /// A sound drive whose columns of the sides were swapped.
+DriveRecording swapped(bool torques, const std::vector<WheelPair>& pairs) {
+  std::vector<DriveRecording> drives{sound_drive()};
+  exchange("wheel_speed", pairs, drives);
+  if (torques) exchange("torque", pairs, drives);
+  return std::move(drives.front());
+}
 DriveRecording swapped(bool torques) {
   const Vehicle vehicle = preset_vehicle("lrv");
-  std::vector<DriveRecording> drives{sound_drive()};
-  exchange_sides("wheel_speed", &vehicle, drives);
-  if (torques) exchange_sides("torque", &vehicle, drives);
-  return std::move(drives.front());
+  return swapped(torques, sides_across(&vehicle));
 }
 
 std::size_t swaps_told(const DriveDiagnosis& diagnosis) {
@@ -173,14 +176,25 @@ TEST(ColumnsOfWheels, TorquesThatWereSwappedWithTheSpeedsAreMendedToo) {
   EXPECT_TRUE(found.claims.empty());
 }
 
+/// One axle's columns had come out as zones of other soil, without a word of the columns.
+TEST(ColumnsOfWheels, SwappedWheelSpeedsOfOneAxleAreMendedAndTorquesWithThem) {
+  for (const WheelPair& axle : wheels_across(preset_vehicle("lrv"))) {
+    for (const bool torques : {false, true}) {
+      const DriveDiagnosis found = diagnosed(swapped(torques, {axle}));
+      EXPECT_EQ(swaps_told(found), torques ? 2 : 1) << axle.first;
+      EXPECT_TRUE(found.claims.empty()) << axle.first;
+    }
+  }
+}
+
 TEST(ColumnsOfWheels, SidesExchangedTwiceAreAsBefore) {
   const Vehicle vehicle = preset_vehicle("lrv");
   const DriveRecording before = sound_drive();
   std::vector<DriveRecording> drives{before};
-  exchange_sides("wheel_speed", &vehicle, drives);
+  exchange("wheel_speed", sides_across(&vehicle), drives);
   EXPECT_EQ(drives[0].channel("wheel_speed_front_left_rad_s")->values,
             before.channel("wheel_speed_front_right_rad_s")->values);
-  exchange_sides("wheel_speed", &vehicle, drives);
+  exchange("wheel_speed", sides_across(&vehicle), drives);
   for (std::size_t i = 0; i < before.channels.size(); ++i) {
     EXPECT_EQ(drives[0].channels[i].name, before.channels[i].name);
   }
