@@ -57,8 +57,10 @@ ExitStatus run_map_import(const MapImportOptions& options) {
   const TerrainMap map(std::move(elevation), std::move(classes), std::move(soils),
                        std::move(rocks));
   if (options.classes) {
-    const std::string notice = unlisted_classes_notice(map, *options.classes);
-    if (!notice.empty()) notify(notice, options.quiet);
+    for (const std::string& notice : {unlisted_classes_notice(map, *options.classes),
+                                      uncovered_notice(map, *options.classes)}) {
+      if (!notice.empty()) notify(notice, options.quiet);
+    }
   }
   if (options.rocks) {
     const std::string notice = rocks_off_map_notice(map, *options.rocks);

@@ -27,6 +27,11 @@ bool in_whole_metres(const std::vector<float>& heights_m) {
   return lowest < highest;
 }
 
+/// How much of two intervals is common to both.
+double shared_m(double from_m, double to_m, double other_from_m, double other_to_m) {
+  return std::max(0.0, std::min(to_m, other_to_m) - std::max(from_m, other_from_m));
+}
+
 }  // namespace
 
 std::vector<std::string> map_notices(const TerrainMap& map, const Vehicle& vehicle) {
@@ -70,6 +75,25 @@ std::string unlisted_classes_notice(const TerrainMap& map, const std::string& ra
       "add {}: NAME to classes of the soils, or unmapped: NAME",
       raster, codes.size() == 1 ? "code" : "codes", fmt::join(codes, ", "),
       map.classes()->code.size(), unlisted.front().code);
+}
+
+std::string uncovered_notice(const TerrainMap& map, const std::string& raster) {
+  if (!map.classes()) return "";
+  const GridFrame &heights = map.elevation().frame, &classes = map.classes()->frame;
+  const double covered_m2 =
+      shared_m(heights.west_m, heights.east_m(), classes.west_m, classes.east_m()) *
+      shared_m(heights.south_m(), heights.north_m, classes.south_m(), classes.north_m);
+  const double whole_m2 =
+      (heights.east_m() - heights.west_m) * (heights.north_m - heights.south_m());
+  constexpr double kMargin = 0.02;
+  const double uncovered = 1 - covered_m2 / whole_m2;
+  if (uncovered < kMargin) return "";
+  const SoilCatalogue& soils = map.catalogue();
+  const std::string taken =
+      soils.unmapped ? "taken for " + soils.soils[static_cast<std::size_t>(*soils.unmapped)].name
+                     : "forbidden";
+  return fmt::format("{}: covers {} of the map ({}); the other {:.0f} % are {}", raster,
+                     extent_text(classes), extent_text(heights), 100 * uncovered, taken);
 }
 
 std::string rocks_off_map_notice(const TerrainMap& map, const std::string& source) {

@@ -17,6 +17,11 @@ std::vector<std::string> map_notices(const TerrainMap& map, const Vehicle& vehic
 /// \param raster what the codes stand in, for the sentence
 std::string unlisted_classes_notice(const TerrainMap& map, const std::string& raster);
 
+/// Of a class raster that leaves part of the elevations out: how much of them, and what their soil
+/// is taken for. Empty where it leaves nothing out, but for the margin that grids of different
+/// cells have. \param raster what the classes stand in
+std::string uncovered_notice(const TerrainMap& map, const std::string& raster);
+
 /// Of the rocks that lie wholly off the map, where no path can meet them: where each stands, and
 /// where the map ends. Empty where there are none. \param source what the rocks stand in
 std::string rocks_off_map_notice(const TerrainMap& map, const std::string& source);

@@ -146,8 +146,9 @@ Vehicle read_scenario_vehicle(const SettingsNode& node, const std::filesystem::p
 /// \param classes_shown, rocks_shown what its classes and rocks stand in
 ScenarioMap with_notices(ScenarioMap map, const std::string& classes_shown,
                          const std::string& rocks_shown) {
-  for (const std::string& notice : {unlisted_classes_notice(map.map, classes_shown),
-                                    rocks_off_map_notice(map.map, rocks_shown)}) {
+  for (const std::string& notice :
+       {unlisted_classes_notice(map.map, classes_shown), uncovered_notice(map.map, classes_shown),
+        rocks_off_map_notice(map.map, rocks_shown)}) {
     if (!notice.empty()) map.notices.push_back(notice);
   }
   return map;

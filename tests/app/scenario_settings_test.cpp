@@ -267,6 +267,26 @@ TEST_F(ScenarioSettings, AClassWithoutASoilIsToldWithItsCodeItsCellsAndTheRemedy
   EXPECT_EQ(told("unmapped: mare, classes: {1: mare}, "), "");
 }
 
+TEST_F(ScenarioSettings, ClassesThatLeavePartOfTheMapOutAreToldWithWhatItsSoilIsTakenFor) {
+  const std::string soils = kOneSoil, as_it_is = "soils: " + soils;
+  const auto told = [&](int rows, const std::string& more) -> std::string {
+    ClassRaster classes{.frame = flat_elevation().frame,
+                        .code = std::vector<std::int32_t>(static_cast<std::size_t>(rows) * 40, 1)};
+    classes.frame.rows = rows;
+    write_classes(classes, folder_.path("classes.tif"));
+    const std::vector<std::string> notices =
+        scenario(as_it_is, "soil_class: classes.tif\n  soils: {" + more + soils.substr(1)).notices;
+    const auto found = std::ranges::find_if(
+        notices, [](const auto& n) { return n.find(" % are ") != std::string::npos; });
+    return found == notices.end() ? "" : found->substr(folder_.path("").size());
+  };
+  const std::string of_all = "unmapped: mare, classes: {1: mare}, ";
+  EXPECT_EQ(told(40, of_all), "");
+  EXPECT_EQ(told(30, of_all),
+            "classes.tif: covers x 0 to 40 m, y 10 to 40 m of the map (x 0 to 40 m, y 0 to 40 m); "
+            "the other 25 % are taken for mare");
+}
+
 TEST_F(ScenarioSettings, RocksWhollyOffTheMapAreToldWithTheirPlacesAndTheMapsBounds) {
   const std::string soils = std::string("soils: ") + kOneSoil;
   const auto told = [&](const std::string& rows) -> std::string {
