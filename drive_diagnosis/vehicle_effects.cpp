@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "drive_diagnosis/comparison/attitude_on_map.h"
 #include "drive_diagnosis/comparison/vehicle_trials.h"
 #include "drive_diagnosis/comparison/window_comparison.h"
 #include "drive_diagnosis/contest/effect_contest.h"
@@ -42,7 +43,8 @@ class EffectSearch {
         comparison_(comparison),
         uncertain_(settings.uncertain),
         trials_(vehicle_trials(vehicle, gravity_mps2, settings.uncertain, map,
-                               comparison.soils_driven(), comparison.has_attitude())),
+                               comparison.soils_driven(),
+                               attitude_follows_map(comparison, settings.stop))),
         likely_(likely_soils(map, comparison.soils_driven())),
         settings_(settings),
         seed_(settings.seed),

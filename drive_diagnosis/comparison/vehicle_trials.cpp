@@ -107,7 +107,7 @@ void add_pairs(const Vehicle& vehicle, double drag_nm, Trials& trials) {
 
 std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_mps2,
                                          const UncertainVehicle& uncertain, const TerrainMap& map,
-                                         const std::vector<bool>& soils, bool has_attitude) {
+                                         const std::vector<bool>& soils, bool attitude_follows) {
   const SoundSizes sound = sound_sizes(vehicle, gravity_mps2);
   Trials trials;
   add_wheels(vehicle, sound.drag_nm, trials);
@@ -130,7 +130,7 @@ std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_
   trials.add("wheel_law", "pull_by_load", kSoundLaw, &VehicleDeviation::pull_by_load);
   trials.add("map_offset", "east_m", 0.2, &VehicleDeviation::map_east_m);
   trials.add("map_offset", "north_m", 0.2, &VehicleDeviation::map_north_m);
-  if (has_attitude) {
+  if (attitude_follows) {
     trials.add("map_heights", "height_share", kSoundHeights, &VehicleDeviation::map_height_share);
   }
   if (std::ranges::count(soils, true) > 1) {

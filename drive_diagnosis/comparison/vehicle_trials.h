@@ -31,11 +31,11 @@ struct VehicleTrial {
 };
 
 /// Everything that may be otherwise all along: faults, and numbers of the map's soils.
-/// \param soils that were driven on, by index \param has_attitude whether pitch and roll are
-/// compared: nothing else tells higher slopes from torques told too large
+/// \param soils that were driven on, by index \param attitude_follows whether pitch and roll
+/// go with the map's ground: nothing else tells higher slopes from torques told too large
 std::vector<VehicleTrial> vehicle_trials(const Vehicle& vehicle, double gravity_mps2,
                                          const UncertainVehicle& uncertain, const TerrainMap& map,
-                                         const std::vector<bool>& soils, bool has_attitude);
+                                         const std::vector<bool>& soils, bool attitude_follows);
 
 /// The numbers of a vehicle that nobody knew well, as they are estimated.
 /// \param sizes, stds of each trial

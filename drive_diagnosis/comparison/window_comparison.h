@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -86,7 +85,6 @@ class WindowComparison {
   const std::vector<bool>& soils_driven() const { return soils_driven_; }
   const WindowsUsed& used() const { return used_; }
   bool has_torque() const { return !torque_wheels_.empty(); }
-  bool has_attitude() const { return std::ranges::find(channels_, "pitch_rad") != channels_.end(); }
   const WindowInput& input(std::size_t i) const { return inputs_[i]; }
   /// From now on windows are asked at inputs off the measured ones: of each window so many standard
   /// deviations of each wheel's turning, of the acceleration, of that of turning and of the

@@ -141,6 +141,22 @@ TEST(DriveClaims, AMapWhoseHeightsAreTooLargeIsNoPayload) {
   EXPECT_NEAR(claim.parameters.at("height_share").value, 1 / 1.25 - 1, 0.04);
 }
 
+/// The map of another ground is not one whose heights are none.
+TEST(DriveClaims, AMapOfAnotherGroundIsNotOneOfOtherHeights) {
+  const TerrainMap map = rolling_map();
+  ElevationRaster mirrored = map.elevation();
+  std::ranges::reverse(mirrored.height_m);
+  const DriveDiagnosis diagnosis =
+      diagnose_drives({record({.attitude = true, .seed = 34}, map)},
+                      {.map = {mirrored, map.classes(), map.catalogue(), map.rocks()},
+                       .vehicle = preset_vehicle("lrv"),
+                       .gravity_mps2 = 1.62,
+                       .window_s = 5},
+                      {});
+  for (const DriveClaim& claim : diagnosis.claims) EXPECT_NE(claim.id, "map_heights");
+  EXPECT_EQ(std::ranges::count(diagnosis.findings, "map_slopes", &DriveFinding::id), 1);
+}
+
 /// Whatever is not sought is told: how wheels stand that are not steered, where others are.
 TEST(DriveClaims, WheelsThatAreTakenToStandStraightAheadAreTold) {
   const auto told_of = [](const Vehicle& vehicle) {
