@@ -255,6 +255,13 @@ void say_what_is_silent(const DriveSetup& setup, const std::vector<DriveRecordin
   if (result.effects && !result.effects->faults_shown.empty()) {
     result.silent.push_back(smaller_faults(result.effects->faults_shown));
   }
+  if (result.effects && !result.effects->has_heights) {
+    result.silent.push_back(
+        {{"map_heights"},
+         "pitch and roll are not told, or do not go with the map's ground: slopes that are off by "
+         "a factor look like torques that are",
+         "the same drives with pitch and roll, over ground that rises and falls"});
+  }
   const std::string fixed = setup.vehicle ? fixed_beside_steered(*setup.vehicle) : "";
   if (result.effects && !fixed.empty()) {
     result.silent.push_back(

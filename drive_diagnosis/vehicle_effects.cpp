@@ -42,9 +42,10 @@ class EffectSearch {
         gravity_mps2_(gravity_mps2),
         comparison_(comparison),
         uncertain_(settings.uncertain),
+        as_said_(comparison.predicted_as_said(settings.stop)),
+        has_heights_(attitude_follows_map(comparison, as_said_)),
         trials_(vehicle_trials(vehicle, gravity_mps2, settings.uncertain, map,
-                               comparison.soils_driven(),
-                               attitude_follows_map(comparison, settings.stop))),
+                               comparison.soils_driven(), has_heights_)),
         likely_(likely_soils(map, comparison.soils_driven())),
         settings_(settings),
         seed_(settings.seed),
@@ -54,9 +55,9 @@ class EffectSearch {
   VehicleEffects run() {
     VehicleEffects result{.windows = static_cast<int>(comparison_.size()),
                           .channels = comparison_.channels(),
-                          .has_torque = comparison_.has_torque()};
-    const Eigen::MatrixXd as_said = comparison_.predicted_as_said(stop_);
-    result.rms = rms(comparison_.measured() - as_said);
+                          .has_torque = comparison_.has_torque(),
+                          .has_heights = has_heights_};
+    result.rms = rms(comparison_.measured() - as_said_);
     tell(off_text(result.channels, result.rms));
     constexpr int kEffectsMost = 3;
     show("looking for zones and faults", 0);
@@ -101,7 +102,7 @@ class EffectSearch {
     result.slope_errors = fit_.slope_errors();
     const Eigen::MatrixXd corrected = fit_.predicted();
     result.rms_after = rms(comparison_.measured() - corrected);
-    result.compared = compared(as_said, corrected);
+    result.compared = compared(corrected);
     const OutsideZones outside = fit_.fit_outside_zones();
     result.vehicle =
         estimated_vehicle(uncertain_, trials_, outside.fit.parameters, outside.fit.parameters_std);
@@ -151,8 +152,7 @@ class EffectSearch {
     return result;
   }
 
-  std::vector<ComparedChannel> compared(const Eigen::MatrixXd& as_said,
-                                        const Eigen::MatrixXd& corrected) const {
+  std::vector<ComparedChannel> compared(const Eigen::MatrixXd& corrected) const {
     std::vector<std::size_t> windows;
     for (std::size_t i = 0; i < comparison_.size(); ++i) windows.push_back(comparison_.window(i));
     const auto values = [](const Eigen::MatrixXd& of, Eigen::Index channel) {
@@ -164,7 +164,7 @@ class EffectSearch {
       channels.push_back({.name = comparison_.channels()[channel],
                           .windows = windows,
                           .measured = values(comparison_.measured(), k),
-                          .model = values(as_said, k),
+                          .model = values(as_said_, k),
                           .corrected = values(corrected, k),
                           .noise = fit_.noise()[channel]});
     }
@@ -402,6 +402,8 @@ class EffectSearch {
   double gravity_mps2_;
   WindowComparison& comparison_;
   const UncertainVehicle& uncertain_;
+  Eigen::MatrixXd as_said_;  ///< predicted of map and vehicle as they are said to be
+  bool has_heights_;         ///< among the trials
   std::vector<VehicleTrial> trials_;
   std::vector<LikelySoil> likely_;  ///< what the contest's likely soils are
   const EffectSearchSettings& settings_;

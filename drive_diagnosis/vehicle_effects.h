@@ -95,6 +95,7 @@ struct VehicleEffects {
   std::vector<double> rms;        ///< of the residuals, of what is said to be
   std::vector<double> rms_after;  ///< with what was found and estimated
   bool has_torque = false;
+  bool has_heights = false;  ///< those of the map were among what may be otherwise
   /// How far the map's slopes are off the ground's, along and across, root mean square.
   std::array<double, 2> slope_errors{};
   std::vector<ComparedChannel> compared;  ///< window by window, in the order of `channels`

@@ -1,19 +1,17 @@
 #include "drive_diagnosis/comparison/attitude_on_map.h"
 
-#include <Eigen/Core>
 #include <cmath>
 
 namespace regoplan {
 
-bool attitude_follows_map(const WindowComparison& comparison, const std::stop_token& stop) {
-  const Eigen::MatrixXd on_map = comparison.predicted_as_said(stop);
+bool attitude_follows_map(const WindowComparison& comparison, const Eigen::MatrixXd& as_said) {
   double of_both = 0, of_measured = 0, of_map = 0;
-  for (Eigen::Index k = 0; k < on_map.cols(); ++k) {
+  for (Eigen::Index k = 0; k < as_said.cols(); ++k) {
     const std::string& channel = comparison.channels()[static_cast<std::size_t>(k)];
     if (channel != "pitch_rad" && channel != "roll_rad") continue;
     const Eigen::ArrayXd measured =
         comparison.measured().col(k).array() - comparison.measured().col(k).mean();
-    const Eigen::ArrayXd said = on_map.col(k).array() - on_map.col(k).mean();
+    const Eigen::ArrayXd said = as_said.col(k).array() - as_said.col(k).mean();
     of_both += (measured * said).sum();
     of_measured += measured.square().sum();
     of_map += said.square().sum();

@@ -66,8 +66,8 @@ DriveFinding exchanged_finding(const ExchangedRims& exchanged) {
   return {.id = "swapped_sides",
           .drive = "",
           .text = fmt::format("wheel speeds: {} runs slower than {} in left turns (correlation "
-                              "{:.2f}), as no other pair does: these two columns are taken the "
-                              "other way round",
+                              "{:.2f}), while other right wheels run faster: these two columns are "
+                              "taken the other way round",
                               right, left, exchanged.correlation),
           .value = exchanged.correlation,
           .mended = true};

@@ -285,6 +285,7 @@ TEST_F(ScenarioSettings, ClassesThatLeavePartOfTheMapOutAreToldWithWhatItsSoilIs
   EXPECT_EQ(told(30, of_all),
             "classes.tif: covers x 0 to 40 m, y 10 to 40 m of the map (x 0 to 40 m, y 0 to 40 m); "
             "the other 25 % are taken for mare");
+  EXPECT_TRUE(told(30, "classes: {1: mare}, ").ends_with("the other 25 % are forbidden"));
 }
 
 TEST_F(ScenarioSettings, RocksWhollyOffTheMapAreToldWithTheirPlacesAndTheMapsBounds) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "drive_diagnosis/comparison/soil_deviation.h"
 #include "drive_diagnosis/silent_effects.h"
@@ -23,14 +24,31 @@ int count_of(std::string_view part, std::string_view text) {
   return count;
 }
 
+DriveDiagnosis diagnosed(const SimulatedDrive& drive, const TerrainMap& map = rolling_map()) {
+  return diagnose_drives(
+      {record(drive, rolling_map())},
+      {.map = map, .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5}, {});
+}
+
+/// The rolling map with heights of its own.
+TerrainMap with_heights(const std::function<void(std::vector<float>& height_m)>& change) {
+  const TerrainMap map = rolling_map();
+  ElevationRaster elevation = map.elevation();
+  change(elevation.height_m);
+  return {std::move(elevation), map.classes(), map.catalogue(), map.rocks()};
+}
+
+/// Whether the heights of the map are told not to be sought.
+bool is_silent_of_heights(const DriveDiagnosis& diagnosis) {
+  return std::ranges::any_of(diagnosis.silent, [](const SilentEffect& silent) {
+    return silent.ids == std::vector<std::string>{"map_heights"};
+  });
+}
+
 TEST(DriveClaims, AZoneIsToldByTheChanceOfNoneAndByOneIntervalOfItsSoil) {
   // Standard deviations of the evidence stood beside the interval of one number, at odds with it.
-  const DriveDiagnosis diagnosis = diagnose_drives(
-      {record(
-          {.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? 4.0 : 0.0; }, .seed = 11},
-          rolling_map())},
-      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
-      {});
+  const DriveDiagnosis diagnosis = diagnosed(
+      {.weakness = [](double x_m) { return x_m > 140 && x_m < 170 ? 4.0 : 0.0; }, .seed = 11});
   ASSERT_EQ(diagnosis.claims.size(), 1u);
   const std::string& text = diagnosis.claims[0].text;
   EXPECT_EQ(count_of("standard deviations", text), 0) << text;
@@ -50,9 +68,7 @@ TEST(DriveClaims, AFaultIsToldWithTheNumbersThatItIsHardlyToldFrom) {
       drive.deviation.steering_offset_rad.at(i) = 2 * kDegree;
     }
   }
-  const DriveDiagnosis diagnosis = diagnose_drives(
-      {record(drive, rolling_map())},
-      {.map = rolling_map(), .vehicle = vehicle, .gravity_mps2 = 1.62, .window_s = 5}, {});
+  const DriveDiagnosis diagnosis = diagnosed(drive);
   ASSERT_FALSE(diagnosis.claims.empty());
   const DriveClaim& claim = diagnosis.claims[0];
   ASSERT_EQ(claim.id, "steering_offset");
@@ -68,10 +84,7 @@ TEST(DriveClaims, AFaultIsToldWithTheNumbersThatItIsHardlyToldFrom) {
 TEST(DriveClaims, ADragOfLessThanNothingIsNotClaimedButTold) {
   SimulatedDrive drive{.seed = 21};
   drive.deviation.wheel_drag_nm[1] = -5;
-  const DriveDiagnosis diagnosis = diagnose_drives(
-      {record(drive, rolling_map())},
-      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
-      {});
+  const DriveDiagnosis diagnosis = diagnosed(drive);
   EXPECT_EQ(diagnosis.verdict, DriveVerdict::kUndecided);
   EXPECT_TRUE(diagnosis.claims.empty());
   const auto told = std::ranges::find(diagnosis.findings, "no_name", &DriveFinding::id);
@@ -97,10 +110,7 @@ TEST(DriveClaims, AMassOfLessThanNothingIsNotClaimedButTold) {
                        .weave_1pm = [](double, double x_m) { return 0.012 * std::sin(x_m / 9); },
                        .seed = 21};
   drive.deviation.motor_share.fill(-1.2);
-  const DriveDiagnosis diagnosis = diagnose_drives(
-      {record(drive, rolling_map())},
-      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
-      {});
+  const DriveDiagnosis diagnosis = diagnosed(drive);
   for (const DriveClaim& claim : diagnosis.claims) ADD_FAILURE() << claim.id << claim.text;
   EXPECT_EQ(std::ranges::count(diagnosis.findings, "no_name", &DriveFinding::id), 1);
 }
@@ -110,10 +120,7 @@ TEST(DriveClaims, AMassOfLessThanNothingIsNotClaimedButTold) {
 TEST(DriveClaims, AWheelWhoseTorqueRisesOtherwiseWithItsLoadIsNoFaultOfTheVehicle) {
   SimulatedDrive drive{.seed = 33};
   drive.deviation.torque_by_load = -0.1;
-  const DriveDiagnosis diagnosis = diagnose_drives(
-      {record(drive, rolling_map())},
-      {.map = rolling_map(), .vehicle = preset_vehicle("lrv"), .gravity_mps2 = 1.62, .window_s = 5},
-      {});
+  const DriveDiagnosis diagnosis = diagnosed(drive);
   ASSERT_EQ(diagnosis.claims.size(), 1u);
   const DriveClaim& claim = diagnosis.claims[0];
   EXPECT_EQ(claim.equivalent, std::vector<std::string>{"wheel_law"});
@@ -125,36 +132,25 @@ TEST(DriveClaims, AWheelWhoseTorqueRisesOtherwiseWithItsLoadIsNoFaultOfTheVehicl
 
 /// Heights a quarter too large had been a vehicle that weighs a sixth less.
 TEST(DriveClaims, AMapWhoseHeightsAreTooLargeIsNoPayload) {
-  const TerrainMap map = rolling_map();
-  ElevationRaster higher = map.elevation();
-  for (float& height_m : higher.height_m) height_m *= 1.25F;
   const DriveDiagnosis diagnosis =
-      diagnose_drives({record({.attitude = true, .seed = 34}, map)},
-                      {.map = {higher, map.classes(), map.catalogue(), map.rocks()},
-                       .vehicle = preset_vehicle("lrv"),
-                       .gravity_mps2 = 1.62,
-                       .window_s = 5},
-                      {});
+      diagnosed({.attitude = true, .seed = 34}, with_heights([](std::vector<float>& height_m) {
+                  for (float& height : height_m) height *= 1.25F;
+                }));
   ASSERT_EQ(diagnosis.claims.size(), 1u);
   const DriveClaim& claim = diagnosis.claims[0];
   EXPECT_EQ(claim.equivalent, std::vector<std::string>{"map_heights"});
   EXPECT_NEAR(claim.parameters.at("height_share").value, 1 / 1.25 - 1, 0.04);
+  EXPECT_FALSE(is_silent_of_heights(diagnosis));
 }
 
 /// The map of another ground is not one whose heights are none.
 TEST(DriveClaims, AMapOfAnotherGroundIsNotOneOfOtherHeights) {
-  const TerrainMap map = rolling_map();
-  ElevationRaster mirrored = map.elevation();
-  std::ranges::reverse(mirrored.height_m);
   const DriveDiagnosis diagnosis =
-      diagnose_drives({record({.attitude = true, .seed = 34}, map)},
-                      {.map = {mirrored, map.classes(), map.catalogue(), map.rocks()},
-                       .vehicle = preset_vehicle("lrv"),
-                       .gravity_mps2 = 1.62,
-                       .window_s = 5},
-                      {});
+      diagnosed({.attitude = true, .seed = 34},
+                with_heights([](std::vector<float>& height_m) { std::ranges::reverse(height_m); }));
   for (const DriveClaim& claim : diagnosis.claims) EXPECT_NE(claim.id, "map_heights");
   EXPECT_EQ(std::ranges::count(diagnosis.findings, "map_slopes", &DriveFinding::id), 1);
+  EXPECT_TRUE(is_silent_of_heights(diagnosis));
 }
 
 /// Whatever is not sought is told: how wheels stand that are not steered, where others are.
