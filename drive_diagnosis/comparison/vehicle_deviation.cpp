@@ -17,8 +17,9 @@ void VehicleDeviation::add(const VehicleDeviation& other, double times) {
         &VehicleDeviation::cg_left_m, &VehicleDeviation::cg_up_m, &VehicleDeviation::tow_drag_n,
         &VehicleDeviation::map_east_m, &VehicleDeviation::map_north_m,
         &VehicleDeviation::map_height_share, &VehicleDeviation::soil_east_m,
-        &VehicleDeviation::soil_north_m, &VehicleDeviation::mounting_pitch_rad,
-        &VehicleDeviation::mounting_roll_rad, &VehicleDeviation::mounting_yaw_rad}) {
+        &VehicleDeviation::soil_north_m, &VehicleDeviation::tilt_share,
+        &VehicleDeviation::mounting_pitch_rad, &VehicleDeviation::mounting_roll_rad,
+        &VehicleDeviation::mounting_yaw_rad}) {
     this->*of += times * (other.*of);
   }
   if (soils.size() < other.soils.size()) soils.resize(other.soils.size());

@@ -26,6 +26,8 @@ struct VehicleDeviation {
   double map_east_m = 0, map_north_m = 0;  ///< by which the map lies off
   double map_height_share = 0;             ///< by which the ground's heights are the map's and more
   double soil_east_m = 0, soil_north_m = 0;  ///< by which its soils lie off besides
+  /// By which pitch and roll are more than those of the ground: wheels that sink deeper downhill.
+  double tilt_share = 0;
   double mounting_pitch_rad = 0, mounting_roll_rad = 0, mounting_yaw_rad = 0;  ///< of the sensors
   std::vector<SoilNumbers> soils;  ///< of each soil of the map; empty: none
 

@@ -24,6 +24,7 @@ struct VehicleTrial {
   std::string parameter;  ///< what it is told in, `steer_front_deg`
   double unit = 1;        ///< of the parameter: what a sound vehicle is off, one standard deviation
   VehicleDeviation deviation;  ///< of that size
+  std::string beside;          ///< of a parameter: the effect that sets it free once it is claimed
   /// A drag: nothing that drags makes a vehicle go by itself, so that none is less than 0.
   bool is_drag() const { return id.ends_with("_drag"); }
   /// By which something that is positive is more than it is said to be: more than -1.

@@ -274,6 +274,7 @@ bool move_alike(const VehicleDeviation& a, VehicleDeviation b, const std::vector
   b.mounting_pitch_rad = a.mounting_pitch_rad;
   b.mounting_roll_rad = a.mounting_roll_rad;
   b.attitude_late_s = a.attitude_late_s;
+  b.tilt_share = a.tilt_share;
   std::vector<SoilNumbers> soils = a.soils;
   soils.resize(on_soil.size());
   b.soils.resize(on_soil.size());
@@ -421,8 +422,9 @@ std::optional<WindowPrediction> WindowModel::predict(const WindowInput& input,
     add_place(input.places[j], place, input.yaw_rad, deviation, vehicle_, prediction);
     const Attitude told =
         attitude_told(*known->places, j, part.end_s - part.start_s, deviation.attitude_late_s);
-    prediction.pitch_rad += part.mean_share * told.pitch_rad;
-    prediction.roll_rad += part.mean_share * told.roll_rad;
+    const double share = part.mean_share * (1 + deviation.tilt_share);
+    prediction.pitch_rad += share * told.pitch_rad;
+    prediction.roll_rad += share * told.roll_rad;
     prediction.found.push_back(place.found);
   }
   return told_by_sensors(prediction, deviation);

@@ -86,11 +86,28 @@ void EffectFit::add(const EffectFound& effect) {
     fit_.zones.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(numbers_.size())));
   } else {
     contest_.faults_known.push_back(effect.parameter);
+    free_beside_known();
   }
 }
 
 void EffectFit::withdraw(std::size_t fault) {
   std::erase(contest_.faults_known, fault);
+  free_beside_known();
+}
+
+/// Parameters that go with an effect are free where it is known.
+void EffectFit::free_beside_known() {
+  std::vector<std::size_t>& known = contest_.faults_known;
+  const auto goes_with = [this](std::size_t k) { return !trials_[k].beside.empty(); };
+  std::erase_if(known, goes_with);
+  std::vector<std::size_t> freed;
+  for (std::size_t k = 0; k < trials_.size(); ++k) {
+    const auto is_beside = [&](std::size_t fault) {
+      return trials_[fault].id == trials_[k].beside;
+    };
+    if (goes_with(k) && std::ranges::any_of(known, is_beside)) freed.push_back(k);
+  }
+  known.insert(known.end(), freed.begin(), freed.end());
 }
 
 SoilNumbers EffectFit::numbers_of(const Eigen::VectorXd& values) const {

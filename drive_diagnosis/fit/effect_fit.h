@@ -134,6 +134,7 @@ class EffectFit {
   std::optional<ScatterSources> scatter_outside(const LinearisedWindows& here,
                                                 const Eigen::VectorXd& zone) const;
   bool place_edges(EffectFound& zone);
+  void free_beside_known();
   void take_edges(const EffectFound& zone);
   SoilNumbers told_from(int soil, int before, const SoilNumbers& numbers) const;
   void go_on_from(Settled settled);

@@ -237,8 +237,11 @@ void Checker::check_current_sides() {
 }  // namespace
 
 bool is_sure(double r, std::size_t n) {
-  return n >= SensorChecks::kChecked && std::abs(r) * std::sqrt(static_cast<double>(n)) > 5 &&
-         std::abs(r) > 0.4;
+  constexpr double kOnceInAMillion = 4.9, kWeak = 0.4;
+  if (n < SensorChecks::kChecked || !(std::abs(r) > kWeak)) return false;
+  // Fisher: of pairs without relation it is normal, with a standard deviation of 1 / sqrt(n - 3).
+  return std::atanh(std::min(std::abs(r), 1.0)) * std::sqrt(static_cast<double>(n) - 3) >
+         kOnceInAMillion;
 }
 
 double side_mean(const DriveRecording& drive, const DriveWindow& window, std::string_view quantity,

@@ -130,6 +130,25 @@ TEST(DriveClaims, AWheelWhoseTorqueRisesOtherwiseWithItsLoadIsNoFaultOfTheVehicl
   EXPECT_EQ(count_of("wheel physics that the model lacks", claim.text), 1) << claim.text;
 }
 
+/// A law that differs in how torque rises with the load is trusted no better in all of it: drives
+/// of such a law had a payload of 12 % beside it.
+TEST(DriveClaims, ATorqueThatDiffersWithTheWheelLawIsNoPayload) {
+  SimulatedDrive drive{.attitude = true, .seed = 33};
+  drive.deviation.torque_by_load = -0.15;
+  drive.deviation.motor_share.fill(0.12);
+  const DriveDiagnosis diagnosis = diagnosed(drive);
+  ASSERT_EQ(diagnosis.claims.size(), 1u);
+  EXPECT_EQ(diagnosis.claims[0].id, "wheel_law");
+}
+
+/// Wheels that sink deeper downhill tilt a vehicle more than the ground does.
+TEST(DriveClaims, AVehicleThatTiltsALittleMoreThanTheGroundIsOnNoOtherMap) {
+  SimulatedDrive drive{.attitude = true, .seed = 34};
+  drive.deviation.tilt_share = 0.05;
+  const DriveDiagnosis diagnosis = diagnosed(drive);
+  for (const DriveClaim& claim : diagnosis.claims) ADD_FAILURE() << claim.id << claim.text;
+}
+
 /// Heights a quarter too large had been a vehicle that weighs a sixth less.
 TEST(DriveClaims, AMapWhoseHeightsAreTooLargeIsNoPayload) {
   const DriveDiagnosis diagnosis =

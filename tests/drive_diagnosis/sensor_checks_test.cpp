@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// 400 s at 1 m/s through left and right turns of 10 m, sampled at 5 Hz; skid steering. \param
-/// reverses the second half is driven backwards
-DriveRecording winding(bool reverses = false) {
+/// At 1 m/s through left and right turns of 10 m, sampled at 5 Hz; skid steering.
+/// \param reverses what is after 200 s is driven backwards
+DriveRecording winding(bool reverses = false, double duration_s = 400) {
   DriveRecording drive{.drive_id = "d"};
   std::vector<float> yaw, speed, left, right, current_left, current_right;
   double x = 0, y = 0, heading = 0.3;
   constexpr double kStep_s = 0.2, kHalfTrack_m = 0.9, kRadius_m = 0.4;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i * kStep_s < duration_s; ++i) {
     const double t = i * kStep_s;
     const double v = reverses && t > 200 ? -1 : 1;
     const double turn = std::fmod(t, 60) < 30 ? 0.1 : -0.1;
@@ -81,6 +81,22 @@ TEST(SensorChecks, ACompassTurnsTheOtherWayAndLooksElsewhere) {
   EXPECT_TRUE(tells(checks, "sign"));
   // Minus the compass is the heading less a quarter turn.
   EXPECT_NEAR(checks.yaw_offset_rad, kPi / 2, 0.02);
+}
+
+TEST(SensorChecks, AMinuteAndAHalfShowsACompass) {
+  DriveRecording drive = winding(false, 90);
+  change(drive, "yaw_rad", -1, kPi / 2);
+  EXPECT_EQ(checked(drive).yaw_sign, -1);
+}
+
+TEST(SensorChecks, FewPairsAreSureWhereTheyLieOnALine) {
+  constexpr std::size_t kFew = SensorChecks::kChecked;
+  EXPECT_TRUE(is_sure(-1, kFew));
+  EXPECT_TRUE(is_sure(0.95, kFew));
+  EXPECT_FALSE(is_sure(0.9, kFew));
+  EXPECT_FALSE(is_sure(1, kFew - 1));
+  EXPECT_TRUE(is_sure(0.5, 100));
+  EXPECT_FALSE(is_sure(0.4, 100));
 }
 
 TEST(SensorChecks, AYawThatLooksAsideIsPutRightByItsOffset) {

@@ -114,9 +114,10 @@ DriveRecording record(const SimulatedDrive& drive, const TerrainMap& map) {
     const GroundPatch patch = dynamics.ground(state.x_m, state.y_m, state.yaw_rad);
     if (drive.attitude) {
       const double slope = patch.slope_forward;
-      add(recording, "pitch_rad", std::atan(slope) + attitude_noise());
+      const double tilt = 1 + drive.deviation.tilt_share;
+      add(recording, "pitch_rad", tilt * std::atan(slope) + attitude_noise());
       add(recording, "roll_rad",
-          std::atan(patch.slope_left / std::hypot(1, slope)) + attitude_noise());
+          tilt * std::atan(patch.slope_left / std::hypot(1, slope)) + attitude_noise());
     }
     const PatchAxes axes(patch, kGravity_mps2);
     const GroundReaction reaction{vehicle.mass_kg * axes.gravity_normal_mps2,

@@ -15,7 +15,7 @@ namespace regoplan {
 struct SimulatedDrive {
   /// Weakness of the soil under a wheel, in standard deviations of `weaker`.
   std::function<double(double x_m)> weakness = [](double) { return 0.0; };
-  VehicleDeviation deviation{};  ///< drags, motors, steering, torque by load; nothing else
+  VehicleDeviation deviation{};  ///< drags, motors, steering, torque by load, tilt; nothing else
   double torque_scatter = 0.03;  ///< share, of a metre of ground
   double sensor_noise = 1;       ///< times that of `record`
   double fixes_s = 1;            ///< from pose to pose
