@@ -336,6 +336,17 @@ DriveFinding unnamed_finding(const VehicleFinding& unnamed) {
       .value = unnamed.size};
 }
 
+DriveFinding zone_within_law_finding(const VehicleFinding& zone,
+                                     const std::vector<DriveRecording>& drives) {
+  return {.id = "zone_within_law",
+          .drive = drives[zone.zone->drive].drive_id,
+          .text = fmt::format(
+              "from {:.1f} to {:.1f} s {}; the wheel law that is claimed does as much to a wheel "
+              "that bears a quarter more than the others: no zone of other soil is claimed",
+              zone.zone->starts_s, zone.zone->ends_s, resistance_text(zone)),
+          .value = zone.size};
+}
+
 std::string withheld_text(const SoilFitted& fitted, const MapSoil& said) {
   return fmt::format(
       "{} stays as the map has it: its numbers, fitted to the rest of what was driven on it, make "

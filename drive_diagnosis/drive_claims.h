@@ -34,6 +34,9 @@ std::optional<DriveFinding> slopes_finding(const VehicleEffects& effects);
 
 /// Says that something stands out of a size that cannot be, as a drag of less than nothing.
 DriveFinding unnamed_finding(const VehicleFinding& unnamed);
+/// What tells of a zone that is not claimed beside a wheel law.
+DriveFinding zone_within_law_finding(const VehicleFinding& zone,
+                                     const std::vector<DriveRecording>& drives);
 
 /// In what share of drives of a sound vehicle over the map's soils chance alone shows as much.
 double chance_of(const VehicleFinding& finding);

@@ -407,6 +407,9 @@ void compare(std::vector<DriveRecording>& drives, const DriveSetup& setup,
       if (result.effects->unnamed) {
         result.findings.push_back(unnamed_finding(*result.effects->unnamed));
       }
+      for (const VehicleFinding& zone : result.effects->zones_within_law) {
+        result.findings.push_back(zone_within_law_finding(zone, drives));
+      }
     }
     std::ranges::move(differing, std::back_inserter(result.findings));
     if (auto slopes = slopes_finding(*result.effects))

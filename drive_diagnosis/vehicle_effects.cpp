@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
 
 #include "drive_diagnosis/comparison/attitude_on_map.h"
@@ -98,6 +99,7 @@ class EffectSearch {
       }
       result.found.push_back(std::move(finding));
     }
+    set_zones_within_law_aside(result);
     result.noise = fit_.noise();
     result.slope_errors = fit_.slope_errors();
     const Eigen::MatrixXd corrected = fit_.predicted();
@@ -203,6 +205,19 @@ class EffectSearch {
     const auto k = static_cast<Eigen::Index>(effect.parameter);
     return std::min(effect.sigmas,
                     std::abs(fit_.fit().parameters[k]) / fit_.fit().parameters_std[k]);
+  }
+
+  static void set_zones_within_law_aside(VehicleEffects& result) {
+    constexpr double kBearsMore = 0.25;  // than the mean wheel, on slopes and in turns
+    double by_law = 0;
+    for (const VehicleFinding& finding : result.found) {
+      if (finding.id == "wheel_law") by_law = std::max(by_law, kBearsMore * std::abs(finding.size));
+    }
+    const auto is_within = [by_law](const VehicleFinding& finding) {
+      return finding.zone && std::abs(finding.size) < by_law;
+    };
+    std::ranges::copy_if(result.found, std::back_inserter(result.zones_within_law), is_within);
+    std::erase_if(result.found, is_within);
   }
 
   /// Faults that another took the place of, or that the ground's own numbers explain once the fit

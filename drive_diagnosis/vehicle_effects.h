@@ -83,6 +83,9 @@ struct VehicleEffects {
   /// What did, and is of a size that cannot be, as a drag of less than nothing: no name explains
   /// it.
   std::optional<VehicleFinding> unnamed;
+  /// Zones in which a wheel takes no more otherwise than a claimed wheel law does by itself on a
+  /// wheel that bears a quarter more or less than the others: none is claimed.
+  std::vector<VehicleFinding> zones_within_law;
   /// Beside what was found; without those that are shown at no usual size.
   std::vector<FaultShown> faults_shown;
   std::vector<ZoneShown> zones_shown;  ///< beside what was found

@@ -141,6 +141,28 @@ TEST(DriveClaims, ATorqueThatDiffersWithTheWheelLawIsNoPayload) {
   EXPECT_EQ(diagnosis.claims[0].id, "wheel_law");
 }
 
+/// What a wheel law that differs does itself is no soil: zones of .6 and 2 % had been claimed
+/// beside it.
+TEST(DriveClaims, AZoneThatChangesLessThanTheWheelLawDoesIsToldAndNotClaimed) {
+  const auto with_zone = [](double deviations) {
+    SimulatedDrive drive{
+        .weakness = [deviations](double x_m) { return x_m > 140 && x_m < 170 ? deviations : 0.0; },
+        .torque_scatter = 0.01,
+        .seed = 11};
+    drive.deviation.torque_by_load = -0.08;
+    return diagnosed(drive);
+  };
+  const DriveDiagnosis weak = with_zone(4), far_weaker = with_zone(8);
+  ASSERT_EQ(weak.claims.size(), 1u);
+  EXPECT_EQ(weak.claims[0].id, "wheel_law");
+  const auto told = std::ranges::find(weak.findings, "zone_within_law", &DriveFinding::id);
+  ASSERT_NE(told, weak.findings.end());
+  EXPECT_LT(told->value.value(), 0.02);
+  EXPECT_EQ(count_of("zone of other soil is claimed", told->text), 1) << told->text;
+  ASSERT_EQ(far_weaker.claims.size(), 2u);
+  EXPECT_EQ(std::ranges::count(far_weaker.claims, "soil_zone", &DriveClaim::id), 1);
+}
+
 /// Wheels that sink deeper downhill tilt a vehicle more than the ground does.
 TEST(DriveClaims, AVehicleThatTiltsALittleMoreThanTheGroundIsOnNoOtherMap) {
   SimulatedDrive drive{.attitude = true, .seed = 34};
