@@ -42,6 +42,25 @@ double share_of_node(std::size_t node) {
   return node < kMiddle ? -share : share;
 }
 
+/// Of each interval of curvatures: the most found anywhere, while that is little. Where tight turns
+/// scrub, as of skid steering, it is a third of the load and says nothing of straight ways; there
+/// the most found in the interval and in those beside it.
+std::vector<double> bounds_of(const std::vector<std::vector<double>>& excess) {
+  constexpr double kReserve = 1.5, kLittle = 0.02;
+  std::vector<double> most(excess.size(), 0);
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    for (const double one : excess[i]) most[i] = std::max(most[i], one);
+  }
+  const double anywhere = most.empty() ? 0 : *std::ranges::max_element(most);
+  std::vector<double> bounds(excess.size());
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const double before = i > 0 ? most[i - 1] : 0, after = i + 1 < most.size() ? most[i + 1] : 0;
+    const double near = kReserve * std::max({before, most[i], after});
+    bounds[i] = std::max(near, std::min(kReserve * anywhere, kLittle));
+  }
+  return bounds;
+}
+
 /// Every wheel on the same soil.
 std::vector<WheelLaw> same_soil(const Vehicle& vehicle, const WheelLaw& law) {
   return std::vector<WheelLaw>(vehicle.wheels.size(), law);
@@ -99,15 +118,10 @@ SupplyTable::SupplyTable(const Vehicle& vehicle, const WheelLaw& law, const Trim
   });
   for (std::size_t i = 0; mirrors && i < middle; ++i) excess[i] = excess[kCurvatures - 2 - i];
 
-  double most = 0;
-  for (const auto& of_interval : excess) {
-    for (const double one : of_interval) most = std::max(most, one);
-  }
-  constexpr double kReserve = 1.5;
-  overestimate_bound_ = kReserve * most;
+  overestimate_bounds_ = bounds_of(excess);
   std::vector<double> losses;
-  for (const auto& of_interval : excess) {
-    for (const double one : of_interval) losses.push_back(overestimate_bound_ - one);
+  for (std::size_t i = 0; i < excess.size(); ++i) {
+    for (const double one : excess[i]) losses.push_back(overestimate_bounds_[i] - one);
   }
   if (losses.empty()) return;  // no supply anywhere
   std::sort(losses.begin(), losses.end());
@@ -143,7 +157,7 @@ std::optional<SupplyInterval> SupplyTable::supply(double curvature_1pm, double f
                                                   double normal_n) const {
   const auto interval = interpolated_supply(curvature_1pm, forward_n, normal_n);
   if (!interval) return std::nullopt;
-  const double bound = overestimate_bound_ * normal_n;
+  const double bound = overestimate_bound(curvature_1pm) * normal_n;
   return SupplyInterval{.right_n = interval->right_n + bound, .left_n = interval->left_n - bound};
 }
 
@@ -151,7 +165,13 @@ std::optional<double> SupplyTable::traction_n(double curvature_1pm, double left_
                                               double normal_n) const {
   const auto traction = interpolated_traction_n(curvature_1pm, left_n, normal_n);
   if (!traction) return std::nullopt;
-  return *traction - overestimate_bound_ * normal_n;
+  return *traction - overestimate_bound(curvature_1pm) * normal_n;
+}
+
+double SupplyTable::overestimate_bound(double curvature_1pm) const {
+  const auto above =
+      std::upper_bound(curvatures_1pm_.begin() + 1, curvatures_1pm_.end() - 1, curvature_1pm);
+  return overestimate_bounds_[static_cast<std::size_t>(above - curvatures_1pm_.begin()) - 1];
 }
 
 std::optional<SupplyTable::Cell> SupplyTable::locate(const std::vector<double>& nodes,

@@ -35,9 +35,10 @@ class SupplyTable {
 
   /// What is taken off at either end, over the normal load: half as much again as the most that
   /// interpolation promised above solved manoeuvres, in `kChecksPerInterval` random states of each
-  /// interval of curvatures. Measured, not proven: of thousands of fresh states none is promised
-  /// more than it has (SupplyTable tests).
-  double overestimate_bound() const { return overestimate_bound_; }
+  /// interval of curvatures; beyond 2 %, in those of the interval and of the two beside it.
+  /// Measured, not proven: of thousands of fresh states none is promised more than it has
+  /// (SupplyTable tests).
+  double overestimate_bound(double curvature_1pm) const;
   static constexpr int kChecksPerInterval = 20;
 
   /// How far answers lie below solved manoeuvres, over the normal load, in the same states.
@@ -70,7 +71,7 @@ class SupplyTable {
   std::vector<double> forces_;   ///< along (supply) or across (traction), over the normal load
   std::vector<double> normals_;  ///< over the weight
   std::vector<double> right_, left_, traction_;  ///< over the normal load; NaN: none
-  double overestimate_bound_ = 0;
+  std::vector<double> overestimate_bounds_;      ///< of each interval of curvatures
   Loss loss_;
 };
 
